@@ -18,6 +18,7 @@ _MOST_LINES = 5
 _MOST_ROWS = 10
 _MOST_COMPARED = 18
 _MOST_MEASURES = 6
+_MOST_FILMS = 2
 _LONGEST = 160
 
 
@@ -41,8 +42,13 @@ def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictur
         glance = {**glance, "changes": _cut(glance["changes"])}
     heads, rows = _best(document)
     ranked = sum(rank is not None for rank in document["variants"]["rank"])
-    modelling = [row["cells"] for row in decision["modelling"]["rows"]]
-    provenance = document["provenance"]
+    modelling = [[_short(str(cell)) for cell in row["cells"]] for row in _by_effect(decision["modelling"]["rows"])]
+    compared = [[row["name"], *(cell["text"] for cell in row["cells"])] for row in comparison_rows(document)]
+    failures, facts = (
+        _failures(document["trials"], document["variants"]["id"]),
+        [(name, _short(str(value))) for name, value in document["provenance"]["study"]],
+    )
+    failed = [one for one in pictures if one.failed]
     return render_page(
         "study/board.html.j2",
         styles=[template_text(f"study/{name}") for name in ("report.css", "tool.css", "board.css")],
@@ -55,10 +61,8 @@ def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictur
         open=[] if glance is None else _cut(_open_lines(glance)),
         reasons=_cut(decision["reasons"]),
         cautions=_cut(decision["cautions"]),
-        comparison=[
-            [row["name"], *(cell["text"] for cell in row["cells"])]
-            for row in comparison_rows(document)[:_MOST_COMPARED]
-        ],
+        comparison=compared[:_MOST_COMPARED],
+        comparison_more=_more(compared, _MOST_COMPARED, "rows"),
         compared_heads=[
             "",
             *(f"variant {one}" for one in (decision["chosen"], decision["runner_up"]) if one is not None),
@@ -67,13 +71,17 @@ def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictur
         best=rows,
         left_out=f"{ranked} variants are ranked; the first {len(rows)} are shown.",
         tornado=Markup(tornado),  # noqa: S704 - this package's own drawing
-        failures=_failures(document["trials"], document["variants"]["id"]),
+        failures=failures[:_MOST_ROWS],
+        failures_more=_more(failures, _MOST_ROWS, "kinds of failure"),
         pictures=[
-            {**_texts_of(one), "filmstrip": data_address("image/png", one.filmstrip)} for one in pictures if one.failed
-        ][:2],
-        modelling=[[_short(str(cell)) for cell in cells] for cells in modelling[:_MOST_ROWS]],
+            {**_texts_of(one), "filmstrip": data_address("image/png", one.filmstrip)} for one in failed[:_MOST_FILMS]
+        ],
+        pictures_more=_more(failed, _MOST_FILMS, "failures with pictures"),
+        modelling=modelling[:_MOST_ROWS],
+        modelling_more=_more(modelling, _MOST_ROWS, "assumptions"),
         modelling_heads=decision["modelling"]["heads"] if modelling else [],
-        facts=[(name, _short(str(value))) for name, value in provenance["study"]][:_MOST_COMPARED],
+        facts=facts[:_MOST_COMPARED],
+        facts_more=_more(facts, _MOST_COMPARED, "facts"),
     )
 
 
@@ -91,6 +99,17 @@ def _cut(lines: Sequence[str]) -> list[str]:
     shown = [_short(line) for line in lines[:_MOST_LINES]]
     more = len(lines) - len(shown)
     return [*shown, f"and {more} more, in the whole report"] if more else shown
+
+
+def _by_effect(rows: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+    """Assumptions that change the choice, then those that have no trials yet, then those that do not change it."""
+    return sorted(rows, key=lambda row: (True, None, False).index(row["changes"]))
+
+
+def _more(whole: Sequence[Any], shown: int, what: str) -> str:
+    """How many were left out, in words; empty if none was."""
+    left = len(whole) - shown
+    return f"{left} more {what} in the whole report." if left > 0 else ""
 
 
 def _short(text: str) -> str:
@@ -153,5 +172,5 @@ def _failures(trials: Mapping[str, Any], ids: Sequence[int]) -> list[list[str]]:
             str(count),
             f"variant {ids[at('variant', first[failure, ended])]}, seed {at('seed', first[failure, ended])}",
         ]
-        for (failure, ended), count in sorted(counted.items(), key=lambda one: (-one[1], one[0]))[:_MOST_ROWS]
+        for (failure, ended), count in sorted(counted.items(), key=lambda one: (-one[1], one[0]))
     ]

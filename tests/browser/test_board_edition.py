@@ -33,6 +33,29 @@ def test_it_has_at_most_five_pages_whatever_it_holds(reader, study, pictures, tm
 
     assert 3 <= printed_pages(reader, file) <= MOST_PAGES
     assert reader.complaints() == []
+    # What is cut says so, and nothing that was written is hidden.
+    assert ("and 35 more, in the whole report" in reader.text("#reasons")) is long
+    assert f"{sum(one.failed for one in pictures) + 1} more failures with pictures" in reader.text("#failures")
+    hidden = "return [...document.querySelectorAll('.sheet')].filter(each => each.scrollHeight > each.clientHeight + 2)"
+    reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    try:
+        assert reader.script(f"{hidden}.map(each => each.id)") == []
+    finally:
+        reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+
+
+def test_assumptions_that_change_the_choice_come_first(study):
+    cells = ["prices", "as stated", "1.5", "variant 2", "yes"]
+    rows = [*({"cells": [f"same-{index}", *cells[1:]], "changes": False} for index in range(20))]
+    rows += [{"cells": ["unknown", *cells[1:]], "changes": None}, {"cells": cells, "changes": True}]
+    modelling = {**study.document["decision"]["modelling"], "rows": rows, "heads": ["a", "b", "c", "d", "e"]}
+    decision = study.document["decision"] | {"modelling": modelling}
+
+    page = board_to_html(study.document | {"decision": decision})
+
+    assert page.index(">prices<") < page.index(">unknown<") < page.index(">same-0<")
+    assert ">same-8<" not in page
+    assert "12 more assumptions in the whole report." in page
 
 
 @pytest.mark.parametrize("width", [1440, 400])

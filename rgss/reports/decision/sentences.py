@@ -48,7 +48,8 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
     if others:
         names = ", ".join(map(str, others))
         end = "largest" if made.last_of_equals else "smallest"
-        yield Reason(text=f"Variants {names} have the same value; the {end} id is chosen.")
+        have = f"Variant {names} has" if len(others) == 1 else f"Variants {names} have"
+        yield Reason(text=f"{have} the same value; the {end} id is chosen.")
     if decision.near_ties:
         near = variants_text(decision.near_ties)
         yield Reason(text=f"Within the practical margin of {made.practical_margin:g} of it: {near}.")
