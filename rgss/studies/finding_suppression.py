@@ -10,7 +10,7 @@ _CONSEQUENCES: Mapping[str, tuple[str, ...]] = {
     # Of two things with one id, one may be what others look for in vain under its own.
     "requirements.duplicate-id": ("requirements.dangling-id",),
     "scene.duplicate-id": ("scene.unknown-body",),
-    "design.duplicate-id": ("design.unknown-parameter", "design.unknown-role", "design.never-set"),
+    "design.duplicate-id": ("design.unknown-parameter", "design.unknown-role", "design.never-set", "design.unit"),
     "measures.duplicate-id": (
         "measures.unknown-symbol",
         "measures.unit",

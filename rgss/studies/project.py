@@ -228,6 +228,7 @@ class _Reader:
     def _grippers(self, designs: DesignSpace) -> dict[str, GripperFile]:
         """The file of every gripper component, by its name."""
         shapes: dict[str, GripperFile] = {}
+        missing: set[str] = set()
         catalogue = designs.catalogue
         for component in catalogue.of_role(GRIPPER):
             name = component.geometry
@@ -238,6 +239,10 @@ class _Reader:
                 hint = "copy the file into the project and name it"
                 self._findings.append(catalogue.document.finding("design.geometry", message, place, hint=hint))
             elif name and found is FilePlace.MISSING:
+                # Components that share a file miss it together: its first place is enough.
+                if name in missing:
+                    continue
+                missing.add(name)
                 message, hint = f"there is no file {shown(name)}", "file names are relative to the project"
                 self._findings.append(catalogue.document.finding("design.missing-file", message, place, hint=hint))
             elif name and name not in shapes:

@@ -152,6 +152,7 @@ def test_a_missing_file_is_one_line(rgss, folder, file):
     for path in (folder / "studies").glob("*.yaml") if file == STUDY else [folder / file]:
         path.unlink()
     named_in = {SCENE: STUDY, SPACE: STUDY, CATALOGUE: STUDY, "scenes/robots/ur10.yaml": SCENE}
+    named_in |= {file: CATALOGUE for file in FILES if file.startswith("scenes/grippers/")}
 
     one_line(rgss, folder, named_in.get(file, file), "no ")
 
