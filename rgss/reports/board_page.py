@@ -7,9 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rgss.reports.page import render_page, template_text
-from rgss.reports.study import first_screen_content
+from rgss.reports.study import entry_at, entry_text, first_screen_content
 from rgss.reports.study_page import TrialPictures, chosen_picture, comparison_rows, data_address
-from rgss.trace.views import value_in_words
 
 MOST_PAGES = 5
 """Printed pages at most, A4 in landscape."""
@@ -132,7 +131,7 @@ def _best(document: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
         [
             str(variants["id"][place]),
             str(variants["rank"][place]),
-            value_in_words(variants["value"][place]),
+            entry_text(entry_at(variants["value"], place)),
             *(_figure(one["values"], place, one["unit"]) for one in varying),
             *(_figure(one["value"], place, one["unit"]) for one in weighted),
         ]
@@ -142,16 +141,14 @@ def _best(document: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
 
 
 def _figure(column: Any, place: int, unit: str) -> str:
-    value = column[place] if isinstance(column, list) else column
-    return value if isinstance(value, str) else value_in_words(value, unit or "1")
+    return entry_text(entry_at(column, place), unit)
 
 
 def _failures(trials: Mapping[str, Any], ids: Sequence[int]) -> list[list[str]]:
     """What ended trials, the most frequent first: failure, phase, trials, where it was first."""
 
     def at(name: str, trial: int) -> Any:
-        column = trials[name]
-        return column[trial] if isinstance(column, list) else column
+        return entry_at(trials[name], trial)
 
     counted: Counter[tuple[int, int]] = Counter()
     first: dict[tuple[int, int], int] = {}

@@ -18,7 +18,7 @@ from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible_throughout
 from rgss.reports.page import render_page, template_text
 from rgss.reports.replay import REPLAY_SCRIPTS, REPLAY_STYLE, PackedReplay, as_context, rendering_library
-from rgss.reports.study import first_screen_content
+from rgss.reports.study import entry_at, entry_text, first_screen_content
 from rgss.reports.trace import TraceReport, trace_context
 from rgss.trace.views import share_in_words, value_in_words
 
@@ -242,15 +242,17 @@ def comparison_rows(document: Mapping[str, Any]) -> list[dict[str, Any]]:
     if not shown:
         return []
 
-    def at(column: Any, place: int) -> Any:
-        return column[place] if isinstance(column, list) else column
-
     rows = [
         {
             "name": parameter["name"],
             "weight": None,
             "cells": [
-                _figure(document, place, parameter["id"], _value(at(parameter["values"], place), parameter["unit"]))
+                _figure(
+                    document,
+                    place,
+                    parameter["id"],
+                    entry_text(entry_at(parameter["values"], place), parameter["unit"]),
+                )
                 for place in shown
             ],
         }
@@ -267,7 +269,7 @@ def comparison_rows(document: Mapping[str, Any]) -> list[dict[str, Any]]:
                 "cells": [_figure(document, place, measure["id"], _estimate(measure, place)) for place in shown],
             }
         )
-    values = [_figure(document, place, "value", _value(at(variants["value"], place))) for place in shown]
+    values = [_figure(document, place, "value", entry_text(entry_at(variants["value"], place))) for place in shown]
     rows.append({"name": "weighted value", "weight": None, "cells": values})
     return rows
 
@@ -310,17 +312,9 @@ def _compared_trials(document: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def _estimate(measure: Mapping[str, Any], place: int) -> str:
-    def at(name: str) -> Any:
-        column = measure.get(name)
-        return column[place] if isinstance(column, list) else column
-
-    text = _value(at("value"), measure["unit"])
-    low, high = at("low"), at("high")
-    return text if low is None or high is None or low == high else f"{text} ({_value(low)} to {_value(high)})"
-
-
-def _value(value: float | str | None, unit: str = "1") -> str:
-    return value if isinstance(value, str) else value_in_words(value, unit or "1")
+    value, low, high = (entry_at(measure.get(name), place) for name in ("value", "low", "high"))
+    text = entry_text(value, measure["unit"])
+    return text if low is None or high is None or low == high else f"{text} ({entry_text(low)} to {entry_text(high)})"
 
 
 def chosen_picture(chosen: int | None, pictures: Sequence[TrialPictures]) -> str:

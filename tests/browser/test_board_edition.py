@@ -46,7 +46,7 @@ def test_it_has_at_most_five_pages_whatever_it_holds(reader, study, pictures, tm
 
 def test_assumptions_that_change_the_choice_come_first(study):
     cells = ["prices", "as stated", "1.5", "variant 2", "yes"]
-    rows = [*({"cells": [f"same-{index}", *cells[1:]], "changes": False} for index in range(20))]
+    rows = [{"cells": [f"same-{index}", *cells[1:]], "changes": False} for index in range(20)]
     rows += [{"cells": ["unknown", *cells[1:]], "changes": None}, {"cells": cells, "changes": True}]
     modelling = {**study.document["decision"]["modelling"], "rows": rows, "heads": ["a", "b", "c", "d", "e"]}
     decision = study.document["decision"] | {"modelling": modelling}

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import csv
 import struct
-import time
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
 from selenium.webdriver.common.by import By
+
+from tests.fixtures.processes import wait_until
 
 pytestmark = pytest.mark.browser
 
@@ -99,12 +100,9 @@ def test_distributions_have_the_quartiles_of_each_measure(reader, page, study):
 
 
 def saved(folder: Path, file: str) -> bytes:
-    """A downloaded file once it is whole."""
-    for _ in range(600):
-        if (folder / file).exists() and (folder / file).stat().st_size > 0:
-            return (folder / file).read_bytes()
-        time.sleep(0.05)
-    raise AssertionError(f"{file} was not saved; there are {sorted(one.name for one in folder.iterdir())}")
+    """A downloaded file once it is whole; the browser gives it its name then."""
+    wait_until(lambda: (folder / file).exists() and (folder / file).stat().st_size > 0)
+    return (folder / file).read_bytes()
 
 
 @pytest.mark.parametrize("plot", ["parallel", "pareto", "distributions"])

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.reports.study.column_entries import entry_at, entry_text
     from rgss.reports.study.document import report_document
     from rgss.reports.study.first_screen import first_screen_content
     from rgss.reports.study.planners_compared import PLANNERS_NOTE, planner_comparison, planner_data, planner_table

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from rgss.reports.plain_numbers import Plain
+from rgss.reports.study.column_entries import entry_at
 from rgss.trace.views import value_in_words
 
 MOST_BULLETS = 6
@@ -28,8 +29,8 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         return None
     place = document["variants"]["id"].index(chosen)
     requirements = [one for one in document["requirements"] if one["measure"]]
-    open_ = [one for one in requirements if _at(one["verdict"], place) in _OPEN]
-    missed = [one for one in requirements if _at(one["verdict"], place) == "not_met"]
+    open_ = [one for one in requirements if entry_at(one["verdict"], place) in _OPEN]
+    missed = [one for one in requirements if entry_at(one["verdict"], place) == "not_met"]
     units = {measure["id"]: measure for measure in document["measures"]}
     weights = {measure: one["weight"] or 0.0 for measure, one in units.items()}
     # What is missed or open comes first, then what the trade-off weighs most.
@@ -50,24 +51,20 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
     }
 
 
-def _at(column: Any, place: int) -> Any:
-    return column[place] if isinstance(column, list) else column
-
-
 def _bullet(requirement: Mapping[str, Any], measures: Mapping[str, Any], place: int) -> Plain | None:
     """A bullet chart: places in percent of its width, and the same in words."""
     measure = measures.get(requirement["measure"])
-    value = None if measure is None else _at(measure["value"], place)
+    value = None if measure is None else entry_at(measure["value"], place)
     if measure is None or value is None:
         return None
-    low, high = (_at(measure.get(name), place) for name in ("low", "high"))
+    low, high = (entry_at(measure.get(name), place) for name in ("low", "high"))
     limit, at_most = requirement["threshold"], requirement["comparison"] in ("<=", "<")
     top = max(abs(limit), abs(value), 0.0 if high is None else min(abs(high), 2.0 * abs(limit))) * _ROOM or 1.0
     unit = measure["unit"]
     interval = None
     if low is not None and high is not None and low < high:
         interval = [_percent(low, top), _percent(high, top)]
-    verdict = _at(requirement["verdict"], place)
+    verdict = entry_at(requirement["verdict"], place)
     words = f"{_WORDS[requirement['comparison']]} {value_in_words(limit, unit)}"
     between = "" if interval is None else f" ({value_in_words(low)} to {value_in_words(high, unit)})"
     return {

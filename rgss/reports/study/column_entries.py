@@ -1,0 +1,27 @@
+"""Entries of the columns in a report's document, which hold one value where all entries are equal."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rgss.trace.views import value_in_words
+
+
+def entry_at(column: Any, place: int) -> Any:
+    """One entry of a column.
+
+    Args:
+        column: A list, or the one value that all entries have.
+        place: The entry.
+    """
+    return column[place] if isinstance(column, list) else column
+
+
+def entry_text(value: float | str | None, unit: str = "1") -> str:
+    """An entry in words.
+
+    Args:
+        value: A number, the name of a level, or None where it is not known.
+        unit: Unit of a number; empty for none.
+    """
+    return value if isinstance(value, str) else value_in_words(value, unit or "1")
