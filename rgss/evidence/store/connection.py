@@ -36,6 +36,7 @@ _HINTS: Mapping[str, str] = {
     "full": "free some space on the disk; what was put before is kept",
     "disk I/O": "free some space on the disk or look for its health; what was put before is kept",
     "closed": "open the store again",
+    "no index": "run 'rgss evidence' where the file can be written, which takes its log into it",
     "thread": "open the store in the thread that uses it",
 }
 
@@ -153,10 +154,18 @@ def connect(path: Path, *, though_damaged: bool = False, read_only: bool = False
 
 
 def _read_only_name(path: Path) -> str:
-    """URI of the file for SQLite: without its logs, unless another process is writing now."""
-    log = path.with_name(f"{path.name}-wal")
-    in_use = log.exists() and log.stat().st_size > 0
-    return f"{path.resolve().as_uri()}?{'mode=ro' if in_use else 'immutable=1'}"
+    """URI of the file for SQLite with which it makes and changes no file, not even the index of the log.
+
+    Raises:
+        sqlite3.OperationalError: There is a log without an index, which only a process that may write can read.
+    """
+    log, index = (path.with_name(f"{path.name}{ending}") for ending in ("-wal", "-shm"))
+    if index.exists():
+        return f"{path.resolve().as_uri()}?mode=ro&readonly_shm=1"
+    if log.exists() and log.stat().st_size > 0:
+        raise sqlite3.OperationalError("its log has no index")
+    # Without a log nobody writes, and SQLite would otherwise make one.
+    return f"{path.resolve().as_uri()}?immutable=1"
 
 
 def problem_of(error: Exception) -> str:

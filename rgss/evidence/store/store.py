@@ -55,13 +55,17 @@ class EvidenceStore:
         self._writer = EvidenceWriter(database, path)
 
     @classmethod
-    def open(cls, path: Path, *, create: bool = True, label: str | None = None) -> EvidenceStore:
+    def open(
+        cls, path: Path, *, create: bool = True, read_only: bool = False, label: str | None = None
+    ) -> EvidenceStore:
         """Open a store; one of an older schema is brought to the present one.
 
         Args:
             path: The file.
             create: Make the file and its folder if they are not there. Without it, a file that cannot be
                 written is opened for reading alone.
+            read_only: Open it for reading alone in any case, so that no file is made or changed. While no other
+                process has it open it is read as if nobody would write it; see `observed`.
             label: The file's name in messages; the path itself by default.
 
         Raises:
@@ -70,11 +74,11 @@ class EvidenceStore:
         """
         name = label if label is not None else str(path)
         if not path.exists():
-            if not create:
+            if read_only or not create:
                 raise EvidenceError(f"there is no evidence in {name}", hint="run the sweep first")
             create_store(path, label=name)
         require_content(path, label=name)
-        read_only = not create and not is_writable(path)
+        read_only = read_only or (not create and not is_writable(path))
         with in_our_words(name, folder=path.parent):
             connection = connect(path, read_only=read_only)
             try:
