@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.fixtures.processes import PATIENCE_S
+
 REPOSITORY = Path(__file__).parents[2]
 PAGE = REPOSITORY / "docs" / "tutorial.md"
 INSTALL = ["make setup", "source .venv/bin/activate"]
@@ -116,7 +118,7 @@ class Reader:
             stderr=subprocess.STDOUT,
             encoding="utf-8",
             check=False,
-            timeout=300,
+            timeout=PATIENCE_S,
         )
         self.folder = Path(self._state.read_text(encoding="utf-8").strip())
         return done.returncode, [line.rstrip() for line in done.stdout.splitlines()]

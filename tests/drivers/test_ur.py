@@ -5,7 +5,6 @@ import json
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -13,6 +12,7 @@ import pytest
 from rgss.drivers import GripperState, SetPoint, StreamOutcome, StreamSettings, UrDriver, UrSettings, stream
 from rgss.errors import DefinitionError, DriverError
 from tests.drivers.conftest import Robot, guard, limits, pick_task
+from tests.fixtures.processes import wait_until
 
 READY = {"robot_mode": 7, "safety_mode": 1, "safety_status_bits": 1}
 
@@ -239,13 +239,6 @@ class Server:
         return json.loads(self._process.communicate()[0])
 
 
-def _until(condition):
-    latest = time.monotonic() + 20
-    while not condition():
-        assert time.monotonic() < latest
-        time.sleep(0.001)
-
-
 def test_the_real_sdk_reads_a_server_of_the_protocol():
     server, arm = Server(), Arm()
     joints = [0.1, -1.2, 1.3, -0.4, 0.5, 2.6]
@@ -257,11 +250,11 @@ def test_the_real_sdk_reads_a_server_of_the_protocol():
         assert first.positions_rad == pytest.approx(joints)
         assert first.velocities_rad_s == pytest.approx((0.01,) * 6)
         assert first.fault == ""
-        _until(lambda: driver.read().stamp > first.stamp)
+        wait_until(lambda: driver.read().stamp > first.stamp)
         server.change(safety_status_bits=1 << 2)
-        _until(lambda: driver.read().fault == "the robot is protective stopped")
+        wait_until(lambda: driver.read().fault == "the robot is protective stopped")
         server.change(safety_status_bits=1 << 7)
-        _until(lambda: driver.read().fault == "the robot is emergency stopped")
+        wait_until(lambda: driver.read().fault == "the robot is emergency stopped")
     finally:
         driver.disconnect()
         told = server.end()

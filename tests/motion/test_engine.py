@@ -7,6 +7,8 @@ import sys
 
 import pytest
 
+from tests.fixtures.processes import PATIENCE_S
+
 IMPORTED_LATE = """
 import sys
 import rgss.motion, rgss.kinematics
@@ -34,7 +36,7 @@ for planner in SOURCE_PLANNERS:
 
 
 def run(code):
-    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=False)
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
 
 
 def test_importing_the_packages_loads_no_engine():

@@ -26,6 +26,7 @@ from rgss.motion import (
     takes_objective,
 )
 from tests.fixtures.planned_paths import path_states
+from tests.fixtures.processes import PATIENCE_S
 
 engine = pytest.mark.engine
 
@@ -117,7 +118,7 @@ def test_another_process_finds_the_same(planned, through_the_doorway):
     values = {name: getattr(through_the_doorway, name) for name in through_the_doorway.__slots__}
     arguments = [str(Path(__file__).parent), json.dumps(values)]
     done = subprocess.run(
-        [sys.executable, "-c", ELSEWHERE, *arguments], capture_output=True, text=True, check=True, timeout=120
+        [sys.executable, "-c", ELSEWHERE, *arguments], capture_output=True, text=True, check=True, timeout=PATIENCE_S
     )
     for line in done.stdout.splitlines():
         name, checks, digest = line.split()

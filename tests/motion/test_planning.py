@@ -25,6 +25,7 @@ from rgss.motion import (
     plan,
 )
 from tests.fixtures.planned_paths import outcome_within, path_states
+from tests.fixtures.processes import PATIENCE_S
 
 pytestmark = pytest.mark.engine
 
@@ -162,7 +163,7 @@ def test_another_process_finds_the_same(planned, through_the_doorway):
             capture_output=True,
             text=True,
             check=True,
-            timeout=120,
+            timeout=PATIENCE_S,
             env={"PYTHONHASHSEED": hash_seed, "PYTHONPATH": ":".join(sys.path)},
         )
         assert set(done.stdout.splitlines()) == here

@@ -8,13 +8,14 @@ import pytest
 
 from rgss.evidence import RunFailureKind
 from rgss.sweep.task_end import TaskError
+from tests.fixtures.processes import PATIENCE_S
 
 
 @pytest.fixture(scope="session")
 def carried_out():
     """Carries out tasks on workers of any kind."""
 
-    def carry_out(workers, tasks, *, patience_s=60.0):
+    def carry_out(workers, tasks, *, patience_s=PATIENCE_S):
         """Carry out tasks by their keys; return how each ended."""
         left, ended = dict(tasks), {}
         end = time.monotonic() + patience_s

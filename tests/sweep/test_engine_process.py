@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -15,6 +14,7 @@ from rgss.errors import SimulationError
 from rgss.sweep import engine_process
 from rgss.sweep.engine_process import EngineProcess, compute
 from rgss.trials.code.kernel_environment import problem_here
+from tests.fixtures.processes import is_running, wait_until
 
 REPOSITORY = Path(__file__).parents[2]
 
@@ -81,7 +81,4 @@ def test_it_ends_with_the_process_that_started_it_even_if_that_is_killed():
         child = int(script.stdout.readline())
         os.kill(script.pid, signal.SIGKILL)
         script.wait()
-        end = time.monotonic() + 300.0
-        while Path(f"/proc/{child}/stat").exists() and " Z " not in Path(f"/proc/{child}/stat").read_text("utf-8"):
-            assert time.monotonic() < end, f"process {child} lives on without its parent"
-            time.sleep(0.01)
+        wait_until(lambda: not is_running(child))

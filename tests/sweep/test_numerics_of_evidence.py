@@ -16,6 +16,7 @@ from rgss.sweep.running import sweep
 from rgss.sweep.trial_keys import key_of
 from rgss.sweep.workers import WorkerPool
 from rgss.trials.code.numeric_probe import numerics
+from tests.fixtures.processes import PATIENCE_S
 from tests.fixtures.stored_inputs import put_inputs
 
 OTHERS = {**numerics(), "libm": "another library 0123456789ab"}
@@ -98,4 +99,4 @@ def test_a_worker_that_was_started_with_other_kernels_refuses_to_begin(monkeypat
         with pytest.raises(
             SimulationError, match="would compute with other kernels: OPENBLAS_NUM_THREADS is 8 instead"
         ):
-            pool.wait(60.0)
+            pool.wait(PATIENCE_S)

@@ -21,14 +21,12 @@ from rgss.evidence import EvidenceStore
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.sweep.running import sweep
-from tests.fixtures.processes import is_running, wait_until
+from tests.fixtures.processes import PATIENCE_S, is_running, wait_until
 
 pytestmark = pytest.mark.engine
 
 HELD_SWEEP = Path(__file__).parent / "doubles" / "held_sweep.py"
 SHORT = ["--jobs", "2", "--fidelity", "kinematic"]
-PATIENCE_S = 300.0
-"""After this a test gives up waiting for what always comes; no result depends on it."""
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.fixtures.processes import PATIENCE_S
+
 DOUBLES = Path(__file__).parent / "doubles"
 
 PROGRAM = """\
@@ -66,7 +68,7 @@ def test_a_pool_that_is_killed_leaves_nothing(start):
     process.communicate()
 
     # The worker ends by itself when its parent has; this waits for exactly that.
-    assert select.select([watched], [], [], 60.0)[0]
+    assert select.select([watched], [], [], PATIENCE_S)[0]
     os.close(watched)
     assert [*start.temporary.iterdir()] == []
 
@@ -81,7 +83,7 @@ def test_without_a_home_the_workers_share_one_folder_of_plots(start, tmp_path, m
         watched = os.pidfd_open(worker)
         process.send_signal(signal.SIGKILL)
         process.communicate()
-        assert select.select([watched], [], [], 60.0)[0]
+        assert select.select([watched], [], [], PATIENCE_S)[0]
         os.close(watched)
         for mark in (tmp_path / "marks").iterdir():
             mark.unlink()
@@ -93,7 +95,7 @@ def test_without_a_home_the_workers_share_one_folder_of_plots(start, tmp_path, m
 
 def test_a_pool_needs_no_temporary_folder(start, tmp_path):
     process = start("who", folder=tmp_path / "nowhere")
-    output, errors = process.communicate(timeout=120)
+    output, errors = process.communicate(timeout=PATIENCE_S)
     assert (output, errors) == ("done\n", "")
 
 
@@ -105,9 +107,9 @@ def test_few_open_files_are_enough_or_end_in_one_line(start):
         return limit
 
     process = start("who", preexec_fn=limited(32))
-    assert process.communicate(timeout=120) == ("done\n", "")
+    assert process.communicate(timeout=PATIENCE_S) == ("done\n", "")
     process = start("who", preexec_fn=limited(7))
-    _, errors = process.communicate(timeout=120)
+    _, errors = process.communicate(timeout=PATIENCE_S)
     assert errors.splitlines()[-1].startswith(
         "rgss.errors.SimulationError: a worker process cannot start: Too many open files ("
     )

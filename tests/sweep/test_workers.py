@@ -17,6 +17,7 @@ from rgss.evidence import RunFailureKind
 from rgss.sweep.inline_workers import InlineWorkers
 from rgss.sweep.task_end import Ended, TaskError
 from rgss.sweep.workers import WorkerPool
+from tests.fixtures.processes import PATIENCE_S
 
 DOUBLES = Path(__file__).parent / "doubles"
 GIB = 1024**3
@@ -122,7 +123,7 @@ def test_closing_stops_at_once_and_leaves_no_process(doubles, tmp_path, carried_
 def start_for_ever(pool, processes):
     while True:
         pool.prepare_for(processes)
-        assert pool.wait(60.0) == []
+        assert pool.wait(PATIENCE_S) == []
 
 
 def test_workers_that_cannot_start_are_an_error_in_the_end(doubles):
@@ -207,7 +208,7 @@ def test_the_beginning_of_an_answer_keeps_nobody_longer_than_the_limit(liars, cl
         while not pool._workers[0].channel._reader._buffer:
             assert pool.wait(0.01) == []
         clock.now += 6.0
-        (ended,) = pool.wait(60.0)
+        (ended,) = pool.wait(PATIENCE_S)
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert ended.failure == TaskError(kind=RunFailureKind.TIMED_OUT, detail="not done after 5 s", may_pass=True)
@@ -222,7 +223,7 @@ def test_a_worker_that_takes_no_task_keeps_nobody_longer_than_the_limit(doubles,
         pool.begin("large", ("who", b"x" * 50_000_000))
         assert pool.wait(0.01) == []
         clock.now += 6.0
-        (ended,) = pool.wait(60.0)
+        (ended,) = pool.wait(PATIENCE_S)
     assert ended.failure.kind is RunFailureKind.TIMED_OUT
 
 

@@ -16,10 +16,10 @@ from rgss.trials.lifecycle import Simulation, SimulationState
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.planning import plan_task
 from rgss.trials.timing import TaskTiming
+from tests.fixtures.processes import PATIENCE_S
 
 pytestmark = pytest.mark.engine
 
-PATIENCE_S = 600.0
 """After so long something hangs, however busy the machine is."""
 
 

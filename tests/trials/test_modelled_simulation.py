@@ -11,6 +11,7 @@ from rgss.errors import SimulationError
 from rgss.requirements import StateKind, load_requirements
 from rgss.trials import lifecycle
 from rgss.trials.lifecycle import Simulation, SimulationState
+from tests.fixtures.processes import PATIENCE_S
 
 ORDERS = ("initialise", "execute", "pause", "resume", "shut_down")
 BEGUN, NOT_BEGUN = "when the task had begun", "when the task had not begun"
@@ -23,7 +24,6 @@ SITUATIONS = {
     "finished": ("finished", BEGUN),
     "shut down": ("shut_down", NOT_BEGUN),
 }
-PATIENCE_S = 30.0
 
 
 @pytest.fixture(scope="module")

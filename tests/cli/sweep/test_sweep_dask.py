@@ -17,7 +17,7 @@ from rgss.errors import EvidenceError
 from rgss.evidence.records.origin import machine
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.dask import cluster as dask_cluster
-from tests.fixtures.processes import wait_until
+from tests.fixtures.processes import PATIENCE_S, wait_until
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +80,7 @@ def test_an_interrupted_sweep_on_a_cluster_stops_at_once_and_keeps_what_was_fini
         with contextlib.suppress(ProcessLookupError):
             os.kill(engines.pid, signal.SIGSTOP)
     os.killpg(process.pid, signal.SIGINT)
-    output, errors = process.communicate(timeout=120)
+    output, errors = process.communicate(timeout=PATIENCE_S)
 
     assert (process.returncode, output, errors) == (130, "", "rgss: interrupted; what was finished is kept\n")
     assert 0 < stored(folder / ".rgss" / "evidence.sqlite") < 600

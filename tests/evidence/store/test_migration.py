@@ -12,6 +12,7 @@ import pytest
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Fidelity, Provenance, record_digest
 from rgss.evidence.store.verification import verify
+from tests.fixtures.processes import PATIENCE_S
 
 
 @pytest.fixture
@@ -207,7 +208,7 @@ def test_several_processes_that_open_an_old_store_at_once_agree(old):
         )
         for _ in range(3)
     ]
-    assert [reader.communicate("\n", timeout=60)[0] for reader in readers] == ["40\n"] * 3
+    assert [reader.communicate("\n", timeout=PATIENCE_S)[0] for reader in readers] == ["40\n"] * 3
     assert raw(old)[0] == 3
 
 

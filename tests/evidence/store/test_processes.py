@@ -10,6 +10,7 @@ import pytest
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, record_digest, record_to_json, trial_key
 from rgss.evidence.store.verification import verify
+from tests.fixtures.processes import PATIENCE_S
 
 WRITER = """\
 import sys
@@ -47,7 +48,7 @@ def go(writer):
 def end(writer):
     # Read from the stream that lines were read from: `communicate` passes by what it has buffered.
     output = writer.stdout.read()
-    _, problems = writer.communicate(timeout=60)
+    _, problems = writer.communicate(timeout=PATIENCE_S)
     return writer.returncode, [int(line) for line in output.split()], problems
 
 

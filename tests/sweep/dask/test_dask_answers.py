@@ -8,6 +8,7 @@ from rgss.evidence import RunFailureKind
 from rgss.sweep.dask.engines import Order
 from rgss.sweep.dask.workers import DaskWorkers
 from rgss.sweep.task_end import Ended
+from tests.fixtures.processes import PATIENCE_S
 
 
 class AnsweringClient:
@@ -46,7 +47,7 @@ def test_a_wrong_answer_of_a_dask_worker_costs_the_task_and_not_the_sweep(answer
     order = Order(name="one", environment={}, time_limit_s=5.0, memory_limit_bytes=1024**3)
     workers = DaskWorkers(AnsweringClient(answer), str, order, address="tcp://x:1", differs=str)
     workers.begin("k", ())
-    (ended,) = workers.wait(60.0)
+    (ended,) = workers.wait(PATIENCE_S)
     assert (ended.key, ended.result) == ("k", None)
     assert ended.failure.kind is RunFailureKind.WRONG_ANSWER
     assert ended.failure.detail == "the answer of a Dask worker belongs to another task"

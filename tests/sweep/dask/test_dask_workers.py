@@ -10,7 +10,7 @@ from pathlib import Path
 
 import dask
 import pytest
-from distributed import LocalCluster
+from distributed import Client, LocalCluster
 
 from rgss.errors import DefinitionError, SimulationError
 from rgss.evidence import EvidenceStore, RunFailureKind
@@ -22,7 +22,7 @@ from rgss.sweep.dask.process_environment import are_alike, environment
 from rgss.sweep.running import sweep
 from rgss.sweep.task_end import TaskError
 from rgss.sweep.trial_keys import trials_of
-from tests.fixtures.processes import is_running, wait_until
+from tests.fixtures.processes import PATIENCE_S, is_running, wait_until
 
 DOUBLES = Path(__file__).parents[1] / "doubles"
 GIB = 1024**3
@@ -185,7 +185,7 @@ def test_a_cluster_without_workers_in_the_middle_is_left_in_the_end(doubles, car
             workers.begin("hang", ("hang",))
             local.scale(0)
             with pytest.raises(SimulationError) as caught:
-                carried_out(workers, {"never": ("who",)}, patience_s=20.0)
+                carried_out(workers, {"never": ("who",)})
             workers.close()
     assert str(caught.value) == (
         f"the Dask cluster at {address} has had no workers for 0.1 s "
@@ -203,7 +203,7 @@ def test_a_scheduler_that_goes_is_an_error(doubles, carried_out):
             workers.begin("hang", ("hang",))
             local.close()
             with pytest.raises(SimulationError) as caught:
-                carried_out(workers, {"never": ("who",)}, patience_s=20.0)
+                carried_out(workers, {"never": ("who",)})
             workers.close()
     assert str(caught.value) == (
         f"the Dask scheduler at {address} has stopped or has dropped the sweep's tasks "
@@ -253,10 +253,13 @@ def test_a_worker_without_rgss_is_refused():
     assert caught.value.hint == HINT
 
 
-def test_a_cluster_that_has_no_workers_is_refused():
+def test_a_cluster_that_has_no_workers_is_refused(monkeypatch):
+    # Patient with the scheduler, which answers in the end, and not with the workers, which never come.
+    wait = Client.wait_for_workers
+    monkeypatch.setattr(Client, "wait_for_workers", lambda client, number, timeout: wait(client, number, 0.2))
     with LocalCluster(n_workers=0, processes=False, dashboard_address=":0", silence_logs=60) as local:
         address = local.scheduler_address
-        with pytest.raises(DefinitionError) as caught, dask_cluster(address, **LIMITS, patience_s=0.2):
+        with pytest.raises(DefinitionError) as caught, dask_cluster(address, **LIMITS, patience_s=PATIENCE_S):
             pytest.fail("it was accepted")
     assert str(caught.value) == (
         f"the Dask cluster at {address} has no workers (start some, such as 'dask worker {address} --nthreads 1')"

@@ -16,6 +16,7 @@ from rgss.tradeoff.milp.independent_solver import SolverCheck
 from rgss.tradeoff.milp.limited_runs import LONGEST_BRIEF_RUN_S, LONGEST_RUN_S, WALL_FACTOR, highs_request
 from rgss.tradeoff.milp.solver_process import RunLimit
 from rgss.tradeoff.milp.stage import proven_gap
+from tests.fixtures.processes import PATIENCE_S
 
 FAKE = """
 import os, signal
@@ -140,7 +141,7 @@ def test_it_ends_with_its_parent_even_during_a_run(fake):
     fake.solve({"do": "answer"}, limit=RunLimit())
     fake._connection.send({"do": "sleep", "processor_s": math.inf, "wall_s": math.inf})
     fake._connection.close()
-    assert fake._process.wait(timeout=60.0) == 0
+    assert fake._process.wait(timeout=PATIENCE_S) == 0
 
 
 def _in_a_daemon():
