@@ -59,7 +59,7 @@ def use_case_diagram(behaviours: Iterable[Behaviour], blocks: Iterable[Block]) -
             edges=tuple(edges),
             clusters=(Cluster(id=_SYSTEM, title="System of interest"),),
             rightwards=True,
-            node_width=130.0,
+            node_width=150.0,
         ),
         name="use-cases",
         title="Use-case diagram",
@@ -92,7 +92,7 @@ def activity_diagram(activity: Behaviour) -> Drawing | None:
         for edge in flow.edges
     )
     return draw_graph(
-        Graph(nodes=tuple(map(_flow_node, flow.nodes)), edges=edges, node_width=200.0),
+        Graph(nodes=tuple(map(_flow_node, flow.nodes)), edges=edges, node_width=230.0),
         name=f"activity-{activity.id}",
         title=f"Activity diagram: {activity.name}",
         description=f"{activity.id}: {activity.text}",
@@ -116,7 +116,7 @@ def state_diagram(behaviour: Behaviour) -> Drawing | None:
         return None
     edges = tuple(_transitions(machine))
     return draw_graph(
-        Graph(nodes=tuple(map(_state_node, machine.states)), edges=edges, node_width=210.0),
+        Graph(nodes=tuple(map(_state_node, machine.states)), edges=edges, node_width=240.0),
         name=f"states-{behaviour.id}",
         title=f"State diagram: {behaviour.name}",
         description=f"{behaviour.id}: {behaviour.text}",

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 from rgss.reports.diagrams.canvas import Canvas, Point
 from rgss.reports.diagrams.graph import Edge, Graph
-from rgss.reports.diagrams.layout import Layout, label_size, layout
+from rgss.reports.diagrams.labels import Box, frame_lines, place_labels
+from rgss.reports.diagrams.layout import Layout, Size, label_size, layout
 from rgss.reports.diagrams.nodes import content_of, draw_node
 from rgss.reports.diagrams.style import FONT, SMALL
+
+_SPACINGS = (1.0, 1.4, 2.0, 3.0)
+"""Distances between nodes that are tried, as multiples of the usual ones."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,7 +68,7 @@ def draw_graph(graph: Graph, *, name: str, title: str, description: str, text_al
         DefinitionError: The package ``pygraphviz`` is not installed.
     """
     contents = {node.id: content_of(node, graph.node_width) for node in graph.nodes}
-    placed = layout(graph, {name: (content.width, content.height) for name, content in contents.items()})
+    placed = _free_labels(graph, {name: (content.width, content.height) for name, content in contents.items()})
     canvas = Canvas()
     for cluster in graph.clusters:
         frame = placed.frames[cluster.id]
@@ -86,6 +91,27 @@ def draw_graph(graph: Graph, *, name: str, title: str, description: str, text_al
         height=height,
         canvas=canvas,
     )
+
+
+def _free_labels(graph: Graph, sizes: Mapping[str, Size]) -> Layout:
+    """The tightest layout whose labels nothing crosses; the widest one if there is none."""
+    for spacing in _SPACINGS:
+        placed = layout(graph, sizes, spacing=spacing)
+        frames = {
+            name: Box(left=frame.x, top=frame.y, right=frame.x + frame.width, bottom=frame.y + frame.height)
+            for name, frame in placed.frames.items()
+        }
+        labels, all_free = place_labels(
+            placed.curves,
+            placed.labels,
+            [label_size(edge) for edge in graph.edges],
+            [Box.about(placed.nodes[node.id], sizes[node.id]) for node in graph.nodes],
+            frame_lines(frames),
+        )
+        placed = replace(placed, labels=labels)
+        if all_free:
+            break
+    return placed
 
 
 def _draw_edge(canvas: Canvas, edge: Edge, points: tuple[Point, ...]) -> None:

@@ -96,4 +96,4 @@ class Graph:
     edges: tuple[Edge, ...]
     clusters: tuple[Cluster, ...] = ()
     rightwards: bool = False
-    node_width: float = 190.0
+    node_width: float = 220.0

@@ -71,12 +71,13 @@ def require_graphviz() -> None:
         ) from error
 
 
-def layout(graph: Graph, sizes: Mapping[str, Size]) -> Layout:
+def layout(graph: Graph, sizes: Mapping[str, Size], *, spacing: float = 1.0) -> Layout:
     """Place a diagram.
 
     Args:
         graph: The diagram.
         sizes: Width and height of each node in pixels, by its id.
+        spacing: Multiple of the usual distances between nodes.
 
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
@@ -86,7 +87,11 @@ def layout(graph: Graph, sizes: Mapping[str, Size]) -> Layout:
 
     drawn = pygraphviz.AGraph(strict=False, directed=True)
     drawn.graph_attr.update(
-        rankdir="LR" if graph.rightwards else "TB", nodesep="0.3", ranksep="0.5", splines="true", margin="0"
+        rankdir="LR" if graph.rightwards else "TB",
+        nodesep=f"{0.3 * spacing:.2f}",
+        ranksep=f"{0.5 * spacing:.2f}",
+        splines="true",
+        margin="0",
     )
     drawn.node_attr.update(shape="box", fixedsize="true", label="", margin="0")
     drawn.edge_attr.update(arrowhead="none", arrowtail="none")

@@ -11,7 +11,7 @@ from rgss.requirements import Requirement, RequirementSet, StakeholderNeed
 MOST_IN_GROUP = 40
 """A group with more requirements is not drawn."""
 
-_WIDTH = 250.0
+_WIDTH = 300.0
 _RELATIONS = {
     (): "is contained in",
     ("«deriveReqt»",): "derives from",

@@ -13,21 +13,23 @@ from rgss.requirements import Behaviour
 from rgss.requirements.behaviour import Interaction, Message, TimingConstraint
 
 _MARGIN = 16.0
-_HEAD_WIDTH, _HEAD_GAP = 130.0, 26.0
+_HEAD_WIDTH, _HEAD_GAP = 150.0, 30.0
 _LABEL_WIDTH = 230.0
 _LOOP = 34.0
+_ASIDE = 12.0
 _AFTER = 14.0
-_BOUND = 120.0
+_BOUND = 150.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Row:
-    """A message with its place: the lines above its arrow, and the height of the arrow."""
+    """A message with its place: the lines above its arrow, their middle, and the height of the arrow."""
 
     message: Message
     lines: tuple[str, ...]
     top: float
     y: float
+    middle: float
 
 
 def sequence_diagram(behaviour: Behaviour, names: Mapping[str, str], bounds: Mapping[str, str]) -> Drawing | None:
@@ -43,10 +45,12 @@ def sequence_diagram(behaviour: Behaviour, names: Mapping[str, str], bounds: Map
         return None
     heads = {name: wrapped(names.get(name, name), _HEAD_WIDTH, FONT, bold=True) for name in interaction.lifelines}
     ids = {name: wrapped(name, _HEAD_WIDTH, SMALL) for name in interaction.lifelines}
-    xs, right = _columns(interaction)
+    xs, gaps, right = _columns(interaction)
     head_height = max((LINE * (FONT * len(heads[n]) + SMALL * len(ids[n])) for n in heads), default=0.0) + 12
-    rows = _rows(interaction, xs, _MARGIN + head_height + 16)
-    bottom = (rows[-1].y if rows else _MARGIN + head_height) + 30
+    captions = max((LINE * SMALL * len(lines) for lines in _bound_texts(interaction, bounds)), default=0.0)
+    start = _MARGIN + max(head_height, captions)
+    rows = _rows(interaction, xs, gaps, start + 16)
+    bottom = (rows[-1].y if rows else start) + 30
     canvas = Canvas()
     for x in xs.values():
         canvas.line([(x, _MARGIN + head_height), (x, bottom)], "line dotted")
@@ -70,35 +74,46 @@ def sequence_diagram(behaviour: Behaviour, names: Mapping[str, str], bounds: Map
     )
 
 
-def _columns(interaction: Interaction) -> tuple[dict[str, float], float]:
-    """Positions of the lifelines, far enough apart that the messages between them fit."""
+def _columns(interaction: Interaction) -> tuple[dict[str, float], dict[str, float], float]:
+    """Positions of the lifelines, the room beside each, and the right edge of all.
+
+    A label is between the lifeline of its source and the next one towards its target, where no line
+    passes, so that this gap is as wide as the label.
+    """
     order = {name: index for index, name in enumerate(interaction.lifelines)}
     gaps = [_HEAD_WIDTH + 12 + _HEAD_GAP] * len(order)
     for message in interaction.messages:
-        first, last = sorted((order[message.source], order[message.target]))
-        width = min(_label_width(message), _LABEL_WIDTH) + 24
-        if first == last:
-            gaps[first] = max(gaps[first], width + _LOOP)
-        else:
-            share = width / (last - first)
-            gaps[first:last] = [max(gap, share) for gap in gaps[first:last]]
+        width = min(_label_width(message), _LABEL_WIDTH) + 2 * _ASIDE
+        beside = _gap_of(message, order)
+        gaps[beside] = max(gaps[beside], width + _LOOP if message.source == message.target else width)
     xs: dict[str, float] = {}
     x = _MARGIN + _HEAD_WIDTH / 2 + 6
     for name, gap in zip(interaction.lifelines, gaps, strict=True):
         xs[name] = x
         x += gap
     last_gap = gaps[-1] if gaps else 0.0
-    return xs, max(x - last_gap + _HEAD_WIDTH / 2 + 6, x - _HEAD_GAP - _HEAD_WIDTH / 2)
+    talks_to_itself = any(_gap_of(message, order) == len(order) - 1 for message in interaction.messages)
+    right = x - last_gap + max(_HEAD_WIDTH / 2 + 6, last_gap - _ASIDE if talks_to_itself else 0.0)
+    return xs, dict(zip(interaction.lifelines, gaps, strict=True)), right
 
 
-def _rows(interaction: Interaction, xs: Mapping[str, float], top: float) -> list[_Row]:
+def _gap_of(message: Message, order: Mapping[str, int]) -> int:
+    """Index of the lifeline to the left of a message's label."""
+    leftwards = order[message.target] < order[message.source]
+    return order[message.source] - 1 if leftwards else order[message.source]
+
+
+def _rows(interaction: Interaction, xs: Mapping[str, float], gaps: Mapping[str, float], top: float) -> list[_Row]:
+    order = {name: index for index, name in enumerate(interaction.lifelines)}
     rows = []
     for message in interaction.messages:
         own = message.source == message.target
-        room = _LABEL_WIDTH if own else max(_LABEL_WIDTH, abs(xs[message.source] - xs[message.target]) - 24)
+        left = interaction.lifelines[_gap_of(message, order)]
+        room = gaps[left] - 2 * _ASIDE - (_LOOP if own else 0)
         lines = tuple(line for text in _texts(message) for line in wrapped(text, room, SMALL))
         y = top + LINE * SMALL * len(lines) + 3
-        rows.append(_Row(message=message, lines=lines, top=top, y=y))
+        middle = xs[left] + gaps[left] / 2
+        rows.append(_Row(message=message, lines=lines, top=top, y=y, middle=middle))
         top = y + _AFTER + (14 if own else 0)
     return rows
 
@@ -109,44 +124,43 @@ def _draw_message(canvas: Canvas, row: _Row, xs: Mapping[str, float]) -> None:
     style, head = ("line dashed", "open") if message.reply else ("line", "filled")
     with canvas.group(f"{message.source} → {message.target}: {' '.join(_texts(message))}"):
         if start == end:
-            canvas.lines(start + 8, row.top, row.lines, SMALL, "label", anchor="start")
+            canvas.lines(start + _ASIDE, row.top, row.lines, SMALL, "label", anchor="start")
             canvas.line(
                 [(start, row.y), (start + _LOOP, row.y), (start + _LOOP, row.y + 14), (start, row.y + 14)], style
             )
             canvas.arrow((start, row.y + 14), (start + _LOOP, row.y + 14), head)
         else:
-            canvas.lines((start + end) / 2, row.top, row.lines, SMALL, "label", anchor="middle")
+            canvas.lines(row.middle, row.top, row.lines, SMALL, "label", anchor="middle")
             canvas.line([(start, row.y), (end, row.y)], style)
             canvas.arrow((end, row.y), (start, row.y), head)
+
+
+def _bound_texts(interaction: Interaction, bounds: Mapping[str, str]) -> list[tuple[str, ...]]:
+    return [
+        tuple(line for text in _bound(timing, bounds) for line in wrapped(text, _BOUND, SMALL))
+        for timing in interaction.timings
+    ]
 
 
 def _draw_bounds(
     canvas: Canvas, interaction: Interaction, rows: list[_Row], bounds: Mapping[str, str], right: float
 ) -> float:
-    """Write each bound beside its messages, in a column of its own; returns the new right edge."""
+    """Draw each bound in a column of its own, its text at the head, above every line; returns the new right edge."""
     places = {row.message.id: row.y for row in rows}
-    texts = [
-        tuple(line for text in _bound(timing, bounds) for line in wrapped(text, _BOUND, SMALL))
-        for timing in interaction.timings
-    ]
-    columns = []
-    for lines in texts:
-        columns.append(right + 18)
-        right = columns[-1] + 8 + max(text_width(line, SMALL) for line in lines)
-    ends = [sorted((places[timing.first], places[timing.last])) for timing in interaction.timings]
-    # The lines of all come first, so that those of one bound strike through no words of another.
-    for x, heights in zip(columns, ends, strict=True):
-        for y in heights:
-            canvas.line([(_MARGIN, y), (x - 8, y)], "line dotted thin")
-    for timing, x, (first, last), lines in zip(interaction.timings, columns, ends, texts, strict=True):
+    for timing, lines in zip(interaction.timings, _bound_texts(interaction, bounds), strict=True):
+        x = right + 18
+        right = x + max(text_width(line, SMALL) for line in lines)
+        first, last = sorted((places[timing.first], places[timing.last]))
         with canvas.group(" ".join(_bound(timing, bounds))):
+            foot = canvas.lines(x, _MARGIN, lines, SMALL, "", anchor="start")
+            x += 8
             for y in (first, last):
+                canvas.line([(_MARGIN, y), (x - 8, y)], "line dotted thin")
                 canvas.line([(x - 8, y), (x + 8, y)], "line thin")
+            canvas.line([(x, foot + 4), (x, first)], "line dotted thin")
             canvas.line([(x, first), (x, last)], "line")
             canvas.arrow((x, first), (x, last), "open")
             canvas.arrow((x, last), (x, first), "open")
-            top = (first + last) / 2 - LINE * SMALL * len(lines) / 2
-            canvas.lines(x + 8, top, lines, SMALL, "label", anchor="start")
     return right
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-FONT = 11.5
+FONT = 13.5
 """Size of names, in pixels."""
-SMALL = 10.0
-"""Size of texts, labels and stereotypes, in pixels."""
+SMALL = 12.0
+"""Size of texts, labels and stereotypes, in pixels; diagrams are shown at full size, so it is legible there."""
 LINE = 1.3
 """Distance of lines, in font sizes."""
 
@@ -19,9 +19,9 @@ svg.rgss-diagram { --d-paper: #ffffff; --d-ink: #1b1f24; --d-soft: #57606a; --d-
 @media print { svg.rgss-diagram { --d-paper: #ffffff; --d-ink: #000000; --d-soft: #333333; --d-box: #ffffff;
   --d-need: #ffffff; --d-requirement: #ffffff; --d-behaviour: #ffffff; --d-measure: #ffffff; --d-fail: #ffffff; } }
 .rgss-diagram .paper { fill: var(--d-paper); stroke: none; }
-.rgss-diagram text { fill: var(--d-ink); font-size: 10px; white-space: pre; }
-.rgss-diagram text.name { font-size: 11.5px; font-weight: bold; }
-.rgss-diagram text.plain { font-size: 11.5px; }
+.rgss-diagram text { fill: var(--d-ink); font-size: 12px; white-space: pre; }
+.rgss-diagram text.name { font-size: 13.5px; font-weight: bold; }
+.rgss-diagram text.plain { font-size: 13.5px; }
 .rgss-diagram text.soft { fill: var(--d-soft); }
 .rgss-diagram text.italic { font-style: italic; }
 .rgss-diagram text.label { paint-order: stroke; stroke: var(--d-paper); stroke-width: 3px; stroke-linejoin: round; }

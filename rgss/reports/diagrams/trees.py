@@ -19,10 +19,10 @@ MOST_IN_TREE = 30
 """A tree with more blocks is drawn in several diagrams."""
 
 _MARGIN = 14.0
-_INDENT, _ROW = 26.0, 24.0
+_INDENT, _ROW = 28.0, 28.0
 _GAP_X, _GAP_Y = 70.0, 12.0
-_TEXT_WIDTH = 640.0
-_NODE_WIDTH = 170.0
+_TEXT_WIDTH = 770.0
+_NODE_WIDTH = 200.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

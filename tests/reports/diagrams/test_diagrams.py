@@ -21,6 +21,7 @@ from rgss.reports.diagrams.diagrams import diagrams_of, file_stem, missing_diagr
 from rgss.reports.diagrams.drawing import draw_graph
 from rgss.reports.diagrams.graph import Cluster, Edge, Graph, Node, Shape
 from rgss.reports.diagrams.layout import layout
+from rgss.reports.diagrams.style import FONT, SMALL
 from rgss.reports.diagrams.text import text_width
 from rgss.requirements import BehaviourKind, load_requirements
 
@@ -125,28 +126,12 @@ def test_nothing_reaches_beyond_the_paper(drawings):
         root = ET.fromstring(drawing.to_svg())  # noqa: S314 - our own
         for text in root.iter(f"{SVG}text"):
             bold = text.get("class") == "name"
-            width = text_width(text.text, 11.5 if bold else 10.0, bold=bold)
+            width = text_width(text.text, FONT if bold else SMALL, bold=bold)
             x = float(text.get("x"))
             left = {"middle": x - width / 2, "end": x - width}.get(text.get("text-anchor"), x)
             assert left >= -0.5, (drawing.name, text.text)
             assert left + width <= drawing.width + 0.5, (drawing.name, text.text)
             assert 0 <= float(text.get("y")) <= drawing.height, (drawing.name, text.text)
-
-
-def test_lines_of_a_bound_strike_through_no_words_of_another(drawings):
-    """A label hides what was drawn before it, so that every line comes before the first label of a bound."""
-    seen = 0
-    for drawing in drawings.values():
-        if not drawing.name.startswith("sequence-"):
-            continue
-        parts = drawing.to_svg().splitlines()
-        lines = [place for place, part in enumerate(parts) if "line dotted thin" in part]
-        labels = [place for place, part in enumerate(parts) if 'class="label"' in part and ">{" in part]
-        assert len(lines) == 2 * len(labels)
-        if len(labels) > 1:
-            seen += 1
-            assert max(lines) < min(labels), drawing.name
-    assert seen >= 4
 
 
 def test_no_two_boxes_overlap(drawings):
@@ -172,7 +157,7 @@ def test_texts_stay_within_their_boxes(drawings):
             left, width = float(box.get("x")), float(box.get("width"))
             for text in texts:
                 bold = text.get("class") == "name"
-                room = text_width(text.text, 11.5 if bold else 10.0, bold=bold)
+                room = text_width(text.text, FONT if bold else SMALL, bold=bold)
                 start = float(text.get("x")) - (room / 2 if text.get("text-anchor") == "middle" else 0)
                 assert left <= start + 0.2, (drawing.name, text.text)
                 assert start + room <= left + width + 0.2, (drawing.name, text.text)

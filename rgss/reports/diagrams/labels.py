@@ -1,0 +1,156 @@
+"""Places of the labels of edges, where no line crosses them and no other text is.
+
+Graphviz keeps room for each label beside its edge, but other edges may pass through it. Such a
+label moves along its edge to the nearest free place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from rgss.reports.diagrams.canvas import Point
+
+Segment = tuple[Point, Point]
+
+_STEPS = 16
+"""Straight pieces of a Bézier curve."""
+_CLEARANCE = 2.0
+_PLACES = 24
+"""Places along an edge that are tried."""
+_DISTANCES = (4.0, 10.0, 18.0, 30.0, 50.0, 80.0)
+"""Distances of a label from its edge that are tried, in pixels."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Box:
+    """An upright rectangle in pixels."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+    @classmethod
+    def about(cls, centre: Point, size: tuple[float, float]) -> Box:
+        """The rectangle of a width and height about a centre."""
+        (x, y), (width, height) = centre, size
+        return cls(left=x - width / 2, top=y - height / 2, right=x + width / 2, bottom=y + height / 2)
+
+    def overlaps(self, other: Box) -> bool:
+        """Whether the two share an area."""
+        across = min(self.right, other.right) > max(self.left, other.left)
+        return across and min(self.bottom, other.bottom) > max(self.top, other.top)
+
+    def is_crossed_by(self, segment: Segment) -> bool:
+        """Whether a part of a segment is within the rectangle."""
+        (x, y), (u, v) = segment
+        if max(x, u) <= self.left or min(x, u) >= self.right or max(y, v) <= self.top or min(y, v) >= self.bottom:
+            return False
+        # The corners are not all on one side of the line through the segment.
+        sides = [
+            (u - x) * (corner_y - y) - (v - y) * (corner_x - x)
+            for corner_x in (self.left, self.right)
+            for corner_y in (self.top, self.bottom)
+        ]
+        return min(sides) < 0 < max(sides)
+
+
+def flattened(curve: Sequence[Point]) -> list[Point]:
+    """Points on Bézier curves, close enough to be joined by straight lines."""
+    points = [curve[0]]
+    for index in range(0, len(curve) - 1, 3):
+        start, first, second, end = curve[index : index + 4]
+        for step in range(1, _STEPS + 1):
+            t = step / _STEPS
+            weights = ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3)
+            corners = (start, first, second, end)
+            points.append(
+                (
+                    sum(weight * x for weight, (x, _) in zip(weights, corners, strict=True)),
+                    sum(weight * y for weight, (_, y) in zip(weights, corners, strict=True)),
+                )
+            )
+    return points
+
+
+def place_labels(
+    curves: Sequence[Sequence[Point]],
+    wanted: Sequence[Point | None],
+    sizes: Sequence[tuple[float, float]],
+    nodes: Sequence[Box],
+    lines: Sequence[Segment],
+) -> tuple[tuple[Point | None, ...], bool]:
+    """Move each label that something crosses to a free place beside its edge.
+
+    Args:
+        curves: The points of each edge.
+        wanted: The centre of each edge's label; None without one.
+        sizes: Width and height of each label.
+        nodes: The rectangles of the nodes.
+        lines: Other straight lines that no label may cross, as frames have them.
+
+    Returns:
+        The centres, and whether every label is free. One without a free place keeps its centre.
+    """
+    ways = [flattened(curve) for curve in curves]
+    strokes = [segment for way in ways for segment in pairwise(way)] + list(lines)
+    placed: dict[int, Box] = {}
+    centres: dict[int, Point] = {}
+    crossed = []
+    for index, centre in enumerate(wanted):
+        if centre is None:
+            continue
+        box = _roomy(centre, sizes[index])
+        if _is_free(box, strokes, nodes, placed.values()):
+            placed[index], centres[index] = box, centre
+        else:
+            crossed.append(index)
+    all_free = True
+    for index in crossed:
+        free = (
+            place
+            for place in _candidates(ways[index], sizes[index])
+            if _is_free(_roomy(place, sizes[index]), strokes, nodes, placed.values())
+        )
+        found = next(free, None)
+        all_free &= found is not None
+        first = wanted[index]
+        centre = found if found is not None else first
+        if centre is not None:
+            placed[index], centres[index] = _roomy(centre, sizes[index]), centre
+    return tuple(centres.get(index) for index in range(len(wanted))), all_free
+
+
+def frame_lines(frames: Mapping[str, Box]) -> list[Segment]:
+    """The outlines of frames."""
+    lines: list[Segment] = []
+    for box in frames.values():
+        corners = [(box.left, box.top), (box.right, box.top), (box.right, box.bottom), (box.left, box.bottom)]
+        lines += pairwise([*corners, corners[0]])
+    return lines
+
+
+def _roomy(centre: Point, size: tuple[float, float]) -> Box:
+    return Box.about(centre, (size[0] + _CLEARANCE, size[1] + _CLEARANCE))
+
+
+def _is_free(box: Box, strokes: Sequence[Segment], nodes: Sequence[Box], others: Iterable[Box]) -> bool:
+    if box.left < 0 or box.top < 0 or any(box.overlaps(node) for node in nodes):
+        return False
+    if any(box.overlaps(other) for other in others):
+        return False
+    return not any(box.is_crossed_by(stroke) for stroke in strokes)
+
+
+def _candidates(way: Sequence[Point], size: tuple[float, float]) -> Iterator[Point]:
+    """Centres beside an edge: near ones first, and of these those at the middle of the edge first."""
+    last = len(way) - 1
+    steps = sorted({round(index * last / _PLACES) for index in range(1, _PLACES)}, key=lambda at: abs(at - last / 2))
+    width, height = size
+    for distance in _DISTANCES:
+        for at in steps:
+            x, y = way[at]
+            for across, down in ((1, 0), (-1, 0), (0, -1), (0, 1), (1, -1), (-1, -1), (1, 1), (-1, 1)):
+                yield x + across * (width / 2 + distance), y + down * (height / 2 + distance)
