@@ -10,7 +10,7 @@ from rgss.api.columns import FRAMES
 from rgss.api.metric_columns import phase_metric_columns, trial_metric_columns
 from rgss.assessment import VariantMeasures, requirements_with_criteria
 from rgss.evidence import Metric, PhaseRecord, PlanningRecord, TrialRecord
-from rgss.scenes.uncertainty import QUANTITIES, draw_column
+from rgss.scenes.uncertainty import QUANTITIES, draw_column, object_quantity_of_column
 from rgss.studies import Project
 
 if TYPE_CHECKING:
@@ -225,17 +225,22 @@ def _phase_row(record: TrialRecord, phase: PhaseRecord, planning: PlanningRecord
 
 
 def _drawn_columns(there: Collection[str]) -> Iterator[Column]:
-    """The columns of the draws that rows have, in the order of the registry."""
+    """The columns of the draws that rows have, in the order of the registry, then object by object."""
     for quantity in QUANTITIES.values():
         for name in quantity.draw_names:
             if draw_column(name) in there:
                 meaning = quantity.meaning.rstrip(".")
                 yield Column(name=draw_column(name), meaning=meaning, unit=quantity.unit, kind=Kind.NUMBER)
+    for column in there:
+        further = object_quantity_of_column(column)
+        if further is not None:
+            meaning = further.meaning.rstrip(".")
+            yield Column(name=column, meaning=meaning, unit=further.unit, kind=Kind.NUMBER)
 
 
 def _with_entries(columns: Iterable[Column], rows: Sequence[Mapping[str, Any]]) -> tuple[Column, ...]:
     """The columns with each row of numbers as its entries; of a length that differs, as many as are there."""
-    there = {name for row in rows for name in row}
+    there = dict.fromkeys(name for row in rows for name in row)
     found: list[Column] = []
     for column in columns:
         if column.name == "drawn_QUANTITY":

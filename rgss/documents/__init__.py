@@ -3,6 +3,7 @@
 from rgss.documents.digests import canonical_json, digest
 from rgss.documents.editing import AppendEntry, Edit, RemoveEntry, RemoveKey, SetKey, edited
 from rgss.documents.fields import (
+    IDENTIFIER_PATTERN,
     Dimensionless,
     Hertz,
     Identifier,

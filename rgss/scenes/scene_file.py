@@ -30,7 +30,7 @@ from rgss.scenes.robot import Robot
 from rgss.scenes.robot_file import load_robot
 from rgss.scenes.scene import Scene, SceneBody, Task
 from rgss.scenes.shapes import Box, Cylinder, Shape
-from rgss.scenes.uncertainty import read_uncertainty
+from rgss.scenes.uncertainty import read_uncertainty, unknown_objects
 
 
 def load_scene(path: Path, *, label: str | None = None, project: Path | None = None) -> Scene:
@@ -57,6 +57,8 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         *negative(document, _values_from_zero(entry)),
     ]
     uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings, declared=())
+    others_ids = [one.id for one in entry.workpieces]
+    findings += unknown_objects(entry.uncertainty, document, first=entry.workpiece.id, further=others_ids)
     robot = _robot(path, entry, document, findings, path.parent if project is None else project)
     top = path.parent if project is None else project
     solid = object_solid(path, entry.workpiece, document, findings, top)

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from rgss.documents import Document
 from rgss.findings import Finding
 from rgss.scenes import GripperFile, Scene
+from rgss.scenes.uncertainty import unknown_objects
 from rgss.studies.study import StudyDefinition
 
 _MASS = "workpiece.mass"
@@ -26,6 +27,8 @@ def uncertainty_findings(
     """
     both = scene.uncertainty.overridden_by(study.uncertainty)
     declared = set(both.names)
+    further = [one.workpiece.id for one in scene.others]
+    yield from unknown_objects(study.uncertainty.names, document, first=scene.workpiece.id, further=further)
     for index, group in enumerate(study.uncertainty.correlations):
         for name in group.quantities:
             if name not in declared:

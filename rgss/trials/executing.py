@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from rgss.evidence import Fidelity
 from rgss.physics import TorqueArm, open_world
+from rgss.scenes import Workpiece
 from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.controlled_motion import controlled_motion
 from rgss.trials.execution import Execution
@@ -65,7 +66,7 @@ def execute(
     motion = None
     if spec.fidelity is Fidelity.DYNAMIC or spec.settings.controller.in_contact:
         with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
-            believed = conditions.scene.workpiece
+            believed = [one.workpiece for one in conditions.scene.objects]
             plant = DynamicPlant(
                 machine,
                 cell.arm,
@@ -100,7 +101,7 @@ def execute(
             references if motion is None else motion.references,
             control,
             cell.arm,
-            estimate=_grip_estimate(spec, conditions),
+            estimates=_grip_estimates(spec, conditions),
             observer=observer,
             checkpoint=checkpoint,
             task=spec.task,
@@ -110,11 +111,19 @@ def execute(
     return _with_quality(results if motion is None else motion.joined(results), timing)
 
 
-def _grip_estimate(spec: TrialSpec, conditions: Conditions) -> GripEstimate | None:
-    """The robot's estimate of its grip; None where the true values are known."""
-    if conditions.is_grip_known:
-        return None
-    believed = conditions.scene.workpiece
+def _grip_estimates(spec: TrialSpec, conditions: Conditions) -> dict[str, GripEstimate]:
+    """The robot's estimate of its grip on each object; none of an object whose true values are known."""
+    objects = [one.workpiece for one in conditions.scene.objects]
+    # Each object has sensor noise of its own; the first one's is named after the sensor alone.
+    noises = ("", *(one.id for one in objects[1:]))
+    return {
+        one.id: _grip_estimate(spec, conditions, one, noise_of=noise)
+        for one, noise in zip(objects, noises, strict=True)
+        if not conditions.is_grip_known(one.id)
+    }
+
+
+def _grip_estimate(spec: TrialSpec, conditions: Conditions, believed: Workpiece, *, noise_of: str) -> GripEstimate:
     errors = ForceSensorErrors(
         noise_n=conditions.sensor_noise_n, offset_n=conditions.sensor_offset_n, delay_s=conditions.sensor_delay_s
     )
@@ -126,6 +135,7 @@ def _grip_estimate(spec: TrialSpec, conditions: Conditions) -> GripEstimate | No
         window_s=spec.settings.control.force_window_s,
         rate_hz=spec.settings.physics.rate_hz,
         seed=spec.seed,
+        noise_of=noise_of,
     )
 
 

@@ -49,7 +49,7 @@ class Execution:
         kinematics: ToolKinematics,
         *,
         task: TaskProgram,
-        estimate: GripEstimate | None = None,
+        estimates: Mapping[str, GripEstimate] | None = None,
         observer: StepObserver | None = None,
         checkpoint: Callable[[], None] | None = None,
         settling_limit_s: float = 0.5,
@@ -61,7 +61,7 @@ class Execution:
             references: Targets of the moves; the program ends before the first move that has none.
             control: Thresholds.
             kinematics: The arm's, with the tool at the grasp centre.
-            estimate: What the robot knows of its grip; None where that is the truth.
+            estimates: What the robot knows of its grip on an object, by id; none of one where that is the truth.
             observer: Callback after each step.
             checkpoint: Called after every step; it may wait, or end the task by raising.
             task: The task.
@@ -81,9 +81,9 @@ class Execution:
         self._held_at: Pose | None = None
         self._memory = GraspGeometryCache()
         self._sensor = ForceSensor(world.scene.workpiece.force_window_s, world.settings.rate_hz)
-        self._estimate = estimate
+        self._estimates = estimates or {}
         self._hand = hand_of(world.gripper)
-        self._grip = self._grip_control(estimate)
+        self._grip = self._grip_control()
         self._configuration: tuple[float, ...] = ()
 
     def run(self) -> tuple[PhaseResult, ...]:
@@ -287,12 +287,11 @@ class Execution:
             workpiece, rate_hz = self._world.scene.workpiece, self._world.settings.rate_hz
             self._memory = GraspGeometryCache()
             self._sensor = ForceSensor(workpiece.force_window_s, rate_hz)
-            # What the robot believes differs from the truth for the first object alone.
-            estimate = self._estimate if workpiece.id == self._objects.first else None
-            self._grip = self._grip_control(estimate)
+            self._grip = self._grip_control()
         return stage
 
-    def _grip_control(self, estimate: GripEstimate | None) -> GripControl:
+    def _grip_control(self) -> GripControl:
+        estimate = self._estimates.get(self._world.scene.workpiece.id)
         return GripControl(self._world, self._control, estimate, is_regulated=self._hand.has_force_feedback)
 
     def _hold_arm_and_step(self) -> None:

@@ -48,6 +48,7 @@ def refusal(name, value):
 
 def test_every_field_is_tested():
     others = {
+        "IDENTIFIER_PATTERN",
         "Document",
         "DocumentModel",
         "Identifier",

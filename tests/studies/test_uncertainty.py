@@ -109,6 +109,14 @@ def test_the_named_inputs_have_the_distributions_and_not_the_draws(folder, appen
             ),
         ),
         (
+            "\nuncertainty:\n  perception.lid.x: {constant: 1 mm, rationale: r}\n",
+            "{constant: 1 mm, rationale: r}",
+            (
+                "perception.lid.x: no object 'lid' under the scene's 'workpieces' (the scene has one object: its "
+                "quantity is 'perception.x')"
+            ),
+        ),
+        (
             "\nworkload:\n  - {case: wide, radius: 70 mm, rationale: r}\n",
             "70 mm, rationale: r}",
             "an object of radius 70 mm does not fit into a hand that opens 70 mm (take a thinner one)",

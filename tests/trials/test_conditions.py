@@ -42,7 +42,11 @@ def test_without_uncertainty_all_is_as_the_files_say(spec_of):
     assert conditions.true_scene == spec.scene
     assert conditions.perceived_scene == spec.scene
     assert conditions.true_gripper == spec.gripper
-    assert (conditions.case, dict(conditions.draws), conditions.is_grip_known) == ("", {}, True)
+    assert (conditions.case, dict(conditions.draws), conditions.is_grip_known(spec.scene.workpiece.id)) == (
+        "",
+        {},
+        True,
+    )
 
 
 @pytest.mark.parametrize("name", QUANTITIES)
@@ -59,7 +63,7 @@ def test_a_draw_changes_the_pieces_from_the_first_that_it_enters(spec_of, name):
 
 
 def test_every_quantity_has_a_field_and_every_field_a_quantity():
-    fixed = {"scene", "design_gripper", "case", "draws"}
+    fixed = {"scene", "design_gripper", "case", "draws", "others"}
     changed = {each.name for each in fields(Conditions)} - fixed
     assert {quantity.field for quantity in QUANTITIES.values()} == changed
 
@@ -148,7 +152,7 @@ def test_the_robot_does_not_know_what_was_drawn_of_the_grip(spec_of):
 
     assert conditions.true_scene.workpiece.mass_kg == 2 * spec.scene.workpiece.mass_kg
     assert conditions.perceived_scene.workpiece.mass_kg == spec.scene.workpiece.mass_kg
-    assert not conditions.is_grip_known
+    assert not conditions.is_grip_known(spec.scene.workpiece.id)
 
 
 def test_what_was_drawn_is_told_beside_what_is_nominal(spec_of):

@@ -11,7 +11,7 @@ from rgss.decision.what_if.setting import ModelSetting, count_from, in_words, on
 from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity
 from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
-from rgss.scenes.uncertainty import QUANTITIES, Uncertainty, UncertainValue, Workload
+from rgss.scenes.uncertainty import Uncertainty, UncertainValue, Workload, quantity_of
 from rgss.studies import Project
 
 NOMINAL = "uncertainty.nominal"
@@ -87,7 +87,7 @@ def _uncertain_values(project: Project) -> Iterator[ModelSetting]:
     if project.study.is_nominal:
         return
     for one in project.uncertainty.values:
-        name, unit = f"uncertainty.{one.quantity}", QUANTITIES[one.quantity].unit
+        name, unit = f"uncertainty.{one.quantity}", quantity_of(one.quantity).unit
         kind = type(one.distribution).__name__.lower()
         yield ModelSetting(
             id=name, value=f"{kind}", example=f"{name}=nominal", changed=partial(_without, project, one.quantity)
@@ -114,7 +114,7 @@ def _with_parameter(project: Project, one: UncertainValue, field: str, unit: str
     low, high = distribution.support
     if low > high or (field in ("low", "high") and low == high):
         raise DefinitionError(f"--what-if: {name}: low must be less than high, got {text}")
-    quantity = QUANTITIES[one.quantity]
+    quantity = quantity_of(one.quantity)
     if not quantity.is_possible(low):
         raise DefinitionError(
             f"--what-if: {name}: {quantity.name} cannot be {in_words(low, quantity.unit)}, got {text}"

@@ -17,12 +17,19 @@ if TYPE_CHECKING:
     )
     from rgss.scenes.uncertainty.document import CaseEntry, CorrelationEntry, DistributionEntry, QuantityName
     from rgss.scenes.uncertainty.drawing import draws_of, white_noise
+    from rgss.scenes.uncertainty.object_findings import unknown_objects
     from rgss.scenes.uncertainty.quantities import (
         QUANTITIES,
         Application,
         EntersAt,
         UncertainQuantity,
+    )
+    from rgss.scenes.uncertainty.quantity_names import (
         draw_column,
+        in_order,
+        name_of_first,
+        object_quantity_name,
+        object_quantity_of_column,
         quantity_of,
     )
     from rgss.scenes.uncertainty.reading import read_uncertainty

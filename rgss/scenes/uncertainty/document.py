@@ -2,17 +2,32 @@
 
 from __future__ import annotations
 
-import difflib
+import re
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
-from rgss.documents import Dimensionless, DocumentModel, Identifier, Kilograms, Metres, QuantityText, Text
+from rgss.documents import (
+    IDENTIFIER_PATTERN,
+    Dimensionless,
+    DocumentModel,
+    Identifier,
+    Kilograms,
+    Metres,
+    QuantityText,
+    Text,
+)
 from rgss.findings import shown
 from rgss.scenes.uncertainty.quantities import QUANTITIES
+from rgss.scenes.uncertainty.quantity_names import further_object_endings, quantity_of, similar_name
 
 MOST_REPLICATES_OF_CASE = 1000
+
+_PATTERNS = tuple(
+    rf"^{first}\.{IDENTIFIER_PATTERN.strip('^$')}\.({'|'.join(endings)})$"
+    for first, endings in further_object_endings().items()
+)
 
 
 def _as_text(value: Any) -> Any:
@@ -20,11 +35,21 @@ def _as_text(value: Any) -> Any:
     return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
 
+def _is_name(value: Any) -> bool:
+    try:
+        quantity = quantity_of(value) if isinstance(value, str) else None
+    except KeyError:
+        return False
+    if quantity is None or quantity.name != value:
+        return False
+    return not quantity.object or re.fullmatch(IDENTIFIER_PATTERN, quantity.object) is not None
+
+
 def _read_name(value: Any) -> str:
-    if isinstance(value, str) and value in QUANTITIES:
-        return value
-    near = difflib.get_close_matches(str(value), QUANTITIES, n=1)
-    hint = f"did you mean {near[0]!r}?" if near else f"quantities: {', '.join(QUANTITIES)}"
+    if _is_name(value):
+        return str(value)
+    near = similar_name(str(value))
+    hint = f"did you mean {near!r}?" if near else f"quantities: {', '.join(QUANTITIES)}"
     details = {"message": f"unknown uncertain quantity {shown(str(value))}", "hint": hint}
     raise PydanticCustomError("quantity", "{message}", details)
 
@@ -46,7 +71,14 @@ ValueText = Annotated[
 QuantityName = Annotated[
     str,
     PlainValidator(_read_name),
-    WithJsonSchema({"enum": list(QUANTITIES), "enumDescriptions": [one.meaning for one in QUANTITIES.values()]}),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"enum": list(QUANTITIES), "enumDescriptions": [one.meaning for one in QUANTITIES.values()]},
+                *({"type": "string", "pattern": pattern} for pattern in _PATTERNS),
+            ]
+        }
+    ),
 ]
 """The name of a quantity that may be uncertain."""
 

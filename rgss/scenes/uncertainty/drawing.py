@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from rgss.scenes.robot import MOST_JOINTS
 from rgss.scenes.uncertainty.declaration import Correlation, Uncertainty
-from rgss.scenes.uncertainty.quantities import QUANTITIES
+from rgss.scenes.uncertainty.quantity_names import in_order, quantity_of
 
 _DIGITS = 9
 _SEEDS_KEPT = 4096
@@ -26,7 +26,7 @@ _SEEDS_KEPT = 4096
 
 @lru_cache(maxsize=_SEEDS_KEPT)
 def draws_of(uncertainty: Uncertainty, seed: int, *, joints: int = MOST_JOINTS) -> Mapping[str, float]:
-    """The draws of a trial by name, in the order of the registry.
+    """The draws of a trial by name, in the order of the registry, then object by object.
 
     A draw is rounded to nine significant digits: kernels of other processors differ in the last of sixteen, and a
     draw is an input that must be the same wherever it is made.
@@ -37,21 +37,16 @@ def draws_of(uncertainty: Uncertainty, seed: int, *, joints: int = MOST_JOINTS) 
         joints: Number of the arm's joints, each of which has draws of its own.
     """
     values = {one.quantity: one.distribution for one in uncertainty.values}
-    shares = {
-        name: uniform_of(seed, name)
-        for quantity, entry in QUANTITIES.items()
-        if quantity in values
-        for name in entry.draw_names_for(joints)
-    }
+    declared = in_order(values)
+    shares = {name: uniform_of(seed, name) for quantity in declared for name in quantity.draw_names_for(joints)}
     for group in uncertainty.correlations:
         if {*group.quantities} <= values.keys():
             shares.update(_correlated(group, shares, joints))
     return MappingProxyType(
         {
-            name: float(f"{values[quantity].quantile(shares[name]):.{_DIGITS}g}")
-            for quantity, entry in QUANTITIES.items()
-            if quantity in values
-            for name in entry.draw_names_for(joints)
+            name: float(f"{values[quantity.name].quantile(shares[name]):.{_DIGITS}g}")
+            for quantity in declared
+            for name in quantity.draw_names_for(joints)
         }
     )
 
@@ -87,7 +82,7 @@ def _correlated(group: Correlation, shares: Mapping[str, float], joints: int) ->
     """The shares of a group by a Gaussian copula; each joint of quantities with several draws by itself."""
     from scipy.special import ndtr, ndtri
 
-    names = [QUANTITIES[quantity].draw_names_for(joints) for quantity in group.quantities]
+    names = [quantity_of(quantity).draw_names_for(joints) for quantity in group.quantities]
     factor = np.linalg.cholesky(np.array(group.matrix))
     found = {}
     for row in zip(*names, strict=True):

@@ -45,6 +45,7 @@ class UncertainQuantity:
         least: The least value that a draw may have.
         is_least_allowed: Whether the least value itself may be drawn.
         count: How many independent draws it has, one for each joint; 1 for most.
+        object: Id of the further object that it is about; empty for the first object and the machine.
     """
 
     name: str
@@ -56,6 +57,7 @@ class UncertainQuantity:
     least: float = -math.inf
     is_least_allowed: bool = True
     count: int = 1
+    object: str = ""
 
     @property
     def draw_names(self) -> tuple[str, ...]:
@@ -75,11 +77,6 @@ class UncertainQuantity:
     def is_possible(self, value: float) -> bool:
         """True if a value may be drawn."""
         return value > self.least or (self.is_least_allowed and value == self.least)
-
-
-_UNIT_ENDINGS: Mapping[str, str] = MappingProxyType(
-    {"m": "_m", "rad": "_rad", "kg": "_kg", "N": "_n", "s": "_s", "1": "_1"}
-)
 
 
 def _deviation(name: str, unit: str, field: str, meaning: str) -> UncertainQuantity:
@@ -193,27 +190,3 @@ _ALL = (
 
 QUANTITIES: Mapping[str, UncertainQuantity] = MappingProxyType({one.name: one for one in _ALL})
 """The quantities by name, in the order in which they are applied."""
-
-
-def quantity_of(draw: str) -> UncertainQuantity:
-    """The quantity of a draw, such as ``robot.joint_offset.3``.
-
-    Raises:
-        KeyError: There is none.
-    """
-    if draw in QUANTITIES:
-        return QUANTITIES[draw]
-    return QUANTITIES[draw.rpartition(".")[0]]
-
-
-def draw_column(draw: str) -> str:
-    """Name of a table's column of a draw, such as ``drawn_perception_x_m``: the unit at its end.
-
-    Args:
-        draw: The name of the draw; one that is not in the registry, from another version, has no unit.
-    """
-    try:
-        unit = _UNIT_ENDINGS[quantity_of(draw).unit]
-    except KeyError:
-        unit = ""
-    return f"drawn_{draw.replace('.', '_')}{unit}"

@@ -22,7 +22,8 @@ from rgss.scenes.uncertainty.distributions import (
     Uniform,
 )
 from rgss.scenes.uncertainty.document import CorrelationEntry, DistributionEntry
-from rgss.scenes.uncertainty.quantities import QUANTITIES, UncertainQuantity
+from rgss.scenes.uncertainty.quantities import UncertainQuantity
+from rgss.scenes.uncertainty.quantity_names import quantity_of
 
 _KINDS = ("normal", "truncated_normal", "uniform", "lognormal", "discrete", "constant")
 _SYMMETRY = 1e-12
@@ -69,7 +70,7 @@ class _Reader:
     """Reader of the distribution of one quantity."""
 
     def __init__(self, name: str, document: Document, findings: list[Finding]) -> None:
-        self._quantity: UncertainQuantity = QUANTITIES[name]
+        self._quantity: UncertainQuantity = quantity_of(name)
         self._document = document
         self._findings = findings
         self._place: tuple[str | int, ...] = ("uncertainty", name)
@@ -170,7 +171,7 @@ def _wrong_group(group: CorrelationEntry, taken: set[str], known: set[str] | Non
     missing = [] if known is None else [name for name in group.quantities if name not in known]
     if missing:
         return f"{missing[0]} has no distribution", "quantities", "give it one under 'uncertainty'"
-    if len({QUANTITIES[name].count for name in group.quantities}) > 1:
+    if len({quantity_of(name).count for name in group.quantities}) > 1:
         return "a quantity of each joint goes together with others of each joint alone", "quantities", ""
     if any(len(row) != size for row in group.matrix) or len(group.matrix) != size:
         return f"the matrix must have {size} rows of {size} correlations", "matrix", ""

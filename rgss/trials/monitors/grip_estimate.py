@@ -46,6 +46,7 @@ class GripEstimate:
         window_s: float,
         rate_hz: float,
         seed: int,
+        noise_of: str = "",
     ) -> None:
         """Begin without a reading.
 
@@ -57,11 +58,13 @@ class GripEstimate:
             window_s: Time over which forces are averaged.
             rate_hz: Steps a second.
             seed: The trial's seed; a finger has the same noise in every design.
+            noise_of: Id of a further object, which has noise of its own; empty for the first.
         """
         self.mass_kg = mass_kg
         self.friction = friction
         self._errors = errors
         self._seed = seed
+        self._noise_name = f"{_NOISE}.{noise_of}" if noise_of else _NOISE
         self._fingers = fingers
         self._late: deque[tuple[float, ...]] = deque(maxlen=1 + round(errors.delay_s * rate_hz))
         self._window = max(1, round(window_s * rate_hz))
@@ -109,6 +112,8 @@ class GripEstimate:
             return (0.0,) * self._fingers
         if step >= len(self._noise_n):
             count = len(self._noise_n) + _BLOCK
-            columns = [white_noise(self._seed, f"{_NOISE}.{finger}", count) for finger in range(self._fingers)]
+            columns = [
+                white_noise(self._seed, f"{self._noise_name}.{finger}", count) for finger in range(self._fingers)
+            ]
             self._noise_n = [[sd * value for value in row] for row in zip(*(c.tolist() for c in columns), strict=True)]
         return self._noise_n[step]

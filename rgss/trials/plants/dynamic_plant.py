@@ -40,7 +40,7 @@ class DynamicPlant:
         *,
         task: TaskProgram,
         controller: JointController | None = None,
-        believed: Workpiece | None = None,
+        believed: Sequence[Workpiece] = (),
         checkpoint: Callable[[], None] | None = None,
     ) -> None:
         """Prepare the plant.
@@ -53,7 +53,7 @@ class DynamicPlant:
             settings: Step length.
             control: Thresholds of the task program.
             controller: Mode and gains; computed torque by default.
-            believed: The object as the controller's model has it; that of the scene by default.
+            believed: Objects as the controller's model has them; those of the scene by default.
             checkpoint: Called before each step; it may wait, or end the task by raising.
             task: The task, which says what is gripped when.
         """
@@ -70,7 +70,7 @@ class DynamicPlant:
         self._checkpoint = checkpoint
         self._limits = np.array([joint.torque_n_m for joint in scene.robot.joints])
         opening_m = gripper.geometry.largest_opening_m
-        self._believed = scene.workpiece if believed is None else believed
+        self._believed = {one.id: one for one in believed}
         self._grips = GripSequence(task, scene, gripper.geometry)
         empty = gripper_loads(gripper, opening_m)
         self._empty = ArmDynamics(scene.robot, empty, gravity_m_s2=scene.gravity_m_s2)
@@ -163,7 +163,7 @@ class DynamicPlant:
         workpiece = view.workpiece
         if workpiece.id not in self._loaded:
             gripper = self._gripper
-            known = self._believed if workpiece.id == self._believed.id else workpiece
+            known = self._believed.get(workpiece.id, workpiece)
             loads, at = gripper_loads(gripper, grasp_opening_m(view, gripper.geometry)), _held_at(view)
             centre = gripper.geometry.grasp_centre
             held = workpiece_load(known, centre if at is None else centre @ at)

@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from rgss.documents import read_document
 from rgss.scenes.uncertainty import (
     QUANTITIES,
     Constant,
@@ -18,6 +19,9 @@ from rgss.scenes.uncertainty import (
     UncertainValue,
     Uniform,
     draw_column,
+    object_quantity_of_column,
+    quantity_of,
+    unknown_objects,
 )
 
 TEXT = """
@@ -181,6 +185,57 @@ def test_an_unknown_quantity_is_told_with_the_nearest(kitchen):
     assert "did you mean 'perception." in finding
 
 
+@pytest.mark.parametrize(
+    ("name", "near"),
+    [("workpieces.mug.mas", "workpieces.mug.mass"), ("workpiece.mug.mass", "workpieces.mug.mass")],
+)
+def test_an_unknown_quantity_of_an_object_is_told_with_the_nearest(kitchen, name, near):
+    uncertain(kitchen).change("kitchen.yaml", "  workpiece.friction: {", f"  {name}: ¦{{")
+
+    (finding,) = kitchen.findings("scene")
+    assert finding.startswith(kitchen.marks()[0])
+    assert f"unknown uncertain quantity '{name}' (did you mean '{near}'?)" in finding
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [
+        ("perception.mug.x", "objects under 'workpieces': lid, tray"),
+        ("perception.lit.x", "did you mean 'perception.lid.x'?"),
+        ("perception.cup.x", "'cup' is the first object, under 'workpiece': its quantity is 'perception.x'"),
+    ],
+)
+def test_a_quantity_of_an_object_that_is_not_there_is_one_line(tmp_path, name, hint):
+    path = tmp_path / "scene.yaml"
+    path.write_text(f"uncertainty:\n  {name}: 1 mm\n", encoding="utf-8")
+    (finding,) = unknown_objects([name], read_document(path), first="cup", further=["lid", "tray"])
+
+    known = name.split(".")[1]
+    assert finding.message == f"{name}: no object {known!r} under the scene's 'workpieces'"
+    assert (finding.rule, finding.hint, finding.line) == ("uncertainty.object", hint, 2)
+
+
+@pytest.mark.parametrize(
+    ("known", "hint"),
+    [
+        ("plate", "the scene has one object: its quantity is 'perception.yaw'"),
+        ("mug", "'mug' is the first object, under 'workpiece': its quantity is 'perception.yaw'"),
+    ],
+)
+def test_a_quantity_of_a_further_object_needs_one(kitchen, known, hint):
+    uncertain(kitchen).change("kitchen.yaml", "  perception.yaw: {uni", f"  perception.{known}.yaw: ¦{{uni")
+
+    message = f"perception.{known}.yaw: no object {known!r} under the scene's 'workpieces'"
+    assert kitchen.findings("scene") == [f"{kitchen.marks()[0]} uncertainty.object {message} ({hint})"]
+
+
+def test_the_column_of_a_further_object_s_draws_is_known():
+    for name in ("workpieces.mug.mass", "perception.green_cube.yaw", "workpieces.x.y"):
+        assert object_quantity_of_column(draw_column(name)) == quantity_of(name)
+    for name in QUANTITIES:
+        assert object_quantity_of_column(draw_column(name)) is None
+
+
 def test_a_quantity_of_each_joint_goes_together_with_no_other(kitchen):
     uncertain(kitchen).change(
         "kitchen.yaml",
@@ -205,3 +260,4 @@ def test_a_column_of_draws_has_its_unit_at_its_end_if_the_registry_knows_it():
     assert draw_column("robot.joint_offset.6") == "drawn_robot_joint_offset_6_rad"
     assert draw_column("gripper.finger.force") == "drawn_gripper_finger_force_1"
     assert draw_column("of.another.version") == "drawn_of_another_version"
+    assert draw_column("workpieces.mug.mass_factor") == "drawn_workpieces_mug_mass_factor_1"

@@ -6,14 +6,21 @@ believes of the object: what the files, or the case of the workload, say.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from types import MappingProxyType
 
 from rgss.errors import DefinitionError
-from rgss.scenes import Cylinder, Gripper, Pose, Scene, Workpiece
-from rgss.scenes.uncertainty import QUANTITIES, Application, Case, UncertainQuantity, draws_of, quantity_of
+from rgss.scenes import Cylinder, Gripper, Scene, Workpiece
+from rgss.scenes.uncertainty import Application, Case, UncertainQuantity, draws_of, in_order, quantity_of
+from rgss.trials.conditions.object_conditions import (
+    ObjectConditions,
+    moved,
+    nominal_object,
+    perceived_workpiece,
+    true_workpiece,
+)
 from rgss.trials.trial_spec import TrialSpec
 
 _KEPT = 4096
@@ -48,6 +55,7 @@ class Conditions:
         sensor_noise_n: Standard deviation of the noise of a reading of a finger's force.
         sensor_offset_n: Its offset.
         sensor_delay_s: Its age.
+        others: The same of the further objects of which something is drawn.
     """
 
     scene: Scene
@@ -73,30 +81,17 @@ class Conditions:
     sensor_noise_n: float = 0.0
     sensor_offset_n: float = 0.0
     sensor_delay_s: float = 0.0
+    others: tuple[ObjectConditions, ...] = ()
 
     @property
     def true_scene(self) -> Scene:
         """The scene as it is."""
-        believed = self.scene.workpiece
-        true = replace(
-            believed,
-            pose=_moved(believed.pose, (self.stands_x_m, self.stands_y_m, 0.0)),
-            mass_kg=self.mass_kg,
-            centre_of_mass_m=self.centre_of_mass_m,
-            friction=self.friction,
-        )
-        return _with_workpiece(self.scene, true)
+        return self._with_objects(true_workpiece)
 
     @property
     def perceived_scene(self) -> Scene:
-        """The scene as the robot perceives it: the object where it is seen, and what else the files say."""
-        believed = self.scene.workpiece
-        shift = (self.stands_x_m + self.perceived_x_m, self.stands_y_m + self.perceived_y_m, self.perceived_z_m)
-        pose = _moved(believed.pose, shift)
-        turn = (self.perceived_roll_rad, self.perceived_pitch_rad, self.perceived_yaw_rad)
-        if any(turn):
-            pose = pose @ Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), turn)
-        return _with_workpiece(self.scene, replace(believed, pose=pose))
+        """The scene as the robot perceives it: the objects where they are seen, and what else the files say."""
+        return self._with_objects(perceived_workpiece)
 
     @property
     def true_gripper(self) -> Gripper:
@@ -109,16 +104,43 @@ class Conditions:
         )
         return self.design_gripper if gripper == self.design_gripper else gripper
 
-    @property
-    def is_grip_known(self) -> bool:
-        """True if the robot reads the fingers' true forces and has the true mass of the object and friction."""
-        believed = self.scene.workpiece
+    def is_grip_known(self, name: str) -> bool:
+        """True if the robot reads the fingers' true forces and has the true mass of an object and friction.
+
+        Args:
+            name: The object.
+        """
+        believed = self.believed(name)
+        true: Conditions | ObjectConditions = next((one for one in self.others if one.id == name), self)
+        if name != self.scene.workpiece.id and true is self:
+            true = nominal_object(believed)
         is_sensor_ideal = self.sensor_noise_n == self.sensor_offset_n == self.sensor_delay_s == 0.0
-        return is_sensor_ideal and (self.mass_kg, self.friction, self.pad_friction) == (
+        return is_sensor_ideal and (true.mass_kg, true.friction, self.pad_friction) == (
             believed.mass_kg,
             believed.friction,
             self.design_gripper.friction,
         )
+
+    def believed(self, name: str) -> Workpiece:
+        """An object as the robot believes it.
+
+        Args:
+            name: The object.
+        """
+        return next(one.workpiece for one in self.scene.objects if one.workpiece.id == name)
+
+    def _with_objects(self, changed: Callable[[Workpiece, Conditions | ObjectConditions], Workpiece]) -> Scene:
+        scene = _with_workpiece(self.scene, changed(self.scene.workpiece, self))
+        if not self.others:
+            return scene
+        drawn = {one.id: one for one in self.others}
+        others = tuple(
+            replace(one, workpiece=changed(one.workpiece, drawn[one.workpiece.id]))
+            if one.workpiece.id in drawn
+            else one
+            for one in scene.others
+        )
+        return scene if others == scene.others else replace(scene, others=others)
 
 
 def conditions_of(spec: TrialSpec) -> Conditions:
@@ -158,17 +180,30 @@ def _conditions_of(spec: TrialSpec) -> Conditions:
     nominal = nominal_conditions(spec)
     joints = len(spec.scene.robot.joints)
     draws = draws_of(spec.uncertainty, spec.seed, joints=joints) if spec.uncertainty.values else _NO_DRAWS
+    quantities = in_order(spec.uncertainty.names)
+    own = _changes([one for one in quantities if not one.object], draws, nominal)
+    drawn = {one.object for one in quantities if one.object}
+    others = []
+    for known in (one.workpiece for one in spec.scene.others if one.workpiece.id in drawn):
+        before = nominal_object(known)
+        changes = _changes([one for one in quantities if one.object == known.id], draws, before)
+        others.append(replace(before, **changes))  # type: ignore[arg-type]
+    return replace(nominal, draws=draws, others=tuple(others), **own)  # type: ignore[arg-type]
+
+
+def _changes(
+    quantities: Sequence[UncertainQuantity], draws: Mapping[str, float], nominal: Conditions | ObjectConditions
+) -> dict[str, float | tuple[float, ...]]:
+    """Values of the fields that draws change."""
     changes: dict[str, float | tuple[float, ...]] = {}
-    for quantity in QUANTITIES.values():
+    for quantity in quantities:
         drawn = [draws[name] for name in quantity.draw_names if name in draws]
-        if not drawn:
-            continue
         if quantity.count > 1:
             changes[quantity.field] = tuple(drawn)
             continue
         present = changes.get(quantity.field, getattr(nominal, quantity.field))
         changes[quantity.field] = _applied(quantity, present, drawn[0])
-    return replace(nominal, draws=draws, **changes)  # type: ignore[arg-type]
+    return changes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -195,11 +230,15 @@ def drawn_values(spec: TrialSpec) -> tuple[DrawnValue, ...]:
         spec: The trial.
     """
     conditions, nominal = conditions_of(spec), nominal_conditions(spec)
+    drawn = {one.id: one for one in conditions.others}
     found = []
     for name in conditions.draws:
         quantity = quantity_of(name)
         if quantity.count > 1:
             before, after = 0.0, conditions.draws[name]
+        elif quantity.object:
+            known = nominal_object(conditions.believed(quantity.object))
+            before, after = getattr(known, quantity.field), getattr(drawn[quantity.object], quantity.field)
         else:
             before, after = getattr(nominal, quantity.field), getattr(conditions, quantity.field)
         found.append(DrawnValue(name=name, unit=_unit_of(quantity), nominal=before, drawn=after))
@@ -242,17 +281,10 @@ def _scene_of(scene: Scene, case: Case | None) -> Scene:
         shape=shape,
         mass_kg=own.mass_kg if case.mass_kg is None else case.mass_kg,
         friction=own.friction if case.friction is None else case.friction,
-        pose=_moved(own.pose, (0.0, 0.0, rise_m)),
+        pose=moved(own.pose, (0.0, 0.0, rise_m)),
     )
     return _with_workpiece(scene, workpiece)
 
 
 def _with_workpiece(scene: Scene, workpiece: Workpiece) -> Scene:
     return scene if workpiece == scene.workpiece else replace(scene, workpiece=workpiece)
-
-
-def _moved(pose: Pose, shift_m: tuple[float, float, float]) -> Pose:
-    if not any(shift_m):
-        return pose
-    (x, y, z), (dx, dy, dz) = pose.position_m, shift_m
-    return Pose(position_m=(x + dx, y + dy, z + dz), quaternion_xyzw=pose.quaternion_xyzw)

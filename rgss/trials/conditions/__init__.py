@@ -1,0 +1,17 @@
+"""Conditions of a trial: draws of its seed, true values, and the robot's perception of them."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.trials.conditions.conditions import (
+        Conditions,
+        DrawnValue,
+        conditions_of,
+        drawn_values,
+        nominal_conditions,
+    )
+    from rgss.trials.conditions.object_conditions import ObjectConditions
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
