@@ -7,13 +7,22 @@ from typing import TYPE_CHECKING, TypeVar
 
 from rgss.api.frames import described_frame
 from rgss.decision.robustness import Part
-from rgss.decision.sensitivity import Sensitivity
+from rgss.decision.sensitivity import Sensitivity, Tornado
 from rgss.errors import TradeoffError
 
 if TYPE_CHECKING:
     import pandas as pd
 
 Result = TypeVar("Result")
+
+
+def computed_tornado(found: Sensitivity) -> Tornado:
+    """The tornado of a sensitivity.
+
+    Raises:
+        TradeoffError: The sensitivity was not analysed, or could not be computed.
+    """
+    return _computed(found, Part.TORNADO, found.tornado)
 
 
 def tornado_frame(found: Sensitivity) -> pd.DataFrame:
@@ -39,7 +48,7 @@ def tornado_frame(found: Sensitivity) -> pd.DataFrame:
             "flip_low": bar.low.flip,
             "flip_high": bar.high.flip,
         }
-        for bar in _computed(found, Part.TORNADO, found.tornado).bars
+        for bar in computed_tornado(found).bars
     ]
     return described_frame("tornado", rows)
 

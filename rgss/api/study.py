@@ -25,6 +25,7 @@ from rgss.api.frames import (
 )
 from rgss.api.html_views import study_view
 from rgss.api.missing_trials import sweep_hint, with_trials
+from rgss.api.plots import Plots
 from rgss.api.portfolios import portfolio_of_study
 from rgss.api.suppositions import WhatIf, suppositions_of
 from rgss.api.sweep import sweep_study
@@ -69,6 +70,15 @@ class Study:
 
     def _repr_html_(self) -> str:
         return study_view(repr(self), self.project, len(self._designs))
+
+    @property
+    def plot(self) -> Plots:
+        """Figures of the study; as of `trade`.
+
+        Raises:
+            DefinitionError: Matplotlib is not installed.
+        """
+        return self._trade.plot
 
     @property
     def variants(self) -> pd.DataFrame:

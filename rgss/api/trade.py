@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from rgss.api.html_views import decision_view
+from rgss.api.plots import Plots, require_matplotlib
 from rgss.api.sensitivity_frames import stakeholders_frame, tornado_frame, worth_keeping_frame
 from rgss.api.trade_frames import (
     acceptability_frame,
@@ -55,6 +56,22 @@ class Trade:
     def _repr_html_(self) -> str:
         return decision_view(repr(self), self.decision)
 
+    @property
+    def plot(self) -> Plots:
+        """Figures of the trade-off.
+
+        Raises:
+            DefinitionError: Matplotlib is not installed.
+        """
+        require_matplotlib()
+        return Plots(
+            project=self.project,
+            measured=self.measured,
+            decision=lambda: self.decision,
+            robustness=self.robustness,
+            sensitivity=self.sensitivity,
+        )
+
     @cached_property
     def decision(self) -> Decision:
         """Decision: chosen, runner-up, ties, ranking, what is infeasible and why, certificate."""
@@ -84,6 +101,10 @@ class Trade:
         """The decision questioned from every side; some seconds the first time."""
         return self._robustness
 
+    def sensitivity(self) -> Sensitivity:
+        """Sensitivity of the decision to its inputs; some seconds the first time."""
+        return self._sensitivity
+
     def effects(self) -> pd.DataFrame:
         """Effects of the levels of each factor, and of each pair of factors, on the measures."""
         return effects_frame(computed_effects(self._robustness))
@@ -94,15 +115,15 @@ class Trade:
 
     def tornado(self) -> pd.DataFrame:
         """Effects of the uncertain inputs on the lead of the choice, the largest swing first."""
-        return tornado_frame(self._sensitivity)
+        return tornado_frame(self.sensitivity())
 
     def worth_keeping(self) -> pd.DataFrame:
         """The feasible variants: why each is worth keeping, or what beats it."""
-        return worth_keeping_frame(self._sensitivity)
+        return worth_keeping_frame(self.sensitivity())
 
     def stakeholders(self) -> pd.DataFrame:
         """Value of each feasible variant to each stakeholder."""
-        return stakeholders_frame(self._sensitivity)
+        return stakeholders_frame(self.sensitivity())
 
     def acceptability(self) -> pd.DataFrame:
         """For what share of all weights, and of the noise, each variant is the best (SMAA-2)."""
