@@ -3,7 +3,7 @@
 #   make PYTHON=/path/to/python3.11 setup     chooses the Python; otherwise the first suitable one is taken
 
 .DEFAULT_GOAL := help
-.PHONY: help setup study check docs format fast test regress bench lock clean rebuild
+.PHONY: help setup study check docs format fast test regress notebooks bench lock clean rebuild
 
 # Where Python is not to keep what it has compiled, each of the many processes of a test run compiles anew,
 # which takes half of its time.
@@ -43,6 +43,10 @@ test: setup ## run the whole test suite, on every core
 
 regress: setup ## hold metrics and the decision of a small part of the study against the baseline
 	@.venv/bin/rgss regress --junit .rgss/regress.xml
+
+notebooks: setup ## run the notebooks in studies/ and keep their outputs in them
+	@for each in studies/*.ipynb; do sockets=$$(mktemp -d) && .venv/bin/python tests/api/execution.py $$each $$sockets \
+		&& rm -r $$sockets || exit 1; done
 
 bench: setup ## measure the sweep engine on an idle machine (well over an hour); tables, and bench*.json
 	@.venv/bin/python benchmarks/sweep.py --replicates 10 --json bench.json

@@ -1,4 +1,4 @@
-"""Runs a notebook and writes it with its outputs: ``python execution.py NOTEBOOK SOCKETS``.
+"""Runs a notebook and writes it with its outputs in one form: ``python execution.py NOTEBOOK SOCKETS``.
 
 A process of its own, because the client of a kernel leaves sockets open; the kernel is reached through files.
 """
@@ -13,6 +13,10 @@ from nbclient import NotebookClient
 from traitlets.config import Config
 
 LONGEST_S = 300
+METADATA = {
+    "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},
+    "language_info": {"name": "python"},
+}
 
 
 def main() -> None:
@@ -22,7 +26,10 @@ def main() -> None:
     reached = Config({"KernelManager": {"transport": "ipc", "ip": str(sockets / "s")}})
     resources = {"metadata": {"path": str(path.parent)}}
     NotebookClient(read, config=reached, kernel_name="python3", timeout=LONGEST_S, resources=resources).execute()
-    nbformat.write(read, path)
+    read.metadata = nbformat.from_dict(METADATA)
+    for cell in read.cells:
+        cell.metadata = {}
+    path.write_text(nbformat.writes(read) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

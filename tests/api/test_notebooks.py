@@ -1,10 +1,11 @@
-"""The notebooks in studies/: clean, of the public interface alone, and they run."""
+"""The notebooks in studies/: kept with their outputs, of the public interface alone, and they run."""
 
 from __future__ import annotations
 
 import ast
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -20,14 +21,13 @@ from rgss.trace.evidence.software import run_properties
 from tests.fixtures.shipped_project import REPOSITORY, copy_as_shipped
 
 from .conftest import ASKED
+from .execution import METADATA
 
 NOTEBOOKS = sorted((REPOSITORY / "studies").glob("*.ipynb"))
-METADATA = {
-    "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},
-    "language_info": {"name": "python"},
-}
 ALLOWED = {"rgss", "pandas", "matplotlib.pyplot", "pathlib", "shutil", "tempfile"}
 LONGEST = 26
+FEWEST_PICTURES, LARGEST_BYTES = 6, 1_000_000
+NUMBER = re.compile(r"-?\d+\.?\d*(?:e[+-]?\d+)?")
 WIDEST = 88
 """Longer lines of code are cut, or need to be scrolled, where notebooks are shown as pages."""
 
@@ -66,7 +66,8 @@ def test_there_are_three():
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_nothing_of_a_run_is_kept(path):
+def test_a_whole_run_is_kept(path):
+    """Readers see results without running anything; `make notebooks` renews them."""
     text = path.read_text(encoding="utf-8")
     document = json.loads(text)
 
@@ -74,9 +75,13 @@ def test_nothing_of_a_run_is_kept(path):
     assert (document["nbformat"], document["metadata"]) == (4, METADATA)
     for number, cell in enumerate(document["cells"], start=1):
         assert (cell["id"], cell["metadata"]) == (f"cell-{number:02}", {})
-        if cell["cell_type"] == "code":
-            assert (cell["outputs"], cell["execution_count"]) == ([], None)
+    ran = [cell["execution_count"] for cell in document["cells"] if cell["cell_type"] == "code"]
+    assert ran == list(range(1, len(ran) + 1))
     assert text == nbformat.writes(notebook(path)) + "\n"
+    assert pictures(notebook(path).cells) >= FEWEST_PICTURES
+    assert len(text) < LARGEST_BYTES
+    for place in (str(REPOSITORY), str(Path.home()), tempfile.gettempdir()):
+        assert f"{place}/" not in text
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
@@ -110,8 +115,8 @@ def test_the_trade_off(run):
     said = [shown(cell) for cell in cells if cell.cell_type == "code"]
 
     assert "72 variants × 2 seeds, kinematic fidelity" in said[0]
-    assert "enumeration agrees" in said[3]
-    assert pictures(cells) == 1
+    assert "enumeration agrees" in said[4]
+    assert_as_kept("trade_off.ipynb", cells)
 
 
 @pytest.mark.engine
@@ -120,8 +125,8 @@ def test_the_validation(run):
     said = [shown(cell) for cell in cells if cell.cell_type == "code"]
 
     assert "bench_kg" in said[1]
-    assert "1000 Hz" in said[2]
-    assert pictures(cells) == 2
+    assert "1000 Hz" in said[3]
+    assert_as_kept("validation.ipynb", cells)
 
 
 @pytest.mark.engine
@@ -131,12 +136,23 @@ def test_the_own_gripper(run):
 
     assert "108 variants" in said[3]
     assert "four" in said[5]
-    assert "failed" not in said[7]
-    assert pictures(cells) == 1
+    assert "failed" not in said[-3]
+    assert_as_kept("own_gripper.ipynb", cells)
 
 
 def shown(cell):
     return "\n".join(output.get("data", {}).get("text/plain", output.get("text", "")) for output in cell.outputs)
+
+
+def assert_as_kept(name, cells):
+    """The outputs are those that are kept: the words, the numbers to four digits, the texts of the figures."""
+    kept = [shown(cell) for cell in notebook(REPOSITORY / "studies" / name).cells if cell.cell_type == "code"]
+    again = [shown(cell) for cell in cells if cell.cell_type == "code"]
+    for before, now in zip(kept, again, strict=True):
+        assert NUMBER.sub("0", now) == NUMBER.sub("0", before)
+        numbers = [[float(number) for number in NUMBER.findall(text)] for text in (now, before)]
+        assert numbers[0] == pytest.approx(numbers[1], rel=1e-4, abs=1e-6)
+    assert pictures(cells) == pictures(notebook(REPOSITORY / "studies" / name).cells)
 
 
 def pictures(cells):

@@ -52,9 +52,11 @@ def trial_figure(record: TrialRecord, trace: TrialTrace, *, joints: Sequence[str
         joints: Names of the arm's joints.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
-    figure = Figure(figsize=_SIZE_IN, layout="constrained")
+    from rgss.reports.study_plots import StudyFigure
+
+    figure = StudyFigure(figsize=_SIZE_IN, layout="constrained")
+    figure.alt_text = f"{headline(record)}: joint positions, tool speed, finger forces and grip margin over time."
     FigureCanvasAgg(figure)
     figure.suptitle(headline(record), x=0.01, ha="left", fontsize=13, fontweight="bold", color=_INK)
     axes = figure.subplots(4, 1, sharex=True, height_ratios=(1.5, 1, 1, 1))
