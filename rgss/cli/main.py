@@ -37,6 +37,7 @@ VERBS = (
     "identify",
     "trace",
     "report",
+    "serve",
     "export",
     "import",
     "schema",

@@ -19,12 +19,13 @@ def render_page(
     scripts: Sequence[str] = (),
     held_scripts: Sequence[str] = (),
     images: bool = False,
+    connects: bool = False,
     **context: Any,
 ) -> str:
     """Fill a template of this package.
 
     Whatever the context holds is escaped, except `markupsafe.Markup`. The page allows no script
-    but its own, by its digest, and no request at all.
+    but its own, by its digest, and no request at all unless it connects.
 
     Args:
         template: Path of the template below ``templates``, such as ``trace/trace.html.j2``.
@@ -32,6 +33,7 @@ def render_page(
         scripts: More scripts, which run in their order after that of every page.
         held_scripts: Scripts that the page carries and runs when one of its scripts wants them.
         images: Whether the page shows pictures, which it then carries itself.
+        connects: Whether the page asks the server that it came from for data; else it makes no request.
         context: What it shows.
 
     Raises:
@@ -60,6 +62,7 @@ def render_page(
         held_scripts=[Markup(script) for script in held_scripts],  # noqa: S704 - a package's own file
         script_hashes=[script_hash(script) for script in (*own, *held_scripts)],
         images=images,
+        connects=connects,
         **context,
     )
 

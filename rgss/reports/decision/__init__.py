@@ -6,7 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.reports.decision.answers_in_words import elicitation_sentences
-    from rgss.reports.decision.conclusion import headline, seeds_sentences
+    from rgss.reports.decision.conclusion import headline, rule_sentence, seeds_sentences, standing_sentence
     from rgss.reports.decision.json import (
         decision_to_json,
         elicitation_to_json,
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rgss.reports.decision.report_conflicts import conflict_part
     from rgss.reports.decision.report_part import decision_part
     from rgss.reports.decision.report_sensitivity import sensitivity_part
-    from rgss.reports.decision.sentences import gap_sentence
+    from rgss.reports.decision.sentences import cautions, certificate_sentence, gap_sentence, reasons
     from rgss.reports.decision.text import decision_lines, question_lines, screening_lines, weighing_lines
     from rgss.reports.decision.tornado_picture import tornado_svg
     from rgss.reports.decision.until_decided import open_paragraph, until_decided_summary

@@ -1,0 +1,131 @@
+"""Observation of a study in a thread of its own: read again only after a change, and only while somebody asks."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from rgss.assessment import VariantMeasures, read_record
+from rgss.decision import ScreeningResult, measure_survivors
+from rgss.decision.study_decision import StudyDecision, decide_study
+from rgss.errors import DocumentError, RgssError
+from rgss.evidence import EvidenceStore
+from rgss.evidence.store import observed, state_of
+from rgss.reports.live import live_study_document
+from rgss.studies import FOLDERS, Project
+
+_PAUSE_PER_WORK = 3.0
+"""Seconds of rest for each second of work, so that a sweep beside it keeps its cores."""
+
+
+class StudyObserver:
+    """State of a study as its files and its evidence are.
+
+    Args:
+        folder: The project's folder.
+        load: Reads the project; called again after a change of its files.
+        evidence: The file of its evidence.
+        label: Name of the evidence in messages.
+    """
+
+    def __init__(self, folder: Path, load: Callable[[], Project], *, evidence: Path, label: str) -> None:
+        self._folder, self._load, self._evidence, self._label = folder, load, evidence, label
+        self._lock, self._wanted = threading.Lock(), threading.Event()
+        self._project: Project | None = None
+        self._files: object = None
+        self._seen: object = None
+        self._state: dict[str, Any] = {
+            "version": 0,
+            "sentence": "The evidence is being read for the first time.",
+            "problem": "",
+            "study": None,
+        }
+
+    def start(self) -> None:
+        """Start the thread, which ends with the process."""
+        threading.Thread(target=self._observe, name="study-observer", daemon=True).start()
+
+    def state(self, *, seen: int = -1) -> dict[str, Any]:
+        """The last state that was read; another look is ordered, and not waited for.
+
+        Args:
+            seen: The version that the caller has; of that one the study is left out.
+        """
+        self._wanted.set()
+        with self._lock:
+            state = dict(self._state)
+        if state["version"] == seen:
+            del state["study"]
+        return state
+
+    def look(self) -> None:
+        """Read files and evidence if they changed since the last look."""
+        files = _files_state(self._folder)
+        now = (files, state_of(self._evidence))
+        if now == self._seen:
+            return
+        study, problem = None, ""
+        try:
+            if self._project is None or files != self._files:
+                self._project = None
+                self._project, self._files = self._load(), files
+            if not now[1].exists:
+                problem = f"There is no evidence in {self._label} yet; 'rgss sweep' makes it."
+            else:
+                study = self._read(self._project)
+        except DocumentError as error:
+            problem = "\n".join(str(finding) for finding in error.findings)
+        except RgssError as error:
+            problem = str(error)
+        except (OSError, ValueError) as error:
+            # What is replaced while it is read; the next look reads it anew.
+            problem = f"The project cannot be read: {error}"
+        clock = time.strftime("%H:%M:%S")
+        with self._lock:
+            self._state = {
+                "version": self._state["version"] + 1,
+                "sentence": f"As of {clock}: {study['progress']['sentence']}" if study else f"As of {clock}.",
+                "problem": problem,
+                "study": study,
+            }
+        self._seen = now
+
+    def _observe(self) -> None:
+        while self._wanted.wait():
+            self._wanted.clear()
+            begun = time.monotonic()
+            self.look()
+            time.sleep((time.monotonic() - begun) * _PAUSE_PER_WORK)
+
+    def _read(self, project: Project) -> dict[str, Any]:
+        recorded = read_record(project.folder)
+
+        def measure(store: EvidenceStore) -> tuple[tuple[VariantMeasures, ...], ScreeningResult | None]:
+            return measure_survivors(project, store, recorded=recorded)
+
+        measured, screened = observed(self._evidence, measure, label=self._label)
+        made: StudyDecision | None = None
+        problem = ""
+        whole = [entry for entry in measured if not entry.missing]
+        if whole:
+            try:
+                made = decide_study(project, whole, evidence=self._label, analysed=False, screened=screened)
+            except RgssError as error:
+                problem = str(error)
+        return live_study_document(project, measured, made, problem=problem, screened=screened)
+
+
+def _files_state(folder: Path) -> tuple[tuple[str, int, int], ...]:
+    """Name, size and time of change of the project's files."""
+    found = []
+    for name in FOLDERS:
+        for path in (folder / name).rglob("*"):
+            try:
+                state = path.stat()
+            except OSError:
+                continue
+            found.append((str(path), state.st_size, state.st_mtime_ns))
+    return tuple(sorted(found))
