@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.serving.application import application
+    from rgss.serving.application import study_application
     from rgss.serving.observer import StudyObserver
     from rgss.serving.server import listen, require_server, serve
 else:

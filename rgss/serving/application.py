@@ -23,7 +23,7 @@ _PAGE_POLICY = (
 )
 
 
-def application(observer: StudyObserver, page: str) -> Any:
+def study_application(observer: StudyObserver, page: str) -> Any:
     """The ASGI application.
 
     Args:

@@ -60,7 +60,7 @@ def serve(application: Any, listening: socket.socket, *, ready: Callable[[], Non
     Args:
         application: The ASGI application.
         listening: A socket that takes connections, which is closed in the end.
-        ready: Called when a signal ends the server in good order.
+        ready: Called once a signal would end the server in good order.
     """
     import uvicorn
 

@@ -16,7 +16,7 @@ from starlette.testclient import TestClient
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.reports.live import live_page_to_html
-from rgss.serving import StudyObserver, application, listen, require_server
+from rgss.serving import StudyObserver, listen, require_server, study_application
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.sweep.trial_keys import key_of
@@ -40,7 +40,7 @@ def observer(project):
 @pytest.fixture
 def client(observer, project):
     page = live_page_to_html(project.study.id)
-    return TestClient(application(observer, page), base_url="http://127.0.0.1")
+    return TestClient(study_application(observer, page), base_url="http://127.0.0.1")
 
 
 @pytest.fixture
