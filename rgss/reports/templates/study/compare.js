@@ -86,14 +86,14 @@ const startDistributions = () => {
     if (!found.length) return null;
     const names = [...new Set(found.map((row) => row.name))];
     const measures = effectiveness.filter((measure) => found.some((row) => row.measure === measure));
-    const each = 1 / measures.length, layout = { height: 60 + measures.length * (76 + 22 * (names.length - 1)), boxmode: "group", showlegend: names.length > 1, margin: { l: 90, r: 16, t: 48, b: 40 } };
+    const each = 1 / measures.length, layout = { height: 60 + measures.length * (92 + 22 * (names.length - 1)), boxmode: "group", showlegend: names.length > 1, margin: { l: 90, r: 16, t: 48, b: 40 } };
     const colourOf = (name) => (by.value === "stands" ? KINDS.find((one) => one.name === name).colour : PALETTE[names.indexOf(name) % PALETTE.length]);
     const traces = [];
     measures.forEach((measure, index) => {
       const number = index === 0 ? "" : String(index + 1), from = 1 - each * (index + 1);
       // Each measure has its own scale, with its name and its better end below it.
       layout[`xaxis${number}`] = { anchor: `y${number}`, title: { text: plotText(withBetter(measure)), standoff: 4, font: { size: 12 } }, automargin: false };
-      layout[`yaxis${number}`] = { anchor: `x${number}`, domain: [from + each * 0.42, from + each * 0.98], showticklabels: false, type: "category", automargin: false };
+      layout[`yaxis${number}`] = { anchor: `x${number}`, domain: [from + each * 0.5, from + each * 0.98], showticklabels: false, type: "category", automargin: false };
       for (const row of found.filter((one) => one.measure === measure)) {
         const few = row.places.length <= MOST_POINTS;
         traces.push({ type: "box", orientation: "h", x: row.places.map((place) => at(measure.value, place)), y: row.places.map(() => measure.id), xaxis: `x${number}`, yaxis: `y${number}`, name: plotText(row.name), legendgroup: row.name, showlegend: index === 0, offsetgroup: row.name, marker: { color: colourOf(row.name), size: 5, opacity: 0.7 }, boxpoints: few ? "all" : "outliers", jitter: 0.6, pointpos: 0, hoveron: "points+boxes", hovertext: row.places.map((place) => plotText(`variant ${variants.id[place]}: ${estimate(measure, place)}`)), hoverinfo: "text+x", meta: row.places.map((place) => variants.id[place]) });

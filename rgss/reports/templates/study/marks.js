@@ -34,3 +34,26 @@ const together = (measure, group) => {
   return show(low, measure.unit) === show(high, measure.unit) ? show(low, measure.unit) : `${show(low)} to ${show(high, measure.unit)}`;
 };
 const withBetter = (measure) => withUnit(measure.id, measure.unit) + ({ higher: ", higher is better", lower: ", lower is better" }[measure.better] ?? "");
+// How many variants a mark is, beside it where no other such number is; where there is no room, its hover alone tells.
+const countLabels = (groups, horizontal, vertical, size, host) => {
+  const span = (measure) => {
+    const values = groups.map(([place]) => at(measure.value, place));
+    const low = values.reduce((one, other) => Math.min(one, other), Infinity), high = values.reduce((one, other) => Math.max(one, other), -Infinity);
+    return [low, high - low || 1];
+  };
+  const [[left, width], [foot, height]] = [span(horizontal), span(vertical)];
+  // The marks lie within some nine tenths of the room between the margins.
+  const room = [0.9 * Math.max(100, host.clientWidth - 110), 0.85 * 220];
+  const taken = [], found = new Map();
+  for (const group of groups.filter((one) => one.length > 1).sort((one, other) => other.length - one.length)) {
+    const text = `×${group.length}`, wide = 7 * text.length + 6, tall = 16, gap = size(group) / 2 + 1;
+    const x = room[0] * (at(horizontal.value, group[0]) - left) / width, y = -room[1] * (at(vertical.value, group[0]) - foot) / height;
+    const [before, behind, above, below] = [x - gap - wide, x + gap, y - gap - tall, y + gap];
+    const places = [["top right", behind, above], ["bottom right", behind, below], ["top left", before, above], ["bottom left", before, below], ["middle right", behind, y - tall / 2]];
+    const free = places.find(([, from, top]) => taken.every(([one, other, w]) => from + wide <= one || one + w <= from || top + tall <= other || other + tall <= top));
+    if (!free) continue;
+    taken.push([free[1], free[2], wide]);
+    found.set(group, { text, position: free[0] });
+  }
+  return found;
+};

@@ -178,13 +178,15 @@ const startPareto = () => {
       traces.push({ type: "histogram2d", x: others.map((place) => at(horizontal.value, place)), y: others.map((place) => at(vertical.value, place)), nbinsx: 60, nbinsy: 40, colorscale: [[0, "rgba(138,138,138,0)"], [0.001, "#e3e6ea"], [1, "#4d5660"]], colorbar: { title: { text: "variants" } }, hovertemplate: "%{z} variants<extra></extra>" });
     }
     const groups = coinciding(dense ? places.filter((place) => kindOf[place] >= FRONT) : places, horizontal, vertical);
+    const size = (group) => markerOf(kindOf[group[0]]).size + 3 * Math.min(3, Math.log2(group.length));
+    const labels = countLabels(groups, horizontal, vertical, size, byId("pareto-plot"));
     for (const kind of [INFEASIBLE, FEASIBLE, FRONT, CHOSEN]) {
       const mine = groups.filter((group) => kindOf[group[0]] === kind);
       if (!mine.length) continue;
       const marker = markerOf(kind);
       traces.push({ x: mine.map(([place]) => at(horizontal.value, place)), y: mine.map(([place]) => at(vertical.value, place)), mode: "markers+text", name: KINDS[kind].name,
-        marker: { ...marker, size: mine.map((group) => marker.size + 3 * Math.min(3, Math.log2(group.length))) }, hoverinfo: "text", meta: mine.map(([place]) => variants.id[place]),
-        text: mine.map((group) => (group.length > 1 ? `×${group.length}` : "")), textposition: "top right", textfont: { size: 11 }, cliponaxis: false,
+        marker: { ...marker, opacity: 1, size: mine.map(size) }, hoverinfo: "text", meta: mine.map(([place]) => variants.id[place]),
+        text: mine.map((group) => labels.get(group)?.text ?? ""), textposition: mine.map((group) => labels.get(group)?.position ?? "top right"), textfont: { size: 11 }, cliponaxis: false,
         hovertext: mine.map((group) => namesOf(group) + `<br>${plotText(`${horizontal.id}: ${together(horizontal, group)}`)}<br>${plotText(`${vertical.id}: ${together(vertical, group)}`)}`) });
     }
     return { traces, layout: { xaxis: { title: { text: plotText(withBetter(horizontal)) } }, yaxis: { title: { text: plotText(withBetter(vertical)) } } } };
@@ -233,7 +235,8 @@ const startAcceptability = () => {
   plot("acceptability", () => {
     const bars = rows();
     if (!bars.length) return null;
-    return { traces: [{ type: "bar", x: bars.map((one) => String(one.variant)), y: bars.map((one) => one.first), error_y: { type: "data", array: bars.map((one) => 1.96 * one.error), thickness: 1 }, marker: { color: bars.map((one) => KINDS[kindOf[placeOf.get(one.variant)]].colour), pattern: { shape: bars.map((one) => (kindOf[placeOf.get(one.variant)] === INFEASIBLE ? "/" : "")), fillmode: "replace", bgcolor: "#8a8a8a", fgcolor: "#ffffff", size: 7, solidity: 0.15 } }, hoverinfo: "text", text: bars.map((one) => plotText(`variant ${one.variant}: first in ${percent(one.first)}`)), textposition: "none", meta: bars.map((one) => one.variant) }],
+    const ink = getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
+    return { traces: [{ type: "bar", x: bars.map((one) => String(one.variant)), y: bars.map((one) => one.first), error_y: { type: "data", symmetric: false, color: ink, thickness: 1, array: bars.map((one) => Math.min(1 - one.first, 1.96 * one.error)), arrayminus: bars.map((one) => Math.min(one.first, 1.96 * one.error)) }, marker: { color: bars.map((one) => KINDS[kindOf[placeOf.get(one.variant)]].colour), pattern: { shape: bars.map((one) => (kindOf[placeOf.get(one.variant)] === INFEASIBLE ? "/" : "")), fillmode: "replace", bgcolor: "#8a8a8a", fgcolor: "#ffffff", size: 7, solidity: 0.15 } }, hoverinfo: "text", text: bars.map((one) => plotText(`variant ${one.variant}: first in ${percent(one.first)}`)), textposition: "none", meta: bars.map((one) => one.variant) }],
       layout: { xaxis: { type: "category", title: { text: "variant" } }, yaxis: { title: { text: "share of draws" }, rangemode: "tozero", tickformat: ".0%" } } };
   });
   onShown(tableIn("acceptability-table", {

@@ -24,7 +24,9 @@ const startPlanning = () => {
   plot("planning", () => {
     const found = rows();
     if (!found.length) return null;
-    return { traces: found.map((row, index) => ({ x: [0, ...row.times, row.planner.longest_limit_s], y: [0, ...row.times.map((_, place) => ((place + 1) / row.times.length) * (row.solved / row.count)), row.solved / row.count], mode: "lines", name: plotText(row.planner.name), line: { shape: "hv", color: PALETTE[index % PALETTE.length], dash: DASHES[index % DASHES.length], width: 2.5 }, hovertemplate: "%{x:.3g} s: %{y:.0%}<extra>%{fullData.name}</extra>" })),
+    // The last search may end beyond the limit, by what its last check is charged; no curve turns back.
+    const end = found.reduce((most, row) => Math.max(most, row.planner.longest_limit_s, row.times[row.times.length - 1] ?? 0), 0);
+    return { traces: found.map((row, index) => ({ x: [0, ...row.times, end], y: [0, ...row.times.map((_, place) => ((place + 1) / row.times.length) * (row.solved / row.count)), row.solved / row.count], mode: "lines", name: plotText(row.planner.name), line: { shape: "hv", color: PALETTE[index % PALETTE.length], dash: DASHES[index % DASHES.length], width: 2.5 }, hovertemplate: "%{x:.3g} s: %{y:.0%}<extra>%{fullData.name}</extra>" })),
       layout: { xaxis: { title: { text: "planning time [s]" }, rangemode: "tozero" }, yaxis: { title: { text: "searches that had found a path" }, tickformat: ".0%", range: [0, 1.02] } } };
   });
   onShown(tableIn("planning-table", {
