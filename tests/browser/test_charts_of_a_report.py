@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import copy
+import csv
+import struct
 from dataclasses import replace
 from itertools import combinations
+from xml.etree import ElementTree as ET
 
 import pytest
 
+from rgss.decision.sensitivity import InputKind, RangeBasis, Tornado, TornadoBar, TornadoEnd
+from rgss.reports.decision.tornado_picture import tornado_svg
 from rgss.reports.study_page import study_report_to_html
+from tests.fixtures.processes import wait_until
 
 pytestmark = pytest.mark.browser
 
@@ -95,3 +101,63 @@ def test_pictures_of_failures_are_folded_until_a_link_leads_there(reader, study,
     reader.script("location.hash = ''; document.querySelector('#pictures .shots').open = false")
     reader.script("dispatchEvent(new Event('beforeprint'))")
     assert reader.script(folded) == [True]
+
+
+def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
+    def end(value, lead):
+        return TornadoEnd(value=value, lead=lead, feasible=True, winners=(1,), rival=2, flip=None, flip_winners=())
+
+    bar = TornadoBar(
+        id="weight.S",
+        kind=InputKind.WEIGHT,
+        unit="1",
+        base=0.2,
+        basis=RangeBasis.SHARE,
+        low=end(0.1, 0.05),
+        high=end(0.3, 0.2),
+        swing=0.15,
+        exact=True,
+    )
+    drawn = tornado_svg(Tornado(chosen=1, rival=2, lead=0.1, bars=(bar,), without_range=()))
+    row = {
+        "input": "weight.S",
+        "base": "0.2",
+        "ends": [{"value": value, "lead": lead, "wins": "variant 1", "flip": "–"} for value, lead in ENDS],
+        "range_is": "a share",
+    }
+    document = copy.deepcopy(study.document)
+    document["sensitivity"] = EMPTY | {
+        "tornado": {
+            "chosen": 1,
+            "rival": 2,
+            "lead": "0.1",
+            "rows": [row],
+            "ranges": "All are shares.",
+            "still": [],
+            "without_range": [],
+        }
+    }
+    file = tmp_path / "report.html"
+    file.write_text(study_report_to_html(document, study.trace, tornado=drawn), encoding="utf-8")
+    reader.open(file)
+    reader.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
+    files = {kind: tmp_path / f"{study.document['study']}-tornado.{kind.lower()}" for kind in ("PNG", "SVG", "CSV")}
+    for kind, path in files.items():
+        button = f"document.querySelector(\"button[aria-label='Save tornado as {kind}']\")"
+        reader.script(f"{button}.scrollIntoView({{block: 'center'}}); {button}.click()")
+        wait_until(lambda: path.exists() and path.stat().st_size > 0)  # noqa: B023 - waited for within the round
+
+    drawing = ET.fromstring(files["SVG"].read_text(encoding="utf-8"))  # noqa: S314 - of our own page
+    bars = drawing.findall("{http://www.w3.org/2000/svg}rect")
+    assert {one.get("fill") for one in bars} == {"rgb(213, 94, 0)", "rgb(0, 114, 178)"}
+    assert "weight.S" in "".join(drawing.itertext())
+    width, height = struct.unpack(">II", files["PNG"].read_bytes()[16:24])
+    assert [width, height] == [2 * int(drawing.get(one)) for one in ("width", "height")]
+    rows = list(csv.reader(files["CSV"].read_text(encoding="utf-8").splitlines()))
+    assert [len(one) for one in rows] == [11, 11]
+    assert rows[1][:4] == ["weight.S", "0.2", "0.1", "+0.05"]
+    assert reader.complaints() == []
+
+
+ENDS = (("0.1", "+0.05"), ("0.3", "+0.2"))
+EMPTY = {"bends": [], "kept": [], "beaten": [], "stakeholders": None, "not_computed": [], "meanings": []}

@@ -83,3 +83,22 @@ const svgPen = (width, height) => {
     text: () => `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${marks.join("")}</svg>`,
   };
 };
+
+// The tornado stands in the page as SVG; a file of it carries the colours that the page's style gives it.
+const startTornado = () => {
+  const host = byId("tornado"), drawn = host?.querySelector("svg"), table = byId("tornado-table");
+  if (!drawn || !table) return;
+  const heads = Array.from(table.tHead.rows[0].cells, (head) => head.textContent.trim());
+  specifications.set("tornado-table", { columns: heads.map((head, index) => ({ head, cell: (row) => row.cells[index].textContent.trim() })), rows: () => Array.from(table.tBodies[0].rows) });
+  downloadsFor(host, "tornado", { csv: true, svg: async () => {
+    const copy = drawn.cloneNode(true), { width, height } = drawn.viewBox.baseVal;
+    const parts = Array.from(drawn.querySelectorAll("*"));
+    Array.from(copy.querySelectorAll("*")).forEach((one, index) => {
+      const look = getComputedStyle(parts[index]);
+      for (const name of ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-family"]) one.setAttribute(name, look.getPropertyValue(name));
+    });
+    copy.setAttribute("width", width);
+    copy.setAttribute("height", height);
+    return [svgAddress(new XMLSerializer().serializeToString(copy)), width, height];
+  } });
+};

@@ -11,6 +11,7 @@ onShown(tableIn("parallel-table", {
 startMeasures();
 startPareto();
 startDistributions();
+startTornado();
 startWeights();
 startAcceptability();
 startEffects();
