@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from rgss.api.argument_terms import SpeaksOfArguments
 from rgss.api.study import Study
 from rgss.api.trial import Drawing
 from rgss.errors import DefinitionError
@@ -13,6 +14,7 @@ STUDY_SUFFIXES = (".yaml", ".yml")
 """Endings of a study file, by which it is distinguished from a project's folder."""
 
 
+@SpeaksOfArguments()
 def load(
     folder: Path | None, study: str | None, *, fidelity: str | None, replicates: int | None, drawing: Drawing
 ) -> Study:

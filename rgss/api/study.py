@@ -10,6 +10,7 @@ from functools import cached_property
 from numbers import Integral
 from typing import TYPE_CHECKING
 
+from rgss.api.argument_terms import SpeaksOfArguments
 from rgss.api.assumptions import assumptions_frame, scenario_measures
 from rgss.api.column import Column, Kind
 from rgss.api.columns import FRAMES
@@ -166,6 +167,7 @@ class Study:
         """The feasible variants and the Pareto front; as of `trade`."""
         return self._trade.pareto
 
+    @SpeaksOfArguments()
     def trade(self, what_if: WhatIf = (), *, run: bool = False, jobs: int | None = None) -> Trade:
         """The trade-off, as it is or under suppositions.
 
@@ -188,6 +190,7 @@ class Study:
         measured = scenario_measures(self.project, scenario, self._measured, run=run, jobs=jobs)
         return Trade(project=scenario.project, measured=measured, scenario=scenario)
 
+    @SpeaksOfArguments()
     def assumptions(self) -> pd.DataFrame:
         """The choice under each alternative of each modelling assumption, as far as the evidence shows.
 
@@ -209,6 +212,7 @@ class Study:
         """Effects of the uncertain inputs on the lead of the choice; as of `trade`."""
         return self._trade.tornado()
 
+    @SpeaksOfArguments()
     def portfolio(self) -> pd.DataFrame:
         """The designs that together serve the studies of the portfolio best, by each study's own evidence.
 
@@ -235,6 +239,7 @@ class Study:
         name, *others = (Column(name=name, meaning="", kind=Kind.TEXT) for name in ("column", "unit", "meaning"))
         return frame_of([name], others, rows)
 
+    @SpeaksOfArguments()
     def sweep(
         self,
         only: Sequence[str | int] | str | int = (),
@@ -272,6 +277,7 @@ class Study:
         )
         return replace(self)
 
+    @SpeaksOfArguments()
     def trial(
         self, variant: int, seed: int | None = None, *, fidelity: str | None = None, rate_hz: float | None = None
     ) -> Trial:
@@ -289,6 +295,7 @@ class Study:
         """
         return run_one(self.project, self._drawing, variant, seed, fidelity=fidelity, rate_hz=rate_hz)
 
+    @SpeaksOfArguments()
     def payload(
         self, variant: int, *, friction: float | None = None, finger_force_n: float | None = None
     ) -> PayloadResult:
@@ -313,6 +320,7 @@ class Study:
         return self.project.designs.expand()
 
     @cached_property
+    @SpeaksOfArguments()
     def _read(self) -> tuple[tuple[VariantMeasures, ...], ScreeningResult | None]:
         project = self.project
         if not project.evidence.exists():

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from rgss.api.argument_terms import SpeaksOfArguments
 from rgss.api.html_views import decision_view
 from rgss.api.plots import Plots, require_matplotlib
 from rgss.api.sensitivity_frames import stakeholders_frame, tornado_frame, worth_keeping_frame
@@ -73,11 +74,13 @@ class Trade:
         )
 
     @cached_property
+    @SpeaksOfArguments()
     def decision(self) -> Decision:
         """Decision: chosen, runner-up, ties, ranking, what is infeasible and why, certificate."""
         return choose(self.project, self.measured)
 
     @cached_property
+    @SpeaksOfArguments()
     def enumeration(self) -> Enumeration:
         """Every variant with its value and what it violates."""
         return enumerate_alternatives(trade_problem(self.project, self.measured))
@@ -88,6 +91,7 @@ class Trade:
         return ranking_frame(self.decision)
 
     @property
+    @SpeaksOfArguments()
     def pareto(self) -> pd.DataFrame:
         """The feasible variants, and whether another is at least as good in all weighted measures."""
         return pareto_frame(trade_problem(self.project, self.measured), self.enumeration)
@@ -134,10 +138,12 @@ class Trade:
         return decision_to_json(self.decision)
 
     @cached_property
+    @SpeaksOfArguments()
     def _sensitivity(self) -> Sensitivity:
         problem = trade_problem(self.project, self.measured)
         return analyse_sensitivity(self.project, self.measured, self.decision, self._robustness, problem=problem)
 
     @cached_property
+    @SpeaksOfArguments()
     def _robustness(self) -> Robustness:
         return analyse_robustness(self.project, self.measured, self.decision)

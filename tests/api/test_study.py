@@ -166,7 +166,7 @@ def test_a_part_of_the_evidence_gives_no_decision(empty):
     assert study.measures.loc[(4, "t_e"), "n"] == 2
     assert study.measures.loc[(1, "t_e"), "n"] == 0
     assert set(read_record(empty).of_study(study_key("studies/pick_place.yaml", "kinematic"))["SYS-005"]) == {4, 8}
-    with pytest.raises(EvidenceError, match=r"12 of 16 trials have no evidence.*run 'rgss sweep' first"):
+    with pytest.raises(EvidenceError, match=r"12 of 16 trials have no evidence.*call sweep\(\) first"):
         _ = study.decision
 
 
@@ -258,8 +258,8 @@ def test_a_script_that_sweeps_with_processes(empty, guarded, said):
             "jobs must be at least 0, got -1 (0 runs all trials in one child process)",
         ),
         (lambda study: study.sweep("d8=PRM", jobs=0), "only: "),
-        (lambda study: study.trade({"weight.x": 1}), "--what-if: unknown input 'weight.x'"),
-        (lambda study: study.trade("weight.t_e"), "--what-if: supposition must be NAME=VALUE, got 'weight.t_e'"),
+        (lambda study: study.trade({"weight.x": 1}), "what_if: unknown input 'weight.x'"),
+        (lambda study: study.trade("weight.t_e"), "what_if: supposition must be NAME=VALUE, got 'weight.t_e'"),
         (lambda study: study.trial(99), "unknown variant 99"),
         (lambda study: study.trial(1, -1), "seed -1 is out of range (give a seed from 0 to 2147483647)"),
         (lambda study: study.trial(1.5), "variant must be a whole number, got 1.5 (give an id and a seed)"),
