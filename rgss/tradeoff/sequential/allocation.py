@@ -61,7 +61,7 @@ def likely_better(
     return tuple(members)
 
 
-def leaders(evidence: SequentialEvidence, progress: Progress, finalists: int) -> tuple[int, ...]:
+def leaders(evidence: SequentialEvidence, progress: Progress, finalists: int, *, cap: int) -> tuple[int, ...]:
     """The alternatives that a budget is spent on: those that would be chosen, then those that may come to be.
 
     The first are those of the highest value among the feasible by the estimates, equals together: an
@@ -71,11 +71,14 @@ def leaders(evidence: SequentialEvidence, progress: Progress, finalists: int) ->
     (`SequentialEvidence.hopes`), an upper confidence bound as in Auer, Cesa-Bianchi and Fischer ("Finite-time analysis
     of the multiarmed bandit problem", 2002): an unlucky pilot eliminates no alternative. All are brought to the same
     number of replicates, and so to the same seeds, on which alternatives that differ in few trials are separated.
+    Who has as many replicates as are allowed gives up its place: otherwise the first ones hold all places to the end,
+    and an alternative whose few replicates were unlucky gets no more of them however much budget is left.
 
     Args:
         evidence: The evidence so far.
         progress: Results of earlier looks: an alternative that is proven to be infeasible does not lead.
-        finalists: So many lead, and all that are equal to the first.
+        finalists: So many with less than the most replicates lead, and all that are equal to the first.
+        cap: Most replicates of an alternative.
 
     Returns:
         Their ids, the first one leading.
@@ -93,7 +96,13 @@ def leaders(evidence: SequentialEvidence, progress: Progress, finalists: int) ->
     others = sorted(
         (row for row in possible if row not in first), key=lambda row: (hopes.shortfalls[row], -values[row], row)
     )
-    leading = [*first, *others[: max(0, finalists - len(first))]]
+    hold = (evidence.replicates < cap).tolist()
+    leading, places = first, finalists - sum(hold[row] for row in first)
+    for row in others:
+        if places <= 0:
+            break
+        leading.append(row)
+        places -= hold[row]
     return tuple(int(evidence.table.variants[row]) for row in leading)
 
 

@@ -108,7 +108,7 @@ def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
     accepted = chosen is not None and is_accepted(evidence, rule, progress, chosen)
     decided = (accepted and not open_pairs) or not any(progress.dropped.get(each) != INFEASIBLE for each in ids)
     if rule.budget is not None and rule.finalists is not None and not decided:
-        leading = leaders(evidence, progress, rule.finalists)
+        leading = leaders(evidence, progress, rule.finalists, cap=rule.cap)
         wanted, affordable = dict.fromkeys(leading, rule.cap), levelled(evidence, rule, leading)
     elif rule.budget is not None and not decided:
         members = likely_better(evidence, rule, chosen, open_pairs, seed=progress.looks)
