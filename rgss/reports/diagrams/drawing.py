@@ -7,13 +7,16 @@ from dataclasses import dataclass, replace
 
 from rgss.reports.diagrams.canvas import Canvas, Point
 from rgss.reports.diagrams.graph import Edge, Graph
-from rgss.reports.diagrams.labels import Box, frame_lines, place_labels
-from rgss.reports.diagrams.layout import Layout, Size, label_size, layout
-from rgss.reports.diagrams.nodes import content_of, draw_node
+from rgss.reports.diagrams.labels import Box, frame_lines, place_labels, place_titles, with_stubs
+from rgss.reports.diagrams.layout import Layout, label_size, layout
+from rgss.reports.diagrams.nodes import Content, content_of, draw_node
 from rgss.reports.diagrams.style import FONT, SMALL
+from rgss.reports.diagrams.text import text_width, wrapped
 
 _SPACINGS = (1.0, 1.4, 2.0, 3.0)
 """Distances between nodes that are tried, as multiples of the usual ones."""
+_NARROW = 110.0
+"""Width in pixels of the lines of labels that find no free place otherwise."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,13 +70,13 @@ def draw_graph(graph: Graph, *, name: str, title: str, description: str, text_al
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
     """
-    contents = {node.id: content_of(node, graph.node_width) for node in graph.nodes}
-    placed = _free_labels(graph, {name: (content.width, content.height) for name, content in contents.items()})
+    contents = {node.id: content_of(node, graph.node_width, rightwards=graph.rightwards) for node in graph.nodes}
+    graph, placed = _free_labels(graph, contents)
     canvas = Canvas()
     for cluster in graph.clusters:
         frame = placed.frames[cluster.id]
         canvas.rectangle(frame.x, frame.y, frame.width, frame.height, "shape open", rounding=4)
-        canvas.text(frame.x + frame.width / 2, frame.y + 1.6 * FONT, cluster.title, "name", anchor="middle")
+        canvas.text(placed.titles[cluster.id], frame.y + 1.6 * FONT, cluster.title, "name", anchor="middle")
     for index, edge in enumerate(graph.edges):
         _draw_edge(canvas, edge, placed.curves[index])
     for node in graph.nodes:
@@ -93,25 +96,47 @@ def draw_graph(graph: Graph, *, name: str, title: str, description: str, text_al
     )
 
 
-def _free_labels(graph: Graph, sizes: Mapping[str, Size]) -> Layout:
-    """The tightest layout whose labels nothing crosses; the widest one if there is none."""
-    for spacing in _SPACINGS:
-        placed = layout(graph, sizes, spacing=spacing)
-        frames = {
-            name: Box(left=frame.x, top=frame.y, right=frame.x + frame.width, bottom=frame.y + frame.height)
-            for name, frame in placed.frames.items()
-        }
-        labels, all_free = place_labels(
-            placed.curves,
-            placed.labels,
-            [label_size(edge) for edge in graph.edges],
-            [Box.about(placed.nodes[node.id], sizes[node.id]) for node in graph.nodes],
-            frame_lines(frames),
-        )
-        placed = replace(placed, labels=labels)
-        if all_free:
-            break
-    return placed
+def _free_labels(graph: Graph, contents: Mapping[str, Content]) -> tuple[Graph, Layout]:
+    """The tightest layout whose labels nothing crosses, with their labels as they are or broken; else the widest."""
+    for tried in (graph, _with_narrow_labels(graph)):
+        for spacing in _SPACINGS:
+            placed, all_free = _laid_out(tried, contents, spacing)
+            if all_free:
+                return tried, placed
+    return tried, placed
+
+
+def _with_narrow_labels(graph: Graph) -> Graph:
+    edges = (
+        replace(edge, labels=tuple(line for label in edge.labels for line in wrapped(label, _NARROW, SMALL)))
+        for edge in graph.edges
+    )
+    return replace(graph, edges=tuple(edges))
+
+
+def _laid_out(graph: Graph, contents: Mapping[str, Content], spacing: float) -> tuple[Layout, bool]:
+    """A layout, and whether every label and title of it is free."""
+    sizes = {name: (content.width, content.height) for name, content in contents.items()}
+    placed = layout(graph, sizes, spacing=spacing)
+    curves = tuple(
+        with_stubs(curve, contents[edge.source].stub, contents[edge.target].stub, rightwards=graph.rightwards)
+        for edge, curve in zip(graph.edges, placed.curves, strict=True)
+    )
+    frames = {
+        name: Box(left=frame.x, top=frame.y, right=frame.x + frame.width, bottom=frame.y + frame.height)
+        for name, frame in placed.frames.items()
+    }
+    widths = {cluster.id: text_width(cluster.title, FONT, bold=True) for cluster in graph.clusters}
+    titles, titles_free = place_titles(frames, widths, 2 * FONT, curves)
+    labels, all_free = place_labels(
+        curves,
+        placed.labels,
+        [label_size(edge) for edge in graph.edges],
+        [*(Box.about(placed.nodes[node.id], sizes[node.id]) for node in graph.nodes), *titles.values()],
+        frame_lines(frames),
+    )
+    middles = {name: (title.left + title.right) / 2 for name, title in titles.items()}
+    return replace(placed, labels=labels, curves=curves, titles=middles), all_free and titles_free
 
 
 def _draw_edge(canvas: Canvas, edge: Edge, points: tuple[Point, ...]) -> None:

@@ -123,6 +123,59 @@ def place_labels(
     return tuple(centres.get(index) for index in range(len(wanted))), all_free
 
 
+def with_stubs(curve: Sequence[Point], first: float, last: float, *, rightwards: bool) -> tuple[Point, ...]:
+    """A curve with straight pieces at its ends, from the border of a node to the symbol within it.
+
+    Args:
+        curve: The points of its Bézier curves.
+        first: Length of the piece before it, in pixels; 0 for none.
+        last: Length of the piece behind it.
+        rightwards: The pieces lead to the right; otherwise downwards.
+    """
+    across, down = (1.0, 0.0) if rightwards else (0.0, 1.0)
+    points = list(curve)
+    if first:
+        x, y = points[0]
+        points[:0] = [(x - across * first * part, y - down * first * part) for part in (1.0, 2 / 3, 1 / 3)]
+    if last:
+        x, y = points[-1]
+        points += [(x + across * last * part, y + down * last * part) for part in (1 / 3, 2 / 3, 1.0)]
+    return tuple(points)
+
+
+def place_titles(
+    frames: Mapping[str, Box], widths: Mapping[str, float], height: float, curves: Sequence[Sequence[Point]]
+) -> tuple[dict[str, Box], bool]:
+    """Place the title of each frame along its upper edge, where no edge crosses it.
+
+    Args:
+        frames: The frames.
+        widths: Width of each title, in pixels.
+        height: Height of the strip below the upper edge that titles stand in.
+        curves: The points of each edge.
+
+    Returns:
+        The boxes of the titles, nearest to the middle of the frame, and whether every title is free.
+    """
+    strokes = [segment for curve in curves for segment in pairwise(flattened(curve))]
+    placed, all_free = {}, True
+    for name, frame in frames.items():
+        room = max(frame.right - frame.left - widths[name] - 2 * _CLEARANCE, 0.0)
+        places = (
+            Box.about(
+                ((frame.left + frame.right) / 2 + room * share, frame.top + height / 2),
+                (widths[name] + _CLEARANCE, height - _CLEARANCE),
+            )
+            for share in sorted((step / _PLACES - 0.5 for step in range(_PLACES + 1)), key=abs)
+        )
+        boxes = list(places)
+        free = (box for box in boxes if not any(box.is_crossed_by(stroke) for stroke in strokes))
+        found = next(free, None)
+        all_free &= found is not None
+        placed[name] = boxes[0] if found is None else found
+    return placed, all_free
+
+
 def frame_lines(frames: Mapping[str, Box]) -> list[Segment]:
     """The outlines of frames."""
     lines: list[Segment] = []

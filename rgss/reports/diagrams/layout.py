@@ -8,12 +8,12 @@ same release of Graphviz, which the package pygraphviz carries.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from rgss.errors import DefinitionError
 from rgss.reports.diagrams.canvas import Point
-from rgss.reports.diagrams.graph import Edge, Graph, Node, Shape
+from rgss.reports.diagrams.graph import Edge, Graph, Shape
 from rgss.reports.diagrams.style import FONT, LINE, SMALL
 from rgss.reports.diagrams.text import text_width
 
@@ -47,6 +47,7 @@ class Layout:
         curves: For each edge, the points of its Bézier curves from source to target.
         labels: For each edge, the centre of its labels; None without one.
         frames: Where each cluster is, by its id.
+        titles: The middle of each cluster's title, by its id.
     """
 
     width: float
@@ -55,6 +56,7 @@ class Layout:
     curves: tuple[tuple[Point, ...], ...]
     labels: tuple[Point | None, ...]
     frames: Mapping[str, Frame]
+    titles: Mapping[str, float] = field(default_factory=dict)
 
 
 def require_graphviz() -> None:
@@ -109,8 +111,7 @@ def layout(graph: Graph, sizes: Mapping[str, Size], *, spacing: float = 1.0) -> 
         within = [names[node.id] for node in graph.nodes if node.cluster == cluster.id]
         title = _blank(text_width(cluster.title, FONT, bold=True) + 16, LINE * FONT + 4)
         drawn.add_subgraph(within, name=f"cluster_{index}", label=title, margin="14")
-    nodes = {node.id: node for node in graph.nodes}
-    edges = [_add_edge(drawn, names, nodes, edge, index) for index, edge in enumerate(graph.edges)]
+    edges = [_add_edge(drawn, names, graph, index) for index in range(len(graph.edges))]
     drawn.layout(prog="dot")
     return _read(drawn, graph, names, edges)
 
@@ -121,14 +122,17 @@ def label_size(edge: Edge) -> Size:
     return width + 6, LINE * SMALL * len(edge.labels) + 2
 
 
-def _add_edge(drawn: Any, names: Mapping[str, str], nodes: Mapping[str, Node], edge: Edge, index: int) -> Any:
+def _add_edge(drawn: Any, names: Mapping[str, str], graph: Graph, index: int) -> Any:
+    edge, rightwards = graph.edges[index], graph.rightwards
+    nodes = {node.id: node for node in graph.nodes}
     source, target = names[edge.source], names[edge.target]
     attributes = {"label": _blank(*label_size(edge))} if edge.labels else {}
     first, last = nodes[edge.source], nodes[edge.target]
-    if first.name and first.shape is Shape.INITIAL:
-        attributes["tailport"] = "s"
-    if last.name and last.shape is Shape.FINAL:
-        attributes["headport"] = "n"
+    # The text beside a small shape leaves two sides of it free.
+    if first.name and first.shape in (Shape.INITIAL, Shape.BAR):
+        attributes["headport" if edge.backwards else "tailport"] = "e" if rightwards else "s"
+    if last.name and last.shape in (Shape.FINAL, Shape.BAR):
+        attributes["tailport" if edge.backwards else "headport"] = "w" if rightwards else "n"
     if edge.straight:
         attributes["weight"] = "20"
     if edge.backwards:

@@ -29,6 +29,8 @@ class Content:
         width: Width of the node, in pixels.
         height: Height of the node, in pixels.
         beside: Lines that stand beside the node, for they have no room in it.
+        rightwards: Edges come from the left and leave to the right; otherwise from above and downwards.
+        stub: Distance of the symbol of a small shape from the border where edges arrive and leave.
     """
 
     stereotype: tuple[str, ...]
@@ -37,19 +39,20 @@ class Content:
     width: float
     height: float
     beside: tuple[str, ...] = ()
+    rightwards: bool = False
+    stub: float = 0.0
 
 
-def content_of(node: Node, line_width: float) -> Content:
+def content_of(node: Node, line_width: float, *, rightwards: bool = False) -> Content:
     """Break the texts of a node into lines, and measure it.
 
     Args:
         node: The node.
         line_width: The greatest width of a line, in pixels.
+        rightwards: Whether the edges of its diagram lead to the right.
     """
     if node.shape in _SMALL_SHAPES:
-        beside = tuple(line for text in (node.name, *node.texts) for line in wrapped(text, line_width, SMALL))
-        width, height = _with_beside(node.shape, beside)
-        return Content(stereotype=(), name=(), texts=(), width=width, height=height, beside=beside)
+        return _small_content(node, line_width, rightwards=rightwards)
     stereotype = (f"«{node.stereotype}»",) if node.stereotype else ()
     name = wrapped(node.name, line_width, FONT, bold=True)
     texts = tuple(wrapped(text, line_width, SMALL) for text in node.texts)
@@ -88,31 +91,47 @@ def draw_node(canvas: Canvas, node: Node, content: Content, centre: Point) -> No
         _write(canvas, content, x, left, top, height, node.shape)
 
 
-def _with_beside(shape: Shape, lines: tuple[str, ...]) -> tuple[float, float]:
-    """The size of a small shape with its text: above an initial node, below a final one, right of a bar.
+def _small_content(node: Node, line_width: float, *, rightwards: bool) -> Content:
+    """A small shape with its text on a side where no edge comes or goes.
 
-    That is where no edge comes or goes. A bar has the same room on its left, so that it stays in the middle.
+    It is above an initial node, below a final one, and right of a bar or, where edges lead to the
+    right, below it. The opposite side has the same room where edges would else miss the symbol's middle.
     """
-    text = max((text_width(line, SMALL) for line in lines), default=0.0)
-    height = LINE * SMALL * len(lines)
-    if shape is Shape.BAR:
-        return _BAR[0] + (2 * (text + 6) if lines else 0), max(_BAR[1], height)
-    return max(_DOT, text), _DOT + (height + _AWAY if lines else 0)
+    beside = tuple(line for text in (node.name, *node.texts) for line in wrapped(text, line_width, SMALL))
+    text = max((text_width(line, SMALL) for line in beside), default=0.0)
+    room = LINE * SMALL * len(beside) + _AWAY if beside else 0.0
+    if node.shape is Shape.BAR and rightwards:
+        width, height = max(_BAR[1], text), _BAR[0] + 2 * room
+        stub = (width - _BAR[1]) / 2
+    elif node.shape is Shape.BAR:
+        width, height = _BAR[0] + (2 * (text + 6) if beside else 0), max(_BAR[1], LINE * SMALL * len(beside))
+        stub = (height - _BAR[1]) / 2
+    else:
+        width, height = max(_DOT, text), _DOT + (2 * room if rightwards else room)
+        stub = (width - _DOT) / 2 if rightwards else 0.0
+    return Content(
+        stereotype=(), name=(), texts=(), width=width, height=height, beside=beside, rightwards=rightwards, stub=stub
+    )
 
 
 def _draw_small(canvas: Canvas, shape: Shape, content: Content, centre: Point) -> None:
     x, y = centre
     top, bottom = y - content.height / 2, y + content.height / 2
-    if shape is Shape.BAR:
+    if shape is Shape.BAR and content.rightwards:
+        canvas.rectangle(x - _BAR[1] / 2, y - _BAR[0] / 2, _BAR[1], _BAR[0], "solid")
+        canvas.lines(x, y + _BAR[0] / 2 + _AWAY, content.beside, SMALL, "", anchor="middle")
+    elif shape is Shape.BAR:
         canvas.rectangle(x - _BAR[0] / 2, y - _BAR[1] / 2, *_BAR, "solid")
         canvas.lines(x + _BAR[0] / 2 + 6, top, content.beside, SMALL, "", anchor="start")
     elif shape is Shape.INITIAL:
         canvas.lines(x, top, content.beside, SMALL, "", anchor="middle")
-        canvas.ellipse(x, bottom - _DOT / 2, _DOT, _DOT, "solid")
+        middle = y if content.rightwards else bottom - _DOT / 2
+        canvas.ellipse(x, middle, _DOT, _DOT, "solid")
     else:
-        canvas.ellipse(x, top + _DOT / 2, _DOT, _DOT, "hollow")
-        canvas.ellipse(x, top + _DOT / 2, _DOT * 0.55, _DOT * 0.55, "solid")
-        canvas.lines(x, top + _DOT + _AWAY, content.beside, SMALL, "", anchor="middle")
+        middle = y if content.rightwards else top + _DOT / 2
+        canvas.ellipse(x, middle, _DOT, _DOT, "hollow")
+        canvas.ellipse(x, middle, _DOT * 0.55, _DOT * 0.55, "solid")
+        canvas.lines(x, middle + _DOT / 2 + _AWAY, content.beside, SMALL, "", anchor="middle")
 
 
 def _outer(shape: Shape, inner: float, height: float) -> tuple[float, float]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import random
+from dataclasses import replace
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import pytest
 
@@ -14,7 +16,7 @@ from rgss.reports.diagrams.sequence import sequence_diagram
 from rgss.reports.diagrams.style import STYLE
 from rgss.requirements import Behaviour, BehaviourKind, load_requirements
 from rgss.requirements.behaviour import Interaction, Message, TimingConstraint
-from tests.fixtures.diagram_geometry import crossings, font_sizes, text_boxes
+from tests.fixtures.diagram_geometry import SVG, crossings, font_sizes, text_boxes
 
 ROOT = Path(__file__).parents[3]
 LEAST_SIZE = 12.0
@@ -82,6 +84,42 @@ def test_no_text_of_a_generated_graph_is_crossed(seed):
         assert box.bottom <= drawing.height
 
 
+@pytest.mark.parametrize("seed", [*range(12), 24, 52])
+def test_no_text_of_a_generated_flow_is_crossed(seed):
+    """The same graphs with initial nodes, final nodes and bars, of which most have a text."""
+    chosen = random.Random(seed)  # noqa: S311 - a made model
+    count = chosen.choice((3, 6, 10, 16, 22, 30))
+    graph = with_small_shapes(made_graph(chosen, count, rightwards=seed % 2 == 0, framed=seed % 3 == 0), chosen)
+    drawing = draw_graph(graph, name="made", title="Made", description="")
+
+    assert {Shape.INITIAL, Shape.FINAL} & {node.shape for node in graph.nodes}
+    assert crossings(drawing.to_svg(), STYLE) == []
+
+
+@pytest.mark.parametrize("rightwards", [False, True])
+def test_edges_reach_the_symbol_beside_its_text(rightwards):
+    """Not only the border of the room that symbol and text take together."""
+    shapes = {"a": Shape.INITIAL, "b": Shape.BAR, "c": Shape.FINAL}
+    nodes = tuple(Node(id=name, shape=shape, name=some_words(random.Random(3), 9)) for name, shape in shapes.items())  # noqa: S311 - a made model
+    edges = (Edge(source="a", target="b", head=""), Edge(source="b", target="c", head=""))
+    graph = Graph(nodes=nodes, edges=edges, rightwards=rightwards, node_width=90.0)
+    svg = draw_graph(graph, name="made", title="Made", description="").to_svg()
+
+    root = ET.fromstring(svg)  # noqa: S314 - our own
+    (bar,) = (box for box in root.iter(f"{SVG}rect") if box.get("class") == "solid")
+    left, top, width, height = (float(bar.get(key)) for key in ("x", "y", "width", "height"))
+    first, second = (path.get("d") for path in root.iter(f"{SVG}path"))
+    arrival = [float(number) for number in first.replace("C", " ").split()[-2:]]
+    departure = [float(number) for number in second.removeprefix("M").replace("C", " ").split()[:2]]
+    near, far = (
+        ((left, top + height / 2), (left + width, top + height / 2))
+        if rightwards
+        else ((left + width / 2, top), (left + width / 2, top + height))
+    )
+    assert arrival == pytest.approx(near, abs=0.3)
+    assert departure == pytest.approx(far, abs=0.3)
+
+
 @pytest.mark.parametrize("seed", range(24))
 def test_no_text_of_a_generated_sequence_is_crossed(seed):
     chosen = random.Random(seed)  # noqa: S311 - a made model
@@ -146,3 +184,20 @@ def made_graph(chosen: random.Random, count: int, *, rightwards: bool, framed: b
     ]
     clusters = (Cluster(id="c", title="System of interest"),) if framed else ()
     return Graph(nodes=tuple(nodes), edges=tuple(edges), clusters=clusters, rightwards=rightwards)
+
+
+def with_small_shapes(graph: Graph, chosen: random.Random) -> Graph:
+    """The graph with its sources as initial nodes, its sinks as final ones, and bars between them."""
+    reached, left = {edge.target for edge in graph.edges}, {edge.source for edge in graph.edges}
+    nodes = []
+    for node in graph.nodes:
+        shape = Shape.BAR if chosen.random() < 0.35 else node.shape
+        shape = Shape.INITIAL if node.id not in reached else Shape.FINAL if node.id not in left else shape
+        small = shape in (Shape.INITIAL, Shape.FINAL, Shape.BAR)
+        name = "" if small and chosen.random() < 0.2 else node.name
+        nodes.append(replace(node, shape=shape, name=name, texts=() if small else node.texts))
+    small_ones = {node.id for node in nodes if node.shape in (Shape.INITIAL, Shape.FINAL, Shape.BAR)}
+    edges = (
+        replace(edge, backwards=edge.backwards and not {edge.source, edge.target} & small_ones) for edge in graph.edges
+    )
+    return replace(graph, nodes=tuple(nodes), edges=tuple(edges))
