@@ -43,6 +43,9 @@ class Relations:
             elif link.kind is LinkKind.TRACE:
                 yield f"dependency {name(f'trace {link.source} {link.target}')} from {source} to {target};"
         for behaviour in self._requirements.architecture.behaviours:
+            for node in () if behaviour.flow is None else behaviour.flow.nodes:
+                if node.performer is not None:
+                    yield f"allocate {reference(behaviour.id)}.{name(node.id)} to {self._name(node.performer)};"
             if behaviour.kind is not BehaviourKind.USE_CASE:
                 for other in behaviour.includes:
                     head = f"dependency {name(f'include {behaviour.id} {other}')}"

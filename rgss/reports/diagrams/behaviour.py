@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 from rgss.reports.diagrams.drawing import Drawing, draw_graph
+from rgss.reports.diagrams.frame import Heading
 from rgss.reports.diagrams.graph import Cluster, Edge, Graph, Node, Shape
 from rgss.requirements import Behaviour, BehaviourKind, Block
-from rgss.requirements.behaviour import FlowNode, FlowNodeKind, State, StateKind, StateMachine
+from rgss.requirements.behaviour import Flow, FlowNode, FlowNodeKind, State, StateKind, StateMachine
 
 _SYSTEM = "system"
 _LONGEST_LABEL = 4
@@ -61,6 +63,7 @@ def use_case_diagram(behaviours: Iterable[Behaviour], blocks: Iterable[Block]) -
             rightwards=True,
             node_width=150.0,
         ),
+        heading=Heading(kind="uc", element="Package", subject="Use cases"),
         name="use-cases",
         title="Use-case diagram",
         description=f"{len(cases)} use cases and {len(actors)} actors.",
@@ -70,11 +73,14 @@ def use_case_diagram(behaviours: Iterable[Behaviour], blocks: Iterable[Block]) -
     )
 
 
-def activity_diagram(activity: Behaviour) -> Drawing | None:
+def activity_diagram(activity: Behaviour, names: Mapping[str, str]) -> Drawing | None:
     """Draw what an activity does and in which order; None while its flow is open.
+
+    Each performer of its actions has a lane.
 
     Args:
         activity: The activity.
+        names: The name of each block by its id.
 
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
@@ -91,13 +97,66 @@ def activity_diagram(activity: Behaviour) -> Drawing | None:
         )
         for edge in flow.edges
     )
+    performers = lanes_of(flow)
+    lanes = tuple(Cluster(id=name, title=names.get(name, name)) for name in dict.fromkeys(performers.values()))
+    nodes = tuple(replace(_flow_node(node), cluster=performers.get(node.id, "")) for node in flow.nodes)
     return draw_graph(
-        Graph(nodes=tuple(map(_flow_node, flow.nodes)), edges=edges, node_width=230.0),
+        Graph(nodes=nodes, edges=edges, lanes=lanes, node_width=190.0 if lanes else 230.0),
+        heading=Heading(kind="act", element="Activity", subject=activity.name),
         name=f"activity-{activity.id}",
         title=f"Activity diagram: {activity.name}",
         description=f"{activity.id}: {activity.text}",
-        text_alternative=_describe(edges, {node.id: node.text or node.kind.value for node in flow.nodes}),
+        text_alternative=" ".join(
+            [
+                _describe(edges, {node.id: node.text or node.kind.value for node in flow.nodes}),
+                *(f"{names.get(performer, performer)} performs: {node.text}" for node, performer in _performed(flow)),
+            ]
+        ),
     )
+
+
+def lanes_of(flow: Flow) -> dict[str, str]:
+    """The performer in whose lane each node of a flow stands, by the node's id; empty without performers.
+
+    A node that nobody performs stands with what is before it, such as a decision with the action
+    whose outcome it looks at; a merge, and what is before the first action, with what it leads to.
+    """
+    lanes = {node.id: performer for node, performer in _performed(flow)}
+    if not lanes:
+        return {}
+    *start, action = _to_the_first_action(flow, lanes)
+    lanes |= dict.fromkeys(start, lanes[action])
+    merges = {node.id for node in flow.nodes if node.kind is FlowNodeKind.MERGE}
+    while len(lanes) < len(flow.nodes):
+        before = len(lanes)
+        for edge in flow.edges:
+            source, target = edge.source, edge.target
+            if target not in lanes and source in lanes and target not in merges:
+                lanes[target] = lanes[source]
+            if source not in lanes and target in lanes and source in merges:
+                lanes[source] = lanes[target]
+        if len(lanes) == before:
+            # A merge that leads to no action stands with the last that leads to it.
+            ways = [edge for edge in flow.edges if edge.source in lanes and edge.target not in lanes]
+            lanes[ways[-1].target] = lanes[ways[-1].source]
+    return lanes
+
+
+def _to_the_first_action(flow: Flow, performed: Mapping[str, str]) -> list[str]:
+    """The nodes from the initial one to the action that is fewest steps away."""
+    ways = {node.id: [node.id] for node in flow.nodes if node.kind is FlowNodeKind.INITIAL}
+    for name in (queue := list(ways)):
+        if name in performed:
+            return ways[name]
+        for edge in flow.edges:
+            if edge.source == name and edge.target not in ways:
+                ways[edge.target] = [*ways[name], edge.target]
+                queue.append(edge.target)
+    return [next(iter(performed))]  # not reached: every node of a flow is reached from its initial one
+
+
+def _performed(flow: Flow) -> list[tuple[FlowNode, str]]:
+    return [(node, node.performer) for node in flow.nodes if node.performer is not None]
 
 
 def state_diagram(behaviour: Behaviour) -> Drawing | None:
@@ -117,6 +176,7 @@ def state_diagram(behaviour: Behaviour) -> Drawing | None:
     edges = tuple(_transitions(machine))
     return draw_graph(
         Graph(nodes=tuple(map(_state_node, machine.states)), edges=edges, node_width=240.0),
+        heading=Heading(kind="stm", element="State Machine", subject=behaviour.name),
         name=f"states-{behaviour.id}",
         title=f"State diagram: {behaviour.name}",
         description=f"{behaviour.id}: {behaviour.text}",

@@ -19,39 +19,48 @@ _ARROW, _SPREAD = 9.0, 0.42
 class Canvas:
     """Collects the parts of one drawing; x grows to the right, y downwards, both in pixels."""
 
-    def __init__(self) -> None:
+    def __init__(self, origin: Point = (0.0, 0.0)) -> None:
+        """Begin without parts.
+
+        Args:
+            origin: Where the parts' own origin is on the paper.
+        """
         self._parts: list[str] = []
+        self._origin = origin
 
     def rectangle(self, x: float, y: float, width: float, height: float, style: str, *, rounding: float = 0) -> None:
         """Draw a rectangle from its upper left corner."""
         corner = f' rx="{_number(rounding)}"' if rounding else ""
+        x, y = self._placed((x, y))
         place = f'x="{_number(x)}" y="{_number(y)}" width="{_number(width)}" height="{_number(height)}"'
         self._parts.append(f'<rect class="{style}" {place}{corner}/>')
 
     def ellipse(self, x: float, y: float, width: float, height: float, style: str) -> None:
         """Draw an ellipse about its centre."""
+        x, y = self._placed((x, y))
         radii = f'rx="{_number(width / 2)}" ry="{_number(height / 2)}"'
         self._parts.append(f'<ellipse class="{style}" cx="{_number(x)}" cy="{_number(y)}" {radii}/>')
 
     def line(self, points: Sequence[Point], style: str) -> None:
         """Draw straight lines from point to point."""
-        self._path("M" + " L".join(f"{_number(x)} {_number(y)}" for x, y in points), style)
+        self._path("M" + " L".join(f"{_number(x)} {_number(y)}" for x, y in map(self._placed, points)), style)
 
     def curve(self, points: Sequence[Point], style: str) -> None:
         """Draw cubic Bézier curves: a start, then for each curve two control points and an end."""
-        start, *rest = (f"{_number(x)} {_number(y)}" for x, y in points)
+        start, *rest = (f"{_number(x)} {_number(y)}" for x, y in map(self._placed, points))
         curves = " ".join(f"C{' '.join(rest[index : index + 3])}" for index in range(0, len(rest), 3))
         self._path(f"M{start} {curves}", style)
 
     def polygon(self, points: Iterable[Point], style: str) -> None:
         """Draw a closed figure."""
-        places = " ".join(f"{_number(x)},{_number(y)}" for x, y in points)
+        places = " ".join(f"{_number(x)},{_number(y)}" for x, y in map(self._placed, points))
         self._parts.append(f'<polygon class="{style}" points="{places}"/>')
 
     def text(self, x: float, y: float, text: str, style: str, *, anchor: str = "start") -> None:
         """Write one line; y is where its letters stand. Nothing is written of an empty text."""
         if not text:
             return
+        x, y = self._placed((x, y))
         where = f'x="{_number(x)}" y="{_number(y)}"' + ("" if anchor == "start" else f' text-anchor="{anchor}"')
         classes = f' class="{style}"' if style else ""
         self._parts.append(f"<text{classes} {where}>{escape(printable(text))}</text>")
@@ -100,7 +109,7 @@ class Canvas:
         self._parts.append("</g>")
 
     def document(
-        self, *, name: str, title: str, description: str, width: float, height: float, with_style: bool
+        self, *, name: str, title: str, description: str, size: Point, with_style: bool, behind: Canvas
     ) -> str:
         """The drawing as one ``svg`` element.
 
@@ -108,20 +117,24 @@ class Canvas:
             name: A name that no other drawing of a page has; letters, digits and hyphens.
             title: What it is called.
             description: What it shows, for those who do not see it.
-            width: Its width.
-            height: Its height.
+            size: Its width and height.
             with_style: Whether the style sheet is in it, as a file needs it.
+            behind: What is drawn before the parts, such as a frame.
         """
-        size = f'width="{_number(width)}" height="{_number(height)}" viewBox="0 0 {_number(width)} {_number(height)}"'
+        width, height = size
+        extent = f'width="{_number(width)}" height="{_number(height)}" viewBox="0 0 {_number(width)} {_number(height)}"'
         head = (
-            f'<svg xmlns="http://www.w3.org/2000/svg" class="rgss-diagram" role="img" {size} '
+            f'<svg xmlns="http://www.w3.org/2000/svg" class="rgss-diagram" role="img" {extent} '
             f"aria-labelledby={quoteattr(f'{name}-title {name}-description')}>"
             f"<title id={quoteattr(f'{name}-title')}>{escape(printable(title))}</title>"
             f"<desc id={quoteattr(f'{name}-description')}>{escape(printable(description))}</desc>"
         )
         style = f"<style>{escape(STYLE)}</style>" if with_style else ""
         paper = f'<rect class="paper" width="{_number(width)}" height="{_number(height)}"/>'
-        return "\n".join([head + style, paper, *self._parts, "</svg>"]) + "\n"
+        return "\n".join([head + style, paper, *behind._parts, *self._parts, "</svg>"]) + "\n"
+
+    def _placed(self, point: Point) -> Point:
+        return point[0] + self._origin[0], point[1] + self._origin[1]
 
     def _path(self, course: str, style: str) -> None:
         self._parts.append(f'<path class="{style}" d="{course}"/>')

@@ -106,7 +106,7 @@ def _all(requirements: RequirementSet) -> Iterator[Drawing]:
     behaviours = architecture.behaviours
     drawn = [
         *map(state_diagram, behaviours),
-        *map(activity_diagram, behaviours),
+        *(activity_diagram(behaviour, names) for behaviour in behaviours),
         *(sequence_diagram(behaviour, names, bounds) for behaviour in behaviours),
     ]
     yield from (drawing for drawing in drawn if drawing is not None)

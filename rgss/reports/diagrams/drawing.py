@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from rgss.reports.diagrams.canvas import Canvas, Point
+from rgss.reports.diagrams.crossings import edges_are_clear
+from rgss.reports.diagrams.frame import ORIGIN, Heading
 from rgss.reports.diagrams.graph import Edge, Graph
-from rgss.reports.diagrams.labels import Box, frame_lines, place_labels, place_titles, with_stubs
+from rgss.reports.diagrams.labels import (
+    FAR,
+    FARTHEST,
+    NEAR,
+    Box,
+    flattened,
+    frame_lines,
+    place_labels,
+    place_titles,
+    with_stubs,
+)
+from rgss.reports.diagrams.lanes import draw_lanes, lane_borders, lane_headers, widened
 from rgss.reports.diagrams.layout import Layout, label_size, layout
 from rgss.reports.diagrams.nodes import Content, content_of, draw_node
 from rgss.reports.diagrams.style import FONT, SMALL
@@ -15,6 +28,7 @@ from rgss.reports.diagrams.text import text_width, wrapped
 
 _SPACINGS = (1.0, 1.4, 2.0, 3.0)
 """Distances between nodes that are tried, as multiples of the usual ones."""
+_MARGIN = 14.0
 _NARROW = 110.0
 """Width in pixels of the lines of labels that find no free place otherwise."""
 
@@ -28,18 +42,28 @@ class Drawing:
         title: What it is called.
         description: What it shows, in a sentence or two.
         text_alternative: What it shows part by part, for those who do not see it; may be empty.
-        width: Its width in pixels.
-        height: Its height in pixels.
-        canvas: Its parts.
+        heading: The header of its frame.
+        inner: Width and height of what is within the frame, in pixels.
+        canvas: What is within the frame, drawn from the frame's origin on.
     """
 
     name: str
     title: str
     description: str
     text_alternative: str
-    width: float
-    height: float
+    heading: Heading
+    inner: Point
     canvas: Canvas
+
+    @property
+    def width(self) -> float:
+        """Its width in pixels."""
+        return self.heading.size(*self.inner)[0]
+
+    @property
+    def height(self) -> float:
+        """Its height in pixels."""
+        return self.heading.size(*self.inner)[1]
 
     def to_svg(self, *, with_style: bool = True) -> str:
         """The diagram as SVG; the same diagram gives the same text.
@@ -51,17 +75,20 @@ class Drawing:
             name=self.name,
             title=self.title,
             description=" ".join(part for part in (self.description, self.text_alternative) if part),
-            width=self.width,
-            height=self.height,
+            size=(self.width, self.height),
             with_style=with_style,
+            behind=self.heading.draw((self.width, self.height)),
         )
 
 
-def draw_graph(graph: Graph, *, name: str, title: str, description: str, text_alternative: str = "") -> Drawing:
+def draw_graph(
+    graph: Graph, *, heading: Heading, name: str, title: str, description: str, text_alternative: str = ""
+) -> Drawing:
     """Place and draw a diagram of nodes and edges.
 
     Args:
         graph: The diagram.
+        heading: The header of its frame.
         name: Its name in file names and anchors.
         title: What it is called.
         description: What it shows.
@@ -72,11 +99,14 @@ def draw_graph(graph: Graph, *, name: str, title: str, description: str, text_al
     """
     contents = {node.id: content_of(node, graph.node_width, rightwards=graph.rightwards) for node in graph.nodes}
     graph, placed = _free_labels(graph, contents)
-    canvas = Canvas()
+    canvas = Canvas(ORIGIN)
+    if graph.lanes:
+        draw_lanes(canvas, graph.lanes, placed.lanes)
     for cluster in graph.clusters:
         frame = placed.frames[cluster.id]
-        canvas.rectangle(frame.x, frame.y, frame.width, frame.height, "shape open", rounding=4)
-        canvas.text(placed.titles[cluster.id], frame.y + 1.6 * FONT, cluster.title, "name", anchor="middle")
+        width, height = frame.right - frame.left, frame.bottom - frame.top
+        canvas.rectangle(frame.left, frame.top, width, height, "shape open", rounding=4)
+        canvas.text(placed.titles[cluster.id], frame.top + 1.6 * FONT, cluster.title, "name", anchor="middle")
     for index, edge in enumerate(graph.edges):
         _draw_edge(canvas, edge, placed.curves[index])
     for node in graph.nodes:
@@ -84,26 +114,39 @@ def draw_graph(graph: Graph, *, name: str, title: str, description: str, text_al
     # Last, so that no line crosses a label.
     for index, edge in enumerate(graph.edges):
         _draw_label(canvas, edge, placed.labels[index])
-    width, height = _extent(placed, graph)
     return Drawing(
         name=name,
         title=title,
         description=description,
         text_alternative=text_alternative,
-        width=width,
-        height=height,
+        heading=heading,
+        inner=_extent(placed, graph),
         canvas=canvas,
     )
 
 
 def _free_labels(graph: Graph, contents: Mapping[str, Content]) -> tuple[Graph, Layout]:
-    """The tightest layout whose labels nothing crosses, with their labels as they are or broken; else the widest."""
-    for tried in (graph, _with_narrow_labels(graph)):
+    """The tightest layout whose labels nothing crosses, near their edges if they can be; else the widest.
+
+    One in which edges run through no node is preferred. At each spacing the labels are tried as they
+    are, then broken into short lines.
+    """
+    narrow = _with_narrow_labels(graph)
+    readable: tuple[Graph, Layout] | None = None
+    for farthest, spacings in ((NEAR, _SPACINGS[:2]), (FAR, _SPACINGS[:2]), (FARTHEST, _SPACINGS)):
+        for spacing in spacings:
+            for tried in dict.fromkeys((graph, narrow)):
+                placed, labels_free, edges_clear = _laid_out(tried, contents, spacing, farthest)
+                if labels_free and edges_clear:
+                    return tried, placed
+                readable = readable or ((tried, placed) if labels_free else None)
+    if graph.lanes:
+        # Curves between ranks that lanes push apart may run through nodes.
         for spacing in _SPACINGS:
-            placed, all_free = _laid_out(tried, contents, spacing)
-            if all_free:
-                return tried, placed
-    return tried, placed
+            placed, labels_free, edges_clear = _laid_out(narrow, contents, spacing, FAR, orthogonal=True)
+            if labels_free and edges_clear:
+                return narrow, placed
+    return readable or (tried, placed)
 
 
 def _with_narrow_labels(graph: Graph) -> Graph:
@@ -114,29 +157,47 @@ def _with_narrow_labels(graph: Graph) -> Graph:
     return replace(graph, edges=tuple(edges))
 
 
-def _laid_out(graph: Graph, contents: Mapping[str, Content], spacing: float) -> tuple[Layout, bool]:
-    """A layout, and whether every label and title of it is free."""
+def _laid_out(
+    graph: Graph, contents: Mapping[str, Content], spacing: float, farthest: float, *, orthogonal: bool = False
+) -> tuple[Layout, bool, bool]:
+    """A layout, whether every label and title of it is free, and whether its edges run through no node."""
     sizes = {name: (content.width, content.height) for name, content in contents.items()}
-    placed = layout(graph, sizes, spacing=spacing)
+    placed = layout(graph, sizes, spacing=spacing, orthogonal=orthogonal)
     curves = tuple(
         with_stubs(curve, contents[edge.source].stub, contents[edge.target].stub, rightwards=graph.rightwards)
         for edge, curve in zip(graph.edges, placed.curves, strict=True)
     )
-    frames = {
-        name: Box(left=frame.x, top=frame.y, right=frame.x + frame.width, bottom=frame.y + frame.height)
-        for name, frame in placed.frames.items()
-    }
     widths = {cluster.id: text_width(cluster.title, FONT, bold=True) for cluster in graph.clusters}
-    titles, titles_free = place_titles(frames, widths, 2 * FONT, curves)
+    titles, titles_free = place_titles(placed.frames, widths, 2 * FONT, curves)
     labels, all_free = place_labels(
         curves,
         placed.labels,
         [label_size(edge) for edge in graph.edges],
-        [*(Box.about(placed.nodes[node.id], sizes[node.id]) for node in graph.nodes), *titles.values()],
-        frame_lines(frames),
+        [
+            *(Box.about(placed.nodes[node.id], sizes[node.id]) for node in graph.nodes),
+            *titles.values(),
+            *lane_headers(graph.lanes, placed.lanes),
+        ],
+        [*frame_lines(placed.frames.values()), *lane_borders(placed.lanes)],
+        farthest=farthest,
     )
     middles = {name: (title.left + title.right) / 2 for name, title in titles.items()}
-    return replace(placed, labels=labels, curves=curves, titles=middles), all_free and titles_free
+    lanes = widened(placed.lanes, _ends(curves, labels, graph)) if placed.lanes else placed.lanes
+    placed = replace(placed, labels=labels, curves=curves, titles=middles, lanes=lanes)
+    return placed, all_free and titles_free, edges_are_clear(graph, curves, placed.nodes, sizes)
+
+
+def _ends(
+    curves: Sequence[Sequence[Point]], labels: Sequence[Point | None], graph: Graph
+) -> Iterator[tuple[float, float]]:
+    """The left and right end of every edge and label."""
+    for curve in curves:
+        xs = [x for x, _ in flattened(curve)]
+        yield min(xs), max(xs)
+    for edge, centre in zip(graph.edges, labels, strict=True):
+        if centre is not None:
+            half = label_size(edge)[0] / 2
+            yield centre[0] - half, centre[0] + half
 
 
 def _draw_edge(canvas: Canvas, edge: Edge, points: tuple[Point, ...]) -> None:
@@ -158,4 +219,6 @@ def _extent(placed: Layout, graph: Graph) -> tuple[float, float]:
         if centre is not None:
             width = max(width, centre[0] + label_size(edge)[0] / 2 + 4)
             height = max(height, centre[1] + label_size(edge)[1] / 2 + 4)
+    for lane in placed.lanes.values():
+        width = max(width, lane.right + _MARGIN)
     return width, height

@@ -88,6 +88,8 @@ class Graph:
         nodes: The nodes.
         edges: The edges; both ends are nodes.
         clusters: The frames.
+        lanes: Columns from the top to the bottom, from left to right; with them each node's cluster is a
+            lane, edges lead downwards, and there are no frames.
         rightwards: Edges lead to the right; otherwise downwards.
         node_width: The greatest width of a line in a node, in pixels.
     """
@@ -95,5 +97,6 @@ class Graph:
     nodes: tuple[Node, ...]
     edges: tuple[Edge, ...]
     clusters: tuple[Cluster, ...] = ()
+    lanes: tuple[Cluster, ...] = ()
     rightwards: bool = False
     node_width: float = 220.0

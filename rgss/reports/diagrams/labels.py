@@ -21,6 +21,8 @@ _PLACES = 24
 """Places along an edge that are tried."""
 _DISTANCES = (4.0, 10.0, 18.0, 30.0, 50.0, 80.0)
 """Distances of a label from its edge that are tried, in pixels."""
+NEAR, FAR, FARTHEST = 30.0, 50.0, 80.0
+"""Distances within which a label is seen to belong to its edge, may still be, and beyond which none is tried."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,6 +83,8 @@ def place_labels(
     sizes: Sequence[tuple[float, float]],
     nodes: Sequence[Box],
     lines: Sequence[Segment],
+    *,
+    farthest: float,
 ) -> tuple[tuple[Point | None, ...], bool]:
     """Move each label that something crosses to a free place beside its edge.
 
@@ -90,6 +94,7 @@ def place_labels(
         sizes: Width and height of each label.
         nodes: The rectangles of the nodes.
         lines: Other straight lines that no label may cross, as frames have them.
+        farthest: Largest distance of a label from its edge, in pixels.
 
     Returns:
         The centres, and whether every label is free. One without a free place keeps its centre.
@@ -111,7 +116,7 @@ def place_labels(
     for index in crossed:
         free = (
             place
-            for place in _candidates(ways[index], sizes[index])
+            for place in _candidates(ways[index], sizes[index], farthest)
             if _is_free(_roomy(place, sizes[index]), strokes, nodes, placed.values())
         )
         found = next(free, None)
@@ -176,10 +181,10 @@ def place_titles(
     return placed, all_free
 
 
-def frame_lines(frames: Mapping[str, Box]) -> list[Segment]:
+def frame_lines(frames: Iterable[Box]) -> list[Segment]:
     """The outlines of frames."""
     lines: list[Segment] = []
-    for box in frames.values():
+    for box in frames:
         corners = [(box.left, box.top), (box.right, box.top), (box.right, box.bottom), (box.left, box.bottom)]
         lines += pairwise([*corners, corners[0]])
     return lines
@@ -197,12 +202,12 @@ def _is_free(box: Box, strokes: Sequence[Segment], nodes: Sequence[Box], others:
     return not any(box.is_crossed_by(stroke) for stroke in strokes)
 
 
-def _candidates(way: Sequence[Point], size: tuple[float, float]) -> Iterator[Point]:
+def _candidates(way: Sequence[Point], size: tuple[float, float], farthest: float) -> Iterator[Point]:
     """Centres beside an edge: near ones first, and of these those at the middle of the edge first."""
     last = len(way) - 1
     steps = sorted({round(index * last / _PLACES) for index in range(1, _PLACES)}, key=lambda at: abs(at - last / 2))
     width, height = size
-    for distance in _DISTANCES:
+    for distance in (each for each in _DISTANCES if each <= farthest):
         for at in steps:
             x, y = way[at]
             for across, down in ((1, 0), (-1, 0), (0, -1), (0, 1), (1, -1), (-1, -1), (1, 1), (-1, 1)):

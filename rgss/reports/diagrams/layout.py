@@ -14,6 +14,8 @@ from typing import Any
 from rgss.errors import DefinitionError
 from rgss.reports.diagrams.canvas import Point
 from rgss.reports.diagrams.graph import Edge, Graph, Shape
+from rgss.reports.diagrams.labels import Box
+from rgss.reports.diagrams.lanes import add_lanes, is_mirrored, read_lanes
 from rgss.reports.diagrams.style import FONT, LINE, SMALL
 from rgss.reports.diagrams.text import text_width
 
@@ -27,16 +29,6 @@ _SHAPES = {Shape.ELLIPSE: "ellipse", Shape.DIAMOND: "diamond", Shape.INITIAL: "c
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Frame:
-    """Position and size of a cluster: left and upper edge, width and height."""
-
-    x: float
-    y: float
-    width: float
-    height: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Layout:
     """Positions in a diagram, in pixels from the upper left corner.
 
@@ -47,6 +39,7 @@ class Layout:
         curves: For each edge, the points of its Bézier curves from source to target.
         labels: For each edge, the centre of its labels; None without one.
         frames: Where each cluster is, by its id.
+        lanes: Where each lane is, by its id.
         titles: The middle of each cluster's title, by its id.
     """
 
@@ -55,7 +48,8 @@ class Layout:
     nodes: Mapping[str, Point]
     curves: tuple[tuple[Point, ...], ...]
     labels: tuple[Point | None, ...]
-    frames: Mapping[str, Frame]
+    frames: Mapping[str, Box]
+    lanes: Mapping[str, Box] = field(default_factory=dict)
     titles: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -73,13 +67,15 @@ def require_graphviz() -> None:
         ) from error
 
 
-def layout(graph: Graph, sizes: Mapping[str, Size], *, spacing: float = 1.0) -> Layout:
+def layout(graph: Graph, sizes: Mapping[str, Size], *, spacing: float = 1.0, orthogonal: bool = False) -> Layout:
     """Place a diagram.
 
     Args:
         graph: The diagram.
         sizes: Width and height of each node in pixels, by its id.
         spacing: Multiple of the usual distances between nodes.
+        orthogonal: Edges are upright and level lines, with no room kept for their labels, whose centres
+            are then the middles of the edges.
 
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
@@ -92,7 +88,7 @@ def layout(graph: Graph, sizes: Mapping[str, Size], *, spacing: float = 1.0) -> 
         rankdir="LR" if graph.rightwards else "TB",
         nodesep=f"{0.3 * spacing:.2f}",
         ranksep=f"{0.5 * spacing:.2f}",
-        splines="true",
+        splines="ortho" if orthogonal else "true",
         margin="0",
     )
     drawn.node_attr.update(shape="box", fixedsize="true", label="", margin="0")
@@ -111,7 +107,9 @@ def layout(graph: Graph, sizes: Mapping[str, Size], *, spacing: float = 1.0) -> 
         within = [names[node.id] for node in graph.nodes if node.cluster == cluster.id]
         title = _blank(text_width(cluster.title, FONT, bold=True) + 16, LINE * FONT + 4)
         drawn.add_subgraph(within, name=f"cluster_{index}", label=title, margin="14")
-    edges = [_add_edge(drawn, names, graph, index) for index in range(len(graph.edges))]
+    if graph.lanes:
+        add_lanes(drawn, graph, names)
+    edges = [_add_edge(drawn, names, graph, index, with_label=not orthogonal) for index in range(len(graph.edges))]
     drawn.layout(prog="dot")
     return _read(drawn, graph, names, edges)
 
@@ -122,11 +120,11 @@ def label_size(edge: Edge) -> Size:
     return width + 6, LINE * SMALL * len(edge.labels) + 2
 
 
-def _add_edge(drawn: Any, names: Mapping[str, str], graph: Graph, index: int) -> Any:
+def _add_edge(drawn: Any, names: Mapping[str, str], graph: Graph, index: int, *, with_label: bool) -> Any:
     edge, rightwards = graph.edges[index], graph.rightwards
     nodes = {node.id: node for node in graph.nodes}
     source, target = names[edge.source], names[edge.target]
-    attributes = {"label": _blank(*label_size(edge))} if edge.labels else {}
+    attributes = {"label": _blank(*label_size(edge))} if edge.labels and with_label else {}
     first, last = nodes[edge.source], nodes[edge.target]
     # The text beside a small shape leaves two sides of it free.
     if first.name and first.shape in (Shape.INITIAL, Shape.BAR):
@@ -150,14 +148,20 @@ def _blank(width: float, height: float) -> str:
 def _read(drawn: Any, graph: Graph, names: Mapping[str, str], edges: Sequence[Any]) -> Layout:
     left, bottom, right, top = _floats(drawn.graph_attr["bb"])
 
+    mirrored = bool(graph.lanes) and is_mirrored(drawn, graph)
+
+    def corner(x: float, y: float) -> Point:
+        return (right - x if mirrored else x - left) + _MARGIN, top - y + _MARGIN
+
     def place(text: str) -> Point:
         x, y = _floats(text)
-        return x - left + _MARGIN, top - y + _MARGIN
+        return corner(x, y)
 
     frames = {}
     for index, cluster in enumerate(graph.clusters):
         x, low, end, high = _floats(drawn.get_subgraph(f"cluster_{index}").graph_attr["bb"])
-        frames[cluster.id] = Frame(x=x - left + _MARGIN, y=top - high + _MARGIN, width=end - x, height=high - low)
+        (near, upper), (far, lower) = corner(x, high), corner(end, low)
+        frames[cluster.id] = Box(left=near, top=upper, right=far, bottom=lower)
     curves = []
     for edge, made in zip(graph.edges, edges, strict=True):
         points = [place(point) for point in made.attr["pos"].split() if point[0] not in "se"]
@@ -168,9 +172,11 @@ def _read(drawn: Any, graph: Graph, names: Mapping[str, str], edges: Sequence[An
         nodes={node.id: place(drawn.get_node(names[node.id]).attr["pos"]) for node in graph.nodes},
         curves=tuple(curves),
         labels=tuple(
-            place(made.attr["lp"]) if edge.labels else None for edge, made in zip(graph.edges, edges, strict=True)
+            (place(made.attr["lp"]) if made.attr["lp"] else curve[len(curve) // 2]) if edge.labels else None
+            for edge, made, curve in zip(graph.edges, edges, curves, strict=True)
         ),
         frames=frames,
+        lanes=read_lanes(drawn, graph, corner, curves) if graph.lanes else {},
     )
 
 

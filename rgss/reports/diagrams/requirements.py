@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rgss.reports.diagrams.drawing import Drawing, draw_graph
+from rgss.reports.diagrams.frame import Heading
 from rgss.reports.diagrams.graph import Edge, Graph, Node, Shape
 from rgss.requirements import Requirement, RequirementSet, StakeholderNeed
 
@@ -88,6 +89,7 @@ def _diagram(requirements: RequirementSet, group: str, members: Sequence[Require
             nodes[edge.target] = _neighbour(requirements, edge.target, refined.get(edge.target, ()))
     return draw_graph(
         Graph(nodes=tuple(nodes.values()), edges=tuple(edges), rightwards=True, node_width=_WIDTH),
+        heading=Heading(kind="req", element="Package", subject=f"System requirements: {group}"),
         name=f"requirements-{group}",
         title=f"Requirement diagram: {group}",
         description=f"{len(members)} system requirements with what they derive from and the measures that decide.",

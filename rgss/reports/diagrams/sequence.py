@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from rgss.reports.diagrams.canvas import Canvas
 from rgss.reports.diagrams.drawing import Drawing
+from rgss.reports.diagrams.frame import ORIGIN, Heading
 from rgss.reports.diagrams.style import FONT, LINE, SMALL
 from rgss.reports.diagrams.text import text_width, wrapped
 from rgss.requirements import Behaviour
@@ -51,7 +52,7 @@ def sequence_diagram(behaviour: Behaviour, names: Mapping[str, str], bounds: Map
     start = _MARGIN + max(head_height, captions)
     rows = _rows(interaction, xs, gaps, start + 16)
     bottom = (rows[-1].y if rows else start) + 30
-    canvas = Canvas()
+    canvas = Canvas(ORIGIN)
     for x in xs.values():
         canvas.line([(x, _MARGIN + head_height), (x, bottom)], "line dotted")
     for name, x in xs.items():
@@ -68,8 +69,8 @@ def sequence_diagram(behaviour: Behaviour, names: Mapping[str, str], bounds: Map
         title=f"Sequence diagram: {behaviour.name}",
         description=f"{behaviour.id}: {behaviour.text}",
         text_alternative=_describe(interaction, names, bounds),
-        width=right + _MARGIN,
-        height=bottom + _MARGIN,
+        heading=Heading(kind="sd", element="Interaction", subject=behaviour.name),
+        inner=(right + _MARGIN, bottom + _MARGIN),
         canvas=canvas,
     )
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from rgss.reports.diagrams.canvas import Canvas
 from rgss.reports.diagrams.drawing import Drawing
+from rgss.reports.diagrams.frame import ORIGIN, Heading
 from rgss.reports.diagrams.graph import Node, Shape
 from rgss.reports.diagrams.nodes import Content, content_of, draw_node
 from rgss.reports.diagrams.style import FONT, SMALL
@@ -36,7 +37,7 @@ class _Line:
 def containment_map(requirements: RequirementSet) -> Drawing:
     """Tree of the requirements, each within what contains it: sets, kinds and groups, requirements."""
     lines = list(_lines(requirements))
-    canvas = Canvas()
+    canvas = Canvas(ORIGIN)
     # Where the line down from each depth begins.
     trunks: dict[int, float] = {}
     width = 0.0
@@ -64,8 +65,8 @@ def containment_map(requirements: RequirementSet) -> Drawing:
         title="Containment map",
         description=f"{counts}, each within what contains it.",
         text_alternative="",
-        width=width + _MARGIN,
-        height=len(lines) * _ROW + 2 * _MARGIN,
+        heading=Heading(kind="req", element="Package", subject="Requirements"),
+        inner=(width + _MARGIN, len(lines) * _ROW + 2 * _MARGIN),
         canvas=canvas,
     )
 
@@ -159,7 +160,7 @@ def _tree(root: Block, children: Mapping[str | None, list[Block]], opened: froze
     contents = {name: content_of(node, _NODE_WIDTH) for name, node in nodes.items()}
     columns = _columns(order, contents)
     middles = _middles(order, contents, children, opened)
-    canvas = Canvas()
+    canvas = Canvas(ORIGIN)
     for depth, block in order:
         if block.id in opened:
             _connect(canvas, block, children[block.id], contents, columns, depth, middles)
@@ -178,8 +179,8 @@ def _tree(root: Block, children: Mapping[str | None, list[Block]], opened: froze
         title=f"Block definition diagram: {root.name}",
         description=f"{root.text} {len(order)} blocks; a diamond stands at the whole, a triangle at the general.",
         text_alternative=" ".join(parts),
-        width=right + _MARGIN,
-        height=last + _MARGIN,
+        heading=Heading(kind="bdd", element="Block", subject=root.name),
+        inner=(right + _MARGIN, last + _MARGIN),
         canvas=canvas,
     )
 

@@ -30,6 +30,7 @@ class FlowNode:
     kind: FlowNodeKind
     text: Text | None = None
     does: Identifier | None = None
+    performer: Identifier | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)

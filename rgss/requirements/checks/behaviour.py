@@ -9,6 +9,7 @@ from rgss.findings import Finding
 from rgss.requirements.architecture import Behaviour, Block
 from rgss.requirements.checks.flow import check_flow
 from rgss.requirements.checks.interaction import check_interaction
+from rgss.requirements.checks.performers import check_performers
 from rgss.requirements.checks.state_machine import check_machine
 from rgss.requirements.files import ArchitectureFile
 from rgss.requirements.hints import Hints
@@ -38,6 +39,7 @@ def check_behaviours(
             yield from _check_actors(declaration, behaviour, blocks)
             if behaviour.flow is not None:
                 yield from check_flow(declaration, behaviour.flow, hints)
+                yield from check_performers(declaration, behaviour, blocks)
             if behaviour.interaction is not None:
                 yield from check_interaction(declaration, behaviour.interaction, requirements, hints)
             if behaviour.machine is not None:

@@ -67,6 +67,7 @@ def _behaviour_references(behaviour: Behaviour) -> Iterator[Reference]:
 def _flow_references(flow: Flow) -> Iterator[Reference]:
     for index, node in enumerate(flow.nodes):
         yield from _inner(("flow", "nodes", index, "does"), node.does, _BEHAVIOUR)
+        yield from _inner(("flow", "nodes", index, "performer"), node.performer, _BLOCK)
 
 
 def _interaction_references(interaction: Interaction) -> Iterator[Reference]:

@@ -81,7 +81,15 @@ def test_every_allocation_is_found(elements, shipped):
         tuple(last(end.target) for end in each.ends) for each in elements if isinstance(each, longeron.AllocationUsage)
     ]
 
-    assert sorted(found) == linked(shipped, LinkKind.ALLOCATE)
+    performed = [
+        (node.id, node.performer)
+        for behaviour in shipped.requirements.architecture.behaviours
+        if behaviour.flow is not None
+        for node in behaviour.flow.nodes
+        if node.performer is not None
+    ]
+    assert performed
+    assert sorted(found) == sorted([*linked(shipped, LinkKind.ALLOCATE), *performed])
 
 
 def test_every_derivation_is_found(elements, shipped):

@@ -11,6 +11,7 @@ import pytest
 
 from rgss.reports.diagrams.diagrams import diagrams_of
 from rgss.reports.diagrams.drawing import draw_graph
+from rgss.reports.diagrams.frame import Heading
 from rgss.reports.diagrams.graph import Cluster, Edge, Graph, Node, Shape
 from rgss.reports.diagrams.sequence import sequence_diagram
 from rgss.reports.diagrams.style import STYLE
@@ -20,6 +21,7 @@ from tests.fixtures.diagram_geometry import SVG, crossings, font_sizes, text_box
 
 ROOT = Path(__file__).parents[3]
 LEAST_SIZE = 12.0
+HEADING = Heading(kind="act", element="Activity", subject="Made")
 WORDS = (
     "move",
     "grasp",
@@ -75,7 +77,7 @@ def test_no_text_of_a_generated_graph_is_crossed(seed):
     """Graphs of 3 to 30 nodes, denser and with longer labels than any of a shipped model."""
     chosen = random.Random(seed)  # noqa: S311 - a made model
     graph = made_graph(chosen, chosen.choice((3, 6, 10, 16, 22, 30)), rightwards=seed % 2 == 0, framed=seed % 3 == 0)
-    drawing = draw_graph(graph, name="made", title="Made", description="")
+    drawing = draw_graph(graph, heading=HEADING, name="made", title="Made", description="")
 
     assert crossings(drawing.to_svg(), STYLE) == []
     for box in text_boxes(drawing.to_svg(), STYLE):
@@ -90,7 +92,7 @@ def test_no_text_of_a_generated_flow_is_crossed(seed):
     chosen = random.Random(seed)  # noqa: S311 - a made model
     count = chosen.choice((3, 6, 10, 16, 22, 30))
     graph = with_small_shapes(made_graph(chosen, count, rightwards=seed % 2 == 0, framed=seed % 3 == 0), chosen)
-    drawing = draw_graph(graph, name="made", title="Made", description="")
+    drawing = draw_graph(graph, heading=HEADING, name="made", title="Made", description="")
 
     assert {Shape.INITIAL, Shape.FINAL} & {node.shape for node in graph.nodes}
     assert crossings(drawing.to_svg(), STYLE) == []
@@ -103,7 +105,7 @@ def test_edges_reach_the_symbol_beside_its_text(rightwards):
     nodes = tuple(Node(id=name, shape=shape, name=some_words(random.Random(3), 9)) for name, shape in shapes.items())  # noqa: S311 - a made model
     edges = (Edge(source="a", target="b", head=""), Edge(source="b", target="c", head=""))
     graph = Graph(nodes=nodes, edges=edges, rightwards=rightwards, node_width=90.0)
-    svg = draw_graph(graph, name="made", title="Made", description="").to_svg()
+    svg = draw_graph(graph, heading=HEADING, name="made", title="Made", description="").to_svg()
 
     root = ET.fromstring(svg)  # noqa: S314 - our own
     (bar,) = (box for box in root.iter(f"{SVG}rect") if box.get("class") == "solid")

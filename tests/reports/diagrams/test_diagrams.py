@@ -19,6 +19,7 @@ from rgss.reports.diagrams import requirements as diagram_requirements
 from rgss.reports.diagrams import trees as diagram_trees
 from rgss.reports.diagrams.diagrams import diagrams_of, file_stem, missing_diagrams, write_diagrams
 from rgss.reports.diagrams.drawing import draw_graph
+from rgss.reports.diagrams.frame import Heading
 from rgss.reports.diagrams.graph import Cluster, Edge, Graph, Node, Shape
 from rgss.reports.diagrams.layout import layout
 from rgss.reports.diagrams.style import FONT, SMALL
@@ -271,8 +272,10 @@ def test_without_pygraphviz_one_line_says_what_to_do(monkeypatch):
         return original(name, *arguments, **options)
 
     monkeypatch.setattr(builtins, "__import__", refuse)
+    graph = Graph(nodes=(Node(id="a", shape=Shape.BOX),), edges=())
+    heading = Heading(kind="bdd", element="Block", subject="a")
     with pytest.raises(DefinitionError) as caught:
-        draw_graph(Graph(nodes=(Node(id="a", shape=Shape.BOX),), edges=()), name="n", title="t", description="d")
+        draw_graph(graph, heading=heading, name="n", title="t", description="d")
 
     assert str(caught.value) == (
         "diagrams need the package pygraphviz, which is not installed (pip install 'pygraphviz>=2.0')"

@@ -79,6 +79,40 @@ def test_a_machine_as_it_is_written(detailed):
     )
 
 
+ALLOCATED = "kind: activity\n    allocated_to: [{}]\n    text: A cup"
+
+
+def performed(project, allocated, **performers):
+    """The project with an allocation of its flow, and performers of these nodes."""
+    project.edit(ARCHITECTURE, "kind: activity\n    text: A cup", ALLOCATED.format(allocated))
+    texts = {"close": "Close., does: ACT-2", "lift": "Lift.", "look": "Look.", "firm": '"Is it firm?"'}
+    for name, block in performers.items():
+        kind = "decision" if name == "firm" else "action"
+        old = f"{{id: {name}, kind: {kind}, text: {texts[name]}"
+        project.edit(ARCHITECTURE, f"{old}}}", f"{old}, performer: {block}}}")
+
+
+def test_a_performer_is_a_block_of_the_allocation_or_within_one(detailed):
+    performed(detailed, "BLK-0", close="BLK-1", lift="BLK-0", look="BLK-1")
+
+    nodes = detail(detailed, "ACT-9").flow.nodes
+    assert [node.performer for node in nodes if node.kind is FlowNodeKind.ACTION] == ["BLK-1", "BLK-0", "BLK-1"]
+
+
+def test_broken_performers(detailed):
+    performed(detailed, "BLK-1", close="BLK-0", lift="BLK-2", firm="BLK-1")
+    messages = {
+        "BLK-0}": "performer: 'BLK-0' is no block that the activity is allocated to, nor one within it "
+        f"(add it to 'allocated_to') {FLOW}",
+        "BLK-1}": f"decision 'firm' has a performer; only an action has {FLOW}",
+        "BLK-2}": f"performer: 'BLK-2' is not declared (did you mean 'BLK-1'?) {DANGLING}",
+        "{id: look, kind": "action 'look' has no performer, but other actions of the flow have one "
+        f"(name the block that performs it) {FLOW}",
+    }
+    expected = [f"{detailed.position(ARCHITECTURE, start)}: error: {text}" for start, text in messages.items()]
+    assert detailed.findings() == expected
+
+
 def test_actors_are_blocks_that_act(project):
     project.edit(ARCHITECTURE, "kind: use_case,", "kind: use_case, actors: [BLK-0],")
     expected = f"{project.position(ARCHITECTURE, 'BLK-0], alloc')}: error: actors: block 'BLK-0' is not an actor "

@@ -1,0 +1,44 @@
+"""Edges that run through a node at which they do not end."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from rgss.reports.diagrams.canvas import Point
+from rgss.reports.diagrams.graph import Graph, Node, Shape
+from rgss.reports.diagrams.labels import flattened
+
+_INSET = 1.0
+
+
+def edges_are_clear(
+    graph: Graph,
+    curves: Sequence[Sequence[Point]],
+    centres: Mapping[str, Point],
+    sizes: Mapping[str, tuple[float, float]],
+) -> bool:
+    """Whether no edge runs through a node at which it does not end.
+
+    Args:
+        graph: The diagram.
+        curves: The points of the Bézier curves of each edge.
+        centres: The centre of each node.
+        sizes: Width and height of each node.
+    """
+    for edge, curve in zip(graph.edges, curves, strict=True):
+        way = flattened(curve)
+        for node in graph.nodes:
+            is_end = node.id in (edge.source, edge.target)
+            if not is_end and any(_is_within(point, node, centres[node.id], sizes[node.id]) for point in way):
+                return False
+    return True
+
+
+def _is_within(point: Point, node: Node, centre: Point, size: tuple[float, float]) -> bool:
+    across = abs(point[0] - centre[0]) / max(size[0] / 2 - _INSET, _INSET)
+    down = abs(point[1] - centre[1]) / max(size[1] / 2 - _INSET, _INSET)
+    if node.shape is Shape.DIAMOND:
+        return across + down < 1
+    if node.shape is Shape.ELLIPSE:
+        return across**2 + down**2 < 1
+    return max(across, down) < 1
