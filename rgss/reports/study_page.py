@@ -227,7 +227,7 @@ def plotting_library() -> str:
 
 def find_and_sort_library() -> str:
     """MiniSearch and fast-sort as a page carries them; their licences are beside them in this package."""
-    place = resources.files("rgss.reports").joinpath("find_and_sort/find_and_sort.min.js")
+    place = resources.files("rgss.reports").joinpath("bundles/find_and_sort/find_and_sort.min.js")
     return place.read_text(encoding="utf-8")
 
 

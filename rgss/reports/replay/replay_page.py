@@ -62,4 +62,4 @@ def as_context(replay: PackedReplay) -> dict[str, Any]:
 
 def rendering_library() -> str:
     """The part of three.js that replays use; its licence is beside it in this package."""
-    return resources.files("rgss.reports.replay").joinpath("three/three.min.js").read_text(encoding="utf-8")
+    return resources.files("rgss.reports").joinpath("bundles/three/three.min.js").read_text(encoding="utf-8")

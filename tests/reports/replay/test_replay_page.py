@@ -12,7 +12,7 @@ from rgss.reports.replay.packing import packed_replay
 from rgss.reports.replay.replay_page import rendering_library, replay_to_html
 from tests.fixtures.made_replay import JOINTS, made_record, made_scene, made_trace
 
-THREE = resources.files("rgss.reports.replay") / "three"
+BUNDLES = resources.files("rgss.reports") / "bundles"
 
 
 @pytest.fixture(scope="module")
@@ -38,8 +38,8 @@ def test_a_page_has_one_trial_or_two(packed):
 
 
 def test_the_library_is_the_pinned_one_with_its_licence():
-    wanted = json.loads((THREE / "package.json").read_text(encoding="utf-8"))["devDependencies"]["three"]
-    locked = json.loads((THREE / "package-lock.json").read_text(encoding="utf-8"))["packages"]["node_modules/three"]
+    wanted = json.loads((BUNDLES / "package.json").read_text(encoding="utf-8"))["devDependencies"]["three"]
+    locked = json.loads((BUNDLES / "package-lock.json").read_text(encoding="utf-8"))["packages"]["node_modules/three"]
     library = rendering_library()
 
     assert re.fullmatch(r"0\.(\d+)\.\d+", wanted)
@@ -48,7 +48,7 @@ def test_the_library_is_the_pinned_one_with_its_licence():
     assert f'"{wanted.split(".")[1]}"' in library  # its REVISION
     assert "SPDX-License-Identifier: MIT" in library
     assert "</script" not in library.lower()
-    assert (THREE / "LICENSE").read_text(encoding="utf-8").startswith("The MIT License")
+    assert (BUNDLES / "three" / "LICENSE").read_text(encoding="utf-8").startswith("The MIT License")
 
 
 def test_the_library_names_no_address_that_a_page_would_fetch():

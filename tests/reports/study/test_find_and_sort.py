@@ -7,13 +7,13 @@ from importlib import resources
 
 from rgss.reports.study_page import find_and_sort_library
 
-FOLDER = resources.files("rgss.reports").joinpath("find_and_sort")
+BUNDLES = resources.files("rgss.reports") / "bundles"
 
 
 def test_the_bundle_is_of_the_pinned_packages_with_their_licences():
-    package = json.loads(FOLDER.joinpath("package.json").read_text(encoding="utf-8"))
+    package = json.loads(BUNDLES.joinpath("package.json").read_text(encoding="utf-8"))
     banner = find_and_sort_library().splitlines()[0]
-    licence = FOLDER.joinpath("LICENSE").read_text(encoding="utf-8")
+    licence = BUNDLES.joinpath("find_and_sort", "LICENSE").read_text(encoding="utf-8")
 
     for name in ("minisearch", "fast-sort"):
         assert f"{name} {package['devDependencies'][name]}" in banner

@@ -1,4 +1,4 @@
-// What the replay uses of three.js; `npm ci && npm run build` makes three.min.js of it.
+// What the replay uses of three.js; `npm ci && npm run build` in the folder above makes three.min.js of it.
 export {
   Box3, BufferGeometry, Color, Curve, CylinderGeometry, ConeGeometry, DirectionalLight, Group, HemisphereLight,
   AnimationMixer, LoopOnce, Mesh, MeshBasicMaterial, MeshStandardMaterial, PCFSoftShadowMap, PerspectiveCamera,

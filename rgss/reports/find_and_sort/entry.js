@@ -1,3 +1,0 @@
-// What the report uses of both packages; `npm ci && npm run build` makes find_and_sort.min.js of it.
-export { default as MiniSearch } from "minisearch";
-export { createNewSortInstance } from "fast-sort";
