@@ -5,13 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.confirmation.confirmation import (
-        COMPARED_METRICS,
-        Confirmation,
-        ConfirmedTrial,
-        SettingResult,
-        VerdictDifference,
-    )
+    from rgss.confirmation.confirmation import COMPARED_METRICS, Confirmation, ConfirmedTrial, SettingResult
     from rgss.confirmation.confirming import confirm
     from rgss.confirmation.kept_trials import confirmation_trials
     from rgss.confirmation.selection import MOST_RIVALS, Selection, select, selected_by_id

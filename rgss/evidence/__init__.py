@@ -16,7 +16,6 @@ from rgss.evidence.records import (
     StoredTrial,
     TrialRecord,
     inputs_digest,
-    plain_json,
     read_json,
     record_digest,
     record_from_json,

@@ -9,6 +9,5 @@ if TYPE_CHECKING:
     from rgss.exchange.attributes import ATTRIBUTES, Part
     from rgss.exchange.comparison import ChangeKind, ElementChange, Wishes, compare, not_as_planned
     from rgss.exchange.content import Content, content_of, part_of
-    from rgss.exchange.ompl_database import write_ompl_database
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -1,11 +1,10 @@
 """Grasp analysis from contacts: contact kinematics, the grasp map, closure, and quality."""
 
-from rgss.grasping.closure import ClosureVerdict, equilibrium, force_closure, form_closure, wrench_resistance
+from rgss.grasping.closure import equilibrium, force_closure, form_closure, wrench_resistance
 from rgss.grasping.contact import ContactKind, ContactPoint
 from rgss.grasping.geometry import GraspGeometryCache
 from rgss.grasping.grasp import Grasp
 from rgss.grasping.grasp_matrix import (
-    PrimitiveWrenches,
     grasp_map,
     grasp_matrix,
     in_friction_cone,
@@ -22,7 +21,7 @@ from rgss.grasping.kinematics import (
     recorded_motion,
     relative_motion,
 )
-from rgss.grasping.polygon import GraspPolygon, grasp_polygon
+from rgss.grasping.polygon import grasp_polygon
 from rgss.grasping.quality import q_diff_m, q_gii, q_gpri, q_msv, q_smw_n, q_voe
 from rgss.grasping.rigid_body import (
     configuration_distance_m,
@@ -34,7 +33,6 @@ from rgss.grasping.rigid_body import (
 from rgss.grasping.screws import Twist, Wrench, reciprocal_product
 from rgss.grasping.status import (
     ContactState,
-    ContactStatus,
     ContactTolerances,
     Sliding,
     Tendency,
@@ -42,4 +40,4 @@ from rgss.grasping.status import (
     contact_status,
     twist_tendency,
 )
-from rgss.grasping.summary import GraspQuality, analyse_grasp
+from rgss.grasping.summary import analyse_grasp

@@ -8,11 +8,11 @@ if TYPE_CHECKING:
     from rgss.identification.calibration import MISFIT, calibration_text
     from rgss.identification.excitation import load_excitation
     from rgss.identification.excitation_document import ExcitationDocument
-    from rgss.identification.fitting import FitStatus, FittedParameter, ServoFit, fit_joint
-    from rgss.identification.motion_of_servos import ServoMotion, servo_motion
+    from rgss.identification.fitting import FitStatus, ServoFit, fit_joint
+    from rgss.identification.motion_of_servos import servo_motion
     from rgss.identification.recording import JointSeries, Recording, Segment
     from rgss.identification.recording_file import read_recording, write_recording
-    from rgss.identification.response_measures import Response, responses
+    from rgss.identification.response_measures import responses
     from rgss.identification.simulated_arm import simulated_recording
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

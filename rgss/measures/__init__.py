@@ -2,12 +2,7 @@
 
 from rgss.measures.definition_digests import definition_digest
 from rgss.measures.definitions import (
-    Alternative,
-    Assumption,
-    Constant,
     Direction,
-    Equation,
-    EstimateRule,
     Estimator,
     InputSymbol,
     Measure,

@@ -1,6 +1,6 @@
 """Motion: planning by random trees on a counted clock, shortening, smoothing and timing of paths."""
 
-from rgss.motion.blending import BlendedPath, SmoothPath, blend
+from rgss.motion.blending import SmoothPath, blend
 from rgss.motion.clock import ClockKind, PlanningClock
 from rgss.motion.limits import MotionLimits
 from rgss.motion.paths import JointPath, path_length, segment_states
@@ -13,4 +13,4 @@ from rgss.motion.profiles import time_move_by_joint_waypoints, time_move_by_trap
 from rgss.motion.roadmap import SearchGraph
 from rgss.motion.timing import TimedMove, TimingOutcome, time_blended, time_move
 from rgss.motion.trajectory import Trajectory
-from rgss.motion.validity import StateCost, StateValidity, ToolKinematics
+from rgss.motion.validity import StateCost

@@ -17,12 +17,11 @@ from rgss.scenes.convex_shapes import (
     vertices_of,
     with_mesh_files,
 )
-from rgss.scenes.document import AssumptionEntry, GripperDocument, RobotDocument, SceneDocument
+from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
 from rgss.scenes.grasps import (
     Approach,
     GivenGrasp,
     GraspCandidates,
-    PadElement,
     PadLayout,
     PadPatch,
     SuctionPoint,
@@ -37,21 +36,19 @@ from rgss.scenes.grasps import (
 from rgss.scenes.gripper import Gripper, GripperDrive, GripperFile, GripperGeometry, Suction
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file
 from rgss.scenes.hands import (
-    GRIPPER_KINDS,
     LinkageGripperDocument,
     ParallelGripperDocument,
     VacuumGripperDocument,
     at_object,
     at_opening,
     at_top,
-    flat_top_radius_m,
     misfit,
     suction_point_of,
     too_narrow,
     too_wide,
 )
 from rgss.scenes.link_solids import LinkSolid, link_solid
-from rgss.scenes.linkage import Linkage, LinkageLink, LinkageMotion, LinkagePad
+from rgss.scenes.linkage import Linkage, LinkageMotion
 from rgss.scenes.linkage_assembly import linkage_masses_kg
 from rgss.scenes.mass_properties import (
     Gyration,
@@ -61,10 +58,10 @@ from rgss.scenes.mass_properties import (
     quaternion_of,
     solid_moments,
 )
-from rgss.scenes.mesh_shapes import MeshSummary, mesh_summary
+from rgss.scenes.mesh_shapes import mesh_summary
 from rgss.scenes.objects import Standing, grasp_opening_m, initial_standings, scene_about
 from rgss.scenes.pose import Pose
-from rgss.scenes.rib_geometry import RIBS, pad_ribs
+from rgss.scenes.rib_geometry import RIBS
 from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, Robot
 from rgss.scenes.robot_file import load_robot
 from rgss.scenes.scene import (
@@ -92,13 +89,6 @@ from rgss.scenes.shapes import (
     half_extents_m,
     least_height_m,
 )
-from rgss.scenes.urdf_chain import (
-    UrdfChain,
-    carried_by,
-    chain_to,
-    kind_of,
-    loads_without_inertia,
-    standing_links,
-)
+from rgss.scenes.urdf_chain import carried_by, chain_to, kind_of, loads_without_inertia, standing_links
 from rgss.scenes.urdf_file import number_problems
 from rgss.scenes.waypoints import Waypoint, waypoint_poses

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rgss.tasks.move_kinds import MoveKind
     from rgss.tasks.move_step import MoveStep, Target
     from rgss.tasks.packaged_task import default_task
-    from rgss.tasks.program import Step, TaskProgram
+    from rgss.tasks.program import Step, TaskProgram, no_branch_for
     from rgss.tasks.release_step import ReleaseStep
     from rgss.tasks.scene_findings import task_findings
     from rgss.tasks.stages import Stage, stages_of

@@ -1,7 +1,7 @@
 """Traceability: the graph of links, the rules that it must keep, and its matrices."""
 
 from rgss.trace.model import MeasureKind, MeasureTrace, TraceModel, build_trace_model
-from rgss.trace.rules import FAMILIES, RULES, Rule, check_trace, rule_of
+from rgss.trace.rules import FAMILIES, RULES, check_trace, rule_of
 from rgss.trace.views import (
     TraceMatrix,
     matrix_of,

@@ -1,24 +1,16 @@
 """Trade-off: values, weights and thresholds in; a certified and explained decision out."""
 
 from rgss.tradeoff.deciding import best_alternatives, decide
-from rgss.tradeoff.decision import (
-    Contribution,
-    Counts,
-    Decision,
-    FlatMeasure,
-    InfeasibleAlternative,
-    RankedAlternative,
-)
+from rgss.tradeoff.decision import Contribution, Decision, FlatMeasure, InfeasibleAlternative, RankedAlternative
 from rgss.tradeoff.infeasibility import (
     Conflicts,
     ConflictSurvival,
     JointRepair,
     LimitChange,
     NearestAlternative,
-    Repair,
     RequirementCount,
 )
-from rgss.tradeoff.levels import LevelDecision, LevelProblem, LevelTable, decide_levels, smallest_table
+from rgss.tradeoff.levels import LevelProblem, LevelTable, decide_levels, smallest_table
 from rgss.tradeoff.milp import Agreement, Check, CheckKind, DecisionStatus, SolverCheck, SolverRun, independent_run
 from rgss.tradeoff.portfolio import (
     Assignment,
@@ -53,7 +45,6 @@ from rgss.tradeoff.problem import (
     RankRule,
     RequirementAnchor,
     Risk,
-    Samples,
     ShapeKeys,
     TailBound,
     TargetValue,
@@ -71,13 +62,11 @@ from rgss.tradeoff.programs import (
     AdditiveValue,
     Aim,
     Certificate,
-    ConstraintResidual,
     EpsilonConstraint,
     Lexicographic,
     MinimaxRegret,
     Program,
     Scenarios,
-    StageCertificate,
     Tchebycheff,
     TradeProblem,
 )

@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.tasks import MoveKind
     from rgss.trials.conditions import DrawnValue, conditions_of, drawn_values
     from rgss.trials.filming import Film
     from rgss.trials.impact import ClosingImpact, closing_impact
@@ -16,7 +15,6 @@ if TYPE_CHECKING:
         METRICS,
         PHASE_METRICS,
         Aggregation,
-        Direction,
         MetricDescriptor,
         PhaseValue,
     )
@@ -46,6 +44,6 @@ if TYPE_CHECKING:
     from rgss.trials.timing_settings import TimingProfile, TimingSettings
     from rgss.trials.tracing import run_traced_trial
     from rgss.trials.trial_spec import TrialSpec
-    from rgss.trials.workcell import Workcell, cell_of, grasp_search_of, with_grasp_of
+    from rgss.trials.workcell import Workcell, cell_of, with_grasp_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

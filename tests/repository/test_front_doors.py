@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 
 
 def names_defined_in(tree):
@@ -47,3 +48,48 @@ def test_a_name_that_a_module_hands_on_is_found():
     }
 
     assert handed_on(sources) == ["pack.four: pack.two.A"]
+
+
+def unused_exports(sources, texts=()):
+    """Names that the front door of a package hands on and nothing outside it imports: ``package: name``."""
+    trees = {name: ast.parse(text) for name, text in sources.items()}
+    imports = [
+        (name, node.module, imported.name)
+        for name, tree in trees.items()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and node.module
+        for imported in node.names
+    ]
+    used = {(module, name) for importer, module, name in imports if importer != f"{module}.__init__"}
+    for text in texts:
+        for module, names in re.findall(r"from (rgss[.\w]*) import \(?([\w, \\n]+)", text):
+            used |= {(module, name) for name in re.findall(r"\w+", names)}
+    return [
+        f"{importer.removesuffix('.__init__')}: {name}"
+        for importer, module, name in imports
+        if importer.startswith("rgss.") and importer.endswith(".__init__") and module.startswith("rgss.")
+        if name != "lazy_exports" and (importer.removesuffix(".__init__"), name) not in used
+    ]
+
+
+def test_what_a_front_door_hands_on_is_imported_somewhere(files, repository):
+    sources = {
+        ".".join(path.relative_to(repository).with_suffix("").parts): path.read_text(encoding="utf-8")
+        for path in files
+        if path.suffix == ".py"
+    }
+    texts = [path.read_text(encoding="utf-8") for path in files if path.suffix in {".md", ".ipynb"}]
+
+    # The package itself is the interface of Python.
+    assert [entry for entry in unused_exports(sources, texts) if not entry.startswith("rgss: ")] == []
+
+
+def test_an_export_that_nothing_imports_is_found():
+    sources = {
+        "rgss.pack.__init__": "from rgss.pack.one import A, B, C\n",
+        "rgss.pack.one": "class A: ...\nclass B: ...\nclass C: ...\n",
+        "rgss.two": "from rgss.pack import A\n",
+        "tests.three": "from rgss.pack.one import B\n",
+    }
+
+    assert unused_exports(sources, ["```python\nfrom rgss.pack import C\n```"]) == ["rgss.pack: B"]

@@ -2,15 +2,37 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import numpy as np
 import pytest
 
 from rgss.evidence import Failure
-from rgss.tasks import default_task
+from rgss.tasks import (
+    CheckStep,
+    GripStep,
+    MoveStep,
+    ReleaseStep,
+    Step,
+    Target,
+    TaskProgram,
+    WaitStep,
+    default_task,
+)
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.program import run_program
 from rgss.trials.reference import Reference
 from tests.fixtures.eight_states import Phase
+
+CHECK = CheckStep(name="check", is_at_rest=True)
+STEPS = {
+    MoveStep: (MoveStep(name=Phase.LIFT, target=Target(name="pose")), "move"),
+    GripStep: (GripStep(name=Phase.GRASP), "grasp"),
+    ReleaseStep: (ReleaseStep(name=Phase.PLACE), "place"),
+    WaitStep: (WaitStep(name="wait", duration_s=0.5), "wait"),
+    CheckStep: (CHECK, "check"),
+}
+"""A step of each kind, and the method of the plant that it calls."""
 
 MOVES = tuple(phase for phase in Phase if phase not in (Phase.GRASP, Phase.PLACE))
 START_RAD = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6)
@@ -37,6 +59,14 @@ class ScriptedPlant:
     def place(self, phase=Phase.PLACE):
         self.calls.append(("place",))
         return self._result(Phase.PLACE)
+
+    def wait(self, phase, duration_s):
+        self.calls.append(("wait", duration_s))
+        return self._result(phase)
+
+    def check(self, step):
+        self.calls.append(("check", step))
+        return self._result(step.name)
 
     def _result(self, phase):
         failure = Failure.OBJECT_DROPPED if phase == self.fails_at else None
@@ -125,3 +155,21 @@ def test_a_checkpoint_is_passed_before_each_phase_and_may_end_the_program(refere
         run_program(plant, references, checkpoint=checkpoint, task=default_task())
     assert passed == [1, 2, 3, 4]
     assert [call[0] for call in plant.calls] == ["start", "move", "grasp", "move"]
+
+
+@pytest.mark.parametrize("kind", get_args(Step))
+def test_each_kind_of_step_calls_its_method_of_the_plant(references, kind):
+    plant, (step, method) = ScriptedPlant(), STEPS[kind]
+    first = MoveStep(name=Phase.MOVE_TO_GRASP, target=Target(name="pose"))
+    results = run_program(plant, references, task=TaskProgram(id="one", start=None, steps=(first, step)))
+    assert [call[0] for call in plant.calls] == ["start", "move", method]
+    assert [result.phase for result in results] == [first.name, step.name]
+
+
+def test_a_kind_of_step_without_a_branch_is_an_error(references):
+    class Turn:
+        name = "turn"
+
+    first = MoveStep(name=Phase.MOVE_TO_GRASP, target=Target(name="pose"))
+    with pytest.raises(AssertionError, match="no branch for"):
+        run_program(ScriptedPlant(), references, task=TaskProgram(id="one", start=None, steps=(first, Turn())))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from rgss.drivers import GripperState, Segment, TimedTask
 from rgss.errors import MotionError
-from rgss.tasks import CheckStep, GripStep, ReleaseStep, WaitStep
+from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, WaitStep, no_branch_for
 
 if TYPE_CHECKING:
     from rgss.trials import TaskPlan, TaskTiming, TrialSpec
@@ -23,29 +23,42 @@ def timed_task(spec: TrialSpec, plan: TaskPlan, timing: TaskTiming) -> TimedTask
     Raises:
         MotionError: A move was not planned or timed.
     """
-    control, gripper = spec.settings.control, spec.gripper
-    travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
     state, segments = GripperState.OPEN, []
     for step in spec.task.steps:
-        phase = step.name
         if isinstance(step, GripStep):
             state = GripperState.CLOSED
-            segments.append(Segment(name=phase, gripper=state, wait_s=travel_s + control.firm_grasp_s))
         elif isinstance(step, ReleaseStep):
             state = GripperState.OPEN
-            segments.append(Segment(name=phase, gripper=state, wait_s=travel_s + control.settled_s))
-        elif isinstance(step, WaitStep):
-            segments.append(Segment(name=phase, gripper=state, wait_s=step.duration_s))
-        elif isinstance(step, CheckStep):
-            continue  # What a check needs to see, a driver does not report.
-        elif phase in timing.trajectories:
-            segments.append(Segment(name=phase, gripper=state, motion=timing.trajectories[phase]))
-        else:
+        # What a check needs to see, a driver does not report.
+        if not isinstance(step, CheckStep):
+            segments.append(_segment(step, state, spec, plan, timing))
+    return TimedTask(segments=tuple(segments))
+
+
+def _segment(
+    step: MoveStep | GripStep | ReleaseStep | WaitStep,
+    state: GripperState,
+    spec: TrialSpec,
+    plan: TaskPlan,
+    timing: TaskTiming,
+) -> Segment:
+    """One step: a motion, or a wait with the gripper in a state."""
+    control, gripper = spec.settings.control, spec.gripper
+    travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
+    if isinstance(step, GripStep):
+        return Segment(name=step.name, gripper=state, wait_s=travel_s + control.firm_grasp_s)
+    if isinstance(step, ReleaseStep):
+        return Segment(name=step.name, gripper=state, wait_s=travel_s + control.settled_s)
+    if isinstance(step, WaitStep):
+        return Segment(name=step.name, gripper=state, wait_s=step.duration_s)
+    if isinstance(step, MoveStep):
+        if step.name not in timing.trajectories:
             raise MotionError(
-                f"the move {phase} cannot be sent to a robot: {_reason(phase, plan, timing)}",
+                f"the move {step.name} cannot be sent to a robot: {_reason(step.name, plan, timing)}",
                 hint="'rgss run' without --driver shows the trial",
             )
-    return TimedTask(segments=tuple(segments))
+        return Segment(name=step.name, gripper=state, motion=timing.trajectories[step.name])
+    raise no_branch_for(step)
 
 
 def _reason(phase: str, plan: TaskPlan, timing: TaskTiming) -> str:

@@ -6,7 +6,6 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.cli.evidence.collection import collect
-    from rgss.cli.evidence.numerics import computed_with, numerics_line
     from rgss.cli.evidence.place import EvidencePlace
     from rgss.cli.evidence.summary import summarise
     from rgss.cli.evidence.verification import verify_evidence

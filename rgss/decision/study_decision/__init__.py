@@ -5,13 +5,12 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.decision.study_decision.comparison import ObjectiveRow, ParameterRow, SideBySide, WeightedRow
+    from rgss.decision.study_decision.comparison import SideBySide
     from rgss.decision.study_decision.conclusion import Conclusion, DesignStanding, Feasibility
     from rgss.decision.study_decision.contenders import Contender
-    from rgss.decision.study_decision.findings import Driver, RobustnessFindings, WeightMove
+    from rgss.decision.study_decision.findings import RobustnessFindings
     from rgss.decision.study_decision.limit_moves import LimitMove, LimitMoves
-    from rgss.decision.study_decision.reasons import ClosestLimit, Gain
     from rgss.decision.study_decision.study_decision import StudyDecision, decide_study, is_settled
-    from rgss.decision.study_decision.suppositions import DecisionSide, WhatIf
+    from rgss.decision.study_decision.suppositions import WhatIf
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -17,9 +17,8 @@ if TYPE_CHECKING:
     from rgss.decision.what_if.readings import Reading, readings_of
     from rgss.decision.what_if.remeasured import measured_in
     from rgss.decision.what_if.scenario import Change, Scenario
-    from rgss.decision.what_if.setting import ModelSetting, SettingChange
     from rgss.decision.what_if.simulated import simulated_numbers
-    from rgss.decision.what_if.trial_evidence import ScenarioEvidence, ScenarioEvidenceReader
+    from rgss.decision.what_if.trial_evidence import ScenarioEvidenceReader
     from rgss.decision.what_if.what_if import PRICES, suppose
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

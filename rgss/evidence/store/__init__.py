@@ -5,6 +5,6 @@ from rgss.evidence.store.collection import Garbage, collect_garbage, find_garbag
 from rgss.evidence.store.connection import error_of
 from rgss.evidence.store.contents import Contents, TrialName, contents_of, trial_names
 from rgss.evidence.store.exporting import export_trials, require_exportable
-from rgss.evidence.store.observation import StoreState, observed, state_of
+from rgss.evidence.store.observation import observed, state_of
 from rgss.evidence.store.store import EvidenceStore
 from rgss.evidence.store.verification import Verification, salvage, take_away, verify

@@ -7,6 +7,6 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.physics.mujoco.engine import engine_version
     from rgss.physics.mujoco.settings import MujocoSettings
-    from rgss.physics.mujoco.world import LEAST_MUJOCO_RATE_HZ, MujocoWorld
+    from rgss.physics.mujoco.world import MujocoWorld
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

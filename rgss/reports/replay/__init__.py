@@ -5,10 +5,8 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.reports.replay.gltf_scene import ANIMATION, replay_to_glb
     from rgss.reports.replay.packing import packed_replay
     from rgss.reports.replay.replay_page import (
-        MOST_TRIALS,
         REPLAY_SCRIPTS,
         REPLAY_STYLE,
         PackedReplay,
@@ -16,6 +14,5 @@ if TYPE_CHECKING:
         rendering_library,
         replay_to_html,
     )
-    from rgss.reports.replay.timeline import timeline_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -21,7 +21,6 @@ from rgss.reports.study_plots.canvas import (
 from rgss.reports.study_plots.plotted import PlottedDesigns
 
 MOST_TRIALS = 30
-_SHADES = ("", "....", "xxxx", "\\\\\\\\")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

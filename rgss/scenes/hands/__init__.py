@@ -5,14 +5,12 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.scenes.hands.finger_gripper import FingerGripper
-    from rgss.scenes.hands.fit import flat_top_radius_m, misfit, suction_point_of, too_narrow, too_wide
-    from rgss.scenes.hands.gripper_kind import GripperKind
-    from rgss.scenes.hands.kinds import GRIPPER_KINDS, kind_of_gripper
+    from rgss.scenes.hands.fit import misfit, suction_point_of, too_narrow, too_wide
+    from rgss.scenes.hands.kinds import kind_of_gripper
     from rgss.scenes.hands.linkage_document import LinkageGripperDocument
     from rgss.scenes.hands.linkage_fit import at_object, at_opening
     from rgss.scenes.hands.linkage_gripper import LinkageGripper
-    from rgss.scenes.hands.parallel_gripper import ParallelGripper, ParallelGripperDocument
-    from rgss.scenes.hands.vacuum_gripper import VacuumGripper, VacuumGripperDocument, at_top
+    from rgss.scenes.hands.parallel_gripper import ParallelGripperDocument
+    from rgss.scenes.hands.vacuum_gripper import VacuumGripperDocument, at_top
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

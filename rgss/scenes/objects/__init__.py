@@ -16,7 +16,7 @@ if TYPE_CHECKING:
         shared_grasp_findings,
     )
     from rgss.scenes.objects.object_entry import candidates_of, object_lengths
-    from rgss.scenes.objects.object_file import ObjectSolid, object_solid, workpiece_of
+    from rgss.scenes.objects.object_file import object_solid, workpiece_of
     from rgss.scenes.objects.opening import grasp_opening_m
     from rgss.scenes.objects.several_objects import Standing, initial_standings, scene_about
 else:

@@ -6,15 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.scenes.uncertainty.declaration import NOTHING_UNCERTAIN, Correlation, Uncertainty, UncertainValue
-    from rgss.scenes.uncertainty.distributions import (
-        Constant,
-        Discrete,
-        Distribution,
-        LogNormal,
-        Normal,
-        TruncatedNormal,
-        Uniform,
-    )
+    from rgss.scenes.uncertainty.distributions import Constant, Discrete, LogNormal, Normal, TruncatedNormal, Uniform
     from rgss.scenes.uncertainty.document import CaseEntry, CorrelationEntry, DistributionEntry, QuantityName
     from rgss.scenes.uncertainty.drawing import draws_of, white_noise
     from rgss.scenes.uncertainty.object_findings import unknown_objects
@@ -27,7 +19,6 @@ if TYPE_CHECKING:
     from rgss.scenes.uncertainty.quantity_names import (
         draw_column,
         in_order,
-        name_of_first,
         object_quantity_name,
         object_quantity_of_column,
         quantity_of,

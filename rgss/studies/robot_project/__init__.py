@@ -9,6 +9,6 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.studies.robot_project.description import robot_findings
     from rgss.studies.robot_project.summary import RobotSummary, robot_summary
-    from rgss.studies.robot_project.writing import RobotProject, write_robot_project
+    from rgss.studies.robot_project.writing import write_robot_project
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -8,6 +8,5 @@ if TYPE_CHECKING:
     from rgss.trace.rules.explaining import rule_as_json, rule_lines, rules_markdown
     from rgss.trace.rules.registry import FAMILIES, RULES, check_trace, rule_of
     from rgss.trace.rules.review_stamps import expanded, stamped, write_reviews
-    from rgss.trace.rules.rule import Rule
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

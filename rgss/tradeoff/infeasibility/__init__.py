@@ -11,12 +11,11 @@ if TYPE_CHECKING:
         JointRepair,
         LimitChange,
         NearestAlternative,
-        Repair,
         RequirementCount,
         excluded_counts,
         find_conflicts,
     )
-    from rgss.tradeoff.infeasibility.noise import RESAMPLES, conflict_survival, resampled_tables
+    from rgss.tradeoff.infeasibility.noise import RESAMPLES, conflict_survival
     from rgss.tradeoff.infeasibility.repair import find_joint_repairs, find_repairs
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

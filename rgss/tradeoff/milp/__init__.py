@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.milp.independent_solver import SolverCheck, independent_run
     from rgss.tradeoff.milp.limited_runs import LimitedRuns
     from rgss.tradeoff.milp.linear import SOLVER_TOLERANCE, solve_linear
-    from rgss.tradeoff.milp.selection import INTEGRALITY_TOLERANCE, Row, Selection, VariantSelection, read_choice
+    from rgss.tradeoff.milp.selection import INTEGRALITY_TOLERANCE, Row, VariantSelection, read_choice
     from rgss.tradeoff.milp.solver_process import SolverLimitError, SolverProcess
     from rgss.tradeoff.milp.stage import (
         FIRST_RUN,
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
         QuantityRank,
         WeightedValue,
         WorstOf,
-        compile_constraint,
     )
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -6,7 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.tradeoff.programs.additive import AdditiveValue
-    from rgss.tradeoff.programs.certificate import Certificate, ConstraintResidual, StageCertificate, certify
+    from rgss.tradeoff.programs.certificate import Certificate, certify
     from rgss.tradeoff.programs.columns import condition_column, keeps, single_values
     from rgss.tradeoff.programs.enumeration import Enumeration, enumerate_alternatives, violations
     from rgss.tradeoff.programs.lexicographic import Aim, EpsilonConstraint, Lexicographic

@@ -18,9 +18,8 @@ if TYPE_CHECKING:
     from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
     from rgss.tradeoff.robustness.prices import PriceStep, changes_of_best, price_list, step_at
     from rgss.tradeoff.robustness.rank_reversal import RankReversal, rank_reversals, sample_anchored
-    from rgss.tradeoff.robustness.resampled_outcomes import ResampledOutcomes
     from rgss.tradeoff.robustness.sampled_effects import FEWEST_PER_CLASS, SampledIndex, classes_of, first_order_indices
-    from rgss.tradeoff.robustness.stakeholders import StakeholderAgreement, StakeholderView, stakeholder_agreement
+    from rgss.tradeoff.robustness.stakeholders import StakeholderAgreement, stakeholder_agreement
     from rgss.tradeoff.robustness.uncertainty import ChoiceUncertainty, Rival, choice_uncertainty
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

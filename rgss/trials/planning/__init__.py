@@ -5,18 +5,13 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.trials.planning.direct_moves import DirectMove, direct_move
-    from rgss.trials.planning.goal_reasons import GoalReason, Obstacle, reason_against
+    from rgss.trials.planning.direct_moves import direct_move
+    from rgss.trials.planning.goal_reasons import GoalReason, Obstacle
     from rgss.trials.planning.other_limits import plan_under, with_limits_of
     from rgss.trials.planning.plan import plan_of, plan_task
     from rgss.trials.planning.planned_moves import PlannedMove, TaskPlan
     from rgss.trials.planning.planner_searches import searches_of
     from rgss.trials.planning.planning_costs import state_cost
-    from rgss.trials.planning.task_stops import (
-        serves_every_stop,
-        stops_of,
-        unserved_waypoints,
-        waypoint_configurations,
-    )
+    from rgss.trials.planning.task_stops import serves_every_stop, unserved_waypoints, waypoint_configurations
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

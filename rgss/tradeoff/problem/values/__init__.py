@@ -12,9 +12,9 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField, PointEntry, QuantityField, RequirementAnchor
     from rgss.tradeoff.problem.values.bent import bent_values, half_value_share
-    from rgss.tradeoff.problem.values.exponential import STEEPEST_EXPONENT, AnchoredExponential, ExponentialValue
+    from rgss.tradeoff.problem.values.exponential import AnchoredExponential, ExponentialValue
     from rgss.tradeoff.problem.values.piecewise import AnchoredPiecewise, PiecewiseValue
-    from rgss.tradeoff.problem.values.s_curve import AnchoredSCurve, SCurveValue
+    from rgss.tradeoff.problem.values.s_curve import AnchoredSCurve
     from rgss.tradeoff.problem.values.shapes import SHAPE_KEYS, SHAPES, ShapeKeys, shape_of
     from rgss.tradeoff.problem.values.target import AnchoredTarget, TargetValue
     from rgss.tradeoff.problem.values.value_function import TIE_TOLERANCE, AnchoredValue, ValueFunction
