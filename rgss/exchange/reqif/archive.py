@@ -11,6 +11,8 @@ from pathlib import PurePosixPath
 from rgss.errors import DocumentError
 from rgss.exchange.files import LARGEST_REQIF_BYTES, problem
 
+ARCHIVE_ENDING = ".reqifz"
+
 _MOST_MEMBERS = 10_000
 _SIGNATURES = (b"PK\x03\x04", b"PK\x05\x06")
 _EPOCH = (1980, 1, 1, 0, 0, 0)
