@@ -61,7 +61,6 @@ from rgss.tradeoff.problem import (
 from rgss.tradeoff.programs import (
     AdditiveValue,
     Aim,
-    Certificate,
     EpsilonConstraint,
     Lexicographic,
     MinimaxRegret,
