@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rgss.reports.page import render_page, template_text
-from rgss.reports.study import entry_at, entry_text, first_screen_content
-from rgss.reports.study_page import TrialPictures, chosen_picture, comparison_rows, data_address
+from rgss.reports.study import comparison_rows, data_address, entry_at, entry_text, first_screen_content
+from rgss.reports.study_page import TrialPictures, chosen_picture
 
 MOST_PAGES = 5
 """Printed pages at most, A4 in landscape."""

@@ -1,24 +1,24 @@
 """A study's report as one self-contained HTML page with linked plots."""
 
-# long file: one function gathers what the template shows, and the helpers are of its parts.
-
 from __future__ import annotations
 
-import base64
-import gzip
-import json
-import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources
 from typing import Any
-from urllib.parse import quote
 
 from rgss.errors import DefinitionError
-from rgss.invisible_characters import visible_throughout
 from rgss.reports.page import render_page, template_text
 from rgss.reports.replay import REPLAY_SCRIPTS, REPLAY_STYLE, PackedReplay, as_context, rendering_library
-from rgss.reports.study import entry_at, entry_text, first_screen_content
+from rgss.reports.study import (
+    compared_trials,
+    comparison_rows,
+    data_address,
+    embedded_json,
+    first_screen_content,
+    packed_json,
+    parted,
+)
 from rgss.reports.trace import TraceReport, trace_context
 from rgss.trace.views import share_in_words, value_in_words
 
@@ -42,9 +42,6 @@ SCRIPTS = (
 
 LARGEST_PLAIN = 2_000_000
 """A longer document is packed."""
-
-_MOST_REPLAYS = 5
-_COLUMNS = ("value", "low", "high", "n")
 
 _SECTIONS = (
     ("glance", "At a glance"),
@@ -148,7 +145,7 @@ def study_report_to_html(
         glance=glance,
         glance_picture=chosen_picture(document["decision"]["chosen"], pictures),
         comparison=comparison_rows(document),
-        compared_trials=_compared_trials(document),
+        compared_trials=compared_trials(document),
         report_sections=_SECTIONS[1:] if glance is None else _SECTIONS,
         pictures=[_picture(one) for one in pictures],
         worst_failure=next((place for place, one in enumerate(pictures) if one.failed), None),
@@ -162,51 +159,6 @@ def study_report_to_html(
         share=share_in_words,
         **trace_context(trace, drawings=drawings, drawings_notice=drawings_notice),
     )
-
-
-def parted(document: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """A document without the columns of the measures that nothing weighs or demands, and these columns.
-
-    A page with many variants stands sooner without them, and adds them when it does.
-
-    Args:
-        document: What the report shows.
-
-    Returns:
-        The document, and the columns that were taken from it by the measure's id.
-    """
-    wanted = {requirement["measure"] for requirement in document["requirements"]}
-    measures, later = [], {}
-    for measure in document["measures"]:
-        decisive = measure["kind"] == "moe" or measure["weight"] is not None or measure["id"] in wanted
-        columns = {} if decisive else {name: measure[name] for name in _COLUMNS if isinstance(measure.get(name), list)}
-        measures.append({name: value for name, value in measure.items() if name not in columns})
-        if columns:
-            later[measure["id"]] = columns
-    return {**document, "measures": measures}, later
-
-
-def embedded_json(document: Any) -> str:
-    """A document as JSON that may stand in a script element, whatever texts it has.
-
-    Nothing in it can end the element or a line: what is not ASCII and the signs ``<``, ``>`` and
-    ``&`` are written as escapes, which JSON reads back as they were. Invisible characters are shown by
-    their code points, since the page shows the texts to people.
-
-    Args:
-        document: Dictionaries, lists, texts, finite numbers.
-    """
-    text = json.dumps(visible_throughout(document), allow_nan=False, ensure_ascii=True, separators=(",", ":"))
-    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
-
-
-def packed_json(text: str) -> str:
-    """A JSON text that is packed with gzip and written in base 64, the same bytes every time.
-
-    Args:
-        text: The text.
-    """
-    return base64.b64encode(gzip.compress(text.encode("ascii"), compresslevel=9, mtime=0)).decode("ascii")
 
 
 def plotting_library() -> str:
@@ -231,90 +183,12 @@ def find_and_sort_library() -> str:
     return place.read_text(encoding="utf-8")
 
 
-def comparison_rows(document: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """The chosen variant beside the runner-up, a row for each parameter that varies and each weighted measure.
-
-    Args:
-        document: What the report shows.
-    """
-    decision, variants = document["decision"], document["variants"]
-    shown = [variants["id"].index(one) for one in (decision["chosen"], decision["runner_up"]) if one is not None]
-    if not shown:
-        return []
-
-    rows = [
-        {
-            "name": parameter["name"],
-            "weight": None,
-            "cells": [
-                _figure(
-                    document,
-                    place,
-                    parameter["id"],
-                    entry_text(entry_at(parameter["values"], place), parameter["unit"]),
-                )
-                for place in shown
-            ],
-        }
-        for parameter in document["parameters"]
-        if parameter["varies"]
-    ]
-    measures = {measure["id"]: measure for measure in document["measures"]}
-    for weighted in document["weights"]["measures"]:
-        measure = measures[weighted["id"]]
-        rows.append(
-            {
-                "name": f"{measure['id']}: {measure['name']}",
-                "weight": weighted["weight"],
-                "cells": [_figure(document, place, measure["id"], _estimate(measure, place)) for place in shown],
-            }
-        )
-    values = [_figure(document, place, "value", entry_text(entry_at(variants["value"], place))) for place in shown]
-    rows.append({"name": "weighted value", "weight": None, "cells": values})
-    return rows
-
-
-def _figure(document: Mapping[str, Any], place: int, name: str, text: str) -> dict[str, str]:
-    return {"text": text, "to": f"#variant-{document['variants']['id'][place]}/{quote(name, safe='')}"}
-
-
 def _refused(reasons: Mapping[str, str]) -> dict[str, list[str]]:
     """Names of the analyses that do not apply, by the reason."""
     names: dict[str, list[str]] = {}
     for name, reason in reasons.items():
         names.setdefault(reason, []).append(name)
     return names
-
-
-def _compared_trials(document: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """The trials of the chosen variant and of the runner-up, each with the command that runs it again."""
-    decision, variants, trials = document["decision"], document["variants"], document["trials"]
-    shown = [variants["id"].index(one) for one in (decision["chosen"], decision["runner_up"]) if one is not None]
-    rows: dict[int, list[int]] = {place: [] for place in shown}
-    for row, place in enumerate(trials["variant"]):
-        if place in rows:
-            rows[place].append(row)
-    named = (
-        "" if document["study_file"] == document["default_study"] else f" --study {shlex.quote(document['study_file'])}"
-    )
-    return [
-        {
-            "trials": [
-                _figure(document, place, trials["key"][row], "")
-                | {"replay": f"rgss replay {trials['key'][row]}{named}"}
-                for row in rows[place][:_MOST_REPLAYS]
-            ],
-            "more": max(0, len(rows[place]) - _MOST_REPLAYS),
-            "to": _figure(document, place, "trials", "")["to"],
-        }
-        for place in shown
-    ]
-
-
-def _estimate(measure: Mapping[str, Any], place: int) -> str:
-    value, low, high = (entry_at(measure.get(name), place) for name in ("value", "low", "high"))
-    text = entry_text(value, measure["unit"])
-    return text if low is None or high is None or low == high else f"{text} ({entry_text(low)} to {entry_text(high)})"
 
 
 def chosen_picture(chosen: int | None, pictures: Sequence[TrialPictures]) -> str:
@@ -336,16 +210,6 @@ def _picture(one: TrialPictures) -> dict[str, Any]:
         "film": data_address("video/webm", one.film),
         "replays": [] if one.player is None else [as_context(one.player)],
     }
-
-
-def data_address(kind: str, content: bytes) -> str:
-    """A file as an address that holds it; empty if the file is.
-
-    Args:
-        kind: Its media type.
-        content: Its bytes.
-    """
-    return f"data:{kind};base64,{base64.b64encode(content).decode('ascii')}" if content else ""
 
 
 def _markup(text: str) -> Any:

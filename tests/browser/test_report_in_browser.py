@@ -11,7 +11,8 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 from rgss.invisible_characters import visible
-from rgss.reports.study_page import parted, study_report_to_html
+from rgss.reports.study import parted
+from rgss.reports.study_page import study_report_to_html
 
 pytestmark = pytest.mark.browser
 

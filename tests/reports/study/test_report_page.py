@@ -12,7 +12,8 @@ import pytest
 from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible_throughout
 from rgss.reports.page import render_page, script_hash
-from rgss.reports.study_page import embedded_json, packed_json, parted, plotting_library
+from rgss.reports.study import embedded_json, packed_json, parted
+from rgss.reports.study_page import plotting_library
 
 HOSTILE = "</script><!--<script>alert(1)</script> & \u2028\u2029 \"'` =SUM(1) 🤖 ]]>"
 
