@@ -179,7 +179,7 @@ def _write_diagrams(folder: Path, report: TraceReport, *, quiet: bool) -> None:
     from rgss.reports.diagrams import diagrams_of, missing_diagrams, write_diagrams
 
     requirements = report.model.requirements
-    files = write_diagrams(diagrams_of(requirements), folder)
+    files = write_diagrams(diagrams_of(requirements, report.definitions), folder)
     if not quiet:
         print(f"Wrote {len(files)} diagrams into {folder}")
         notice = missing_diagrams(requirements)

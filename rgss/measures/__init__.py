@@ -2,6 +2,7 @@
 
 from rgss.measures.definition_digests import definition_digest
 from rgss.measures.definitions import (
+    Constant,
     Direction,
     Estimator,
     InputSymbol,

@@ -1,6 +1,14 @@
 """Needs, requirements, criteria, and the architecture that is to satisfy them."""
 
-from rgss.requirements.architecture import Architecture, Behaviour, BehaviourKind, Block, BlockLevel, BlockRelation
+from rgss.requirements.architecture import (
+    Architecture,
+    Behaviour,
+    BehaviourKind,
+    Block,
+    BlockLevel,
+    BlockRelation,
+    inherited_blocks,
+)
 from rgss.requirements.attributes import (
     NeedKind,
     Priority,
@@ -34,3 +42,4 @@ from rgss.requirements.requirement import Requirement
 from rgss.requirements.requirement_set import Place, RequirementSet, nearest
 from rgss.requirements.review import Review
 from rgss.requirements.rule_settings import RuleSetting
+from rgss.requirements.structure import Connector, Port, PortDirection, ValueProperty

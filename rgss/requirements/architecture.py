@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator, Mapping
 from enum import Enum
 from typing import Any
 
@@ -12,6 +13,7 @@ from pydantic.dataclasses import dataclass
 from rgss.documents import STRICT, Identifier, Text
 from rgss.requirements.behaviour import Flow, Interaction, StateMachine
 from rgss.requirements.exemption import Exemption
+from rgss.requirements.structure import Connector, Multiplicity, Port, ValueProperty
 
 
 class BlockLevel(str, Enum):
@@ -50,7 +52,27 @@ class Block:
     relation: BlockRelation = BlockRelation.PART
     text: Text
     actor: bool = False
+    multiplicity: Multiplicity | None = None
+    values: tuple[ValueProperty, ...] = ()
+    ports: tuple[Port, ...] = ()
+    connectors: tuple[Connector, ...] = ()
     exempt: tuple[Exemption, ...] = ()
+
+
+def inherited_blocks(block: Block, blocks: Mapping[str, Block]) -> Iterator[Block]:
+    """A block, then those that it is a kind of, whose parts, values and ports it has too.
+
+    Args:
+        block: The block.
+        blocks: Every block by its id.
+    """
+    seen: set[str] = set()
+    step: Block | None = block
+    while step is not None and step.id not in seen:
+        seen.add(step.id)
+        yield step
+        is_kind = step.parent is not None and step.relation is BlockRelation.KIND
+        step = blocks.get(step.parent) if is_kind and step.parent is not None else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)

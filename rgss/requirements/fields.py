@@ -34,8 +34,8 @@ def split_quantity(text: str) -> tuple[float, str]:
     return parse_quantity(text, unit), unit
 
 
-def _as_text(value: Any) -> Any:
-    # A threshold without a unit may be a plain number.
+def as_text(value: Any) -> Any:
+    """A number as a text, for a quantity without a unit may be a plain number; anything else as it is."""
     return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
 
@@ -56,7 +56,7 @@ Entries = Annotated[tuple[_Entry, ...], AfterValidator(_not_empty), Field(json_s
 
 ThresholdText = Annotated[
     QuantityText,
-    BeforeValidator(_as_text),
+    BeforeValidator(as_text),
     AfterValidator(_check_quantity),
     WithJsonSchema(
         {

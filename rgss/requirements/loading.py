@@ -9,7 +9,13 @@ from rgss.documents import LoadedDocument
 from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.requirements.architecture import Architecture
-from rgss.requirements.checks import check_behaviours, declared_elements, declared_needs, declared_requirements
+from rgss.requirements.checks import (
+    check_behaviours,
+    check_blocks,
+    declared_elements,
+    declared_needs,
+    declared_requirements,
+)
 from rgss.requirements.files import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
 from rgss.requirements.hints import Hints
 from rgss.requirements.reading import FolderReader
@@ -54,6 +60,7 @@ def load_requirements(folder: Path, *, label_root: str = "requirements") -> Requ
     hints = Hints()
     findings += check_references(declarations, known=known, hints=hints)
     stated = {item.id: item for part in system.documents for item in part.value.requirements}
+    findings += check_blocks(architecture.documents, hints)
     findings += check_behaviours(architecture.documents, stated, hints)
     if findings:
         raise DocumentError(sorted(findings))

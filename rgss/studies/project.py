@@ -25,6 +25,7 @@ from rgss.studies.motion import motion_findings
 from rgss.studies.project_folders import REQUIREMENTS, measures_of, requirements_named, study_file
 from rgss.studies.study import StudyDefinition, named_file, read_study
 from rgss.studies.uncertainty_findings import uncertainty_findings
+from rgss.studies.value_symbols import symbol_findings
 from rgss.tasks import default_task, task_findings
 from rgss.trace import MeasureTrace, check_trace
 
@@ -169,6 +170,8 @@ class _Reader:
                 self._findings.extend(
                     source_findings(measures.inputs, designs.source_units(), document, planned=planned, joints=joints)
                 )
+        if requirements is not None and measures is not None:
+            self._findings += symbol_findings(requirements, measures)
         if (
             named_set is None
             or requirements is None

@@ -178,3 +178,19 @@ def test_a_link_that_leads_out_of_the_project_is_found_where_it_is_named(
 def test_a_project_that_is_itself_reached_by_a_link_is_sound(folder, tmp_path):
     (tmp_path / "link").symlink_to(folder)
     assert load_project(tmp_path / "link").scene.id == "restaurant"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("symbol: tau_w}", "symbol: tau_v}", "symbol: 'tau_v' is not a constant, an input or a measure (did you mean"),
+        ("unit: N*m, symbol: tau_w}", "unit: kg, symbol: tau_w}", "unit: 'wrist_torque' is in 'kg', but 'tau_w' is in"),
+    ],
+)
+def test_a_value_is_bound_to_a_symbol_of_its_dimension(edit, problems, old, new, expected):
+    edit("requirements/architecture/structure.yaml", old, new)
+    (problem,) = problems()
+
+    assert problem.startswith("requirements/architecture/structure.yaml:")
+    assert expected in problem
+    assert problem.endswith("[requirements.symbol]")

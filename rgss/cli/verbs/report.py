@@ -154,7 +154,7 @@ def _rendered(
     page = study_report_to_html(
         document,
         trace,
-        drawings=drawings_for_page(diagrams_of(project.requirements)),
+        drawings=drawings_for_page(diagrams_of(project.requirements, project.measures)),
         drawings_notice=missing_diagrams(project.requirements),
         pictures=pictures,
         pictures_notice=notice,

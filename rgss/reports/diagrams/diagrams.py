@@ -8,8 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from rgss.documents import replaced_file
+from rgss.measures import MeasureSet
 from rgss.reports.diagrams.behaviour import activity_diagram, state_diagram, use_case_diagram
 from rgss.reports.diagrams.drawing import Drawing
+from rgss.reports.diagrams.internal_blocks import internal_block_diagrams
+from rgss.reports.diagrams.parametric import parametric_diagrams
 from rgss.reports.diagrams.requirements import MOST_IN_GROUP, requirement_diagrams, too_large
 from rgss.reports.diagrams.sequence import sequence_diagram
 from rgss.reports.diagrams.trees import block_definition_diagrams, containment_map
@@ -22,19 +25,21 @@ MOST_ELEMENTS = 600
 _NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_.-]")
 
 
-def diagrams_of(requirements: RequirementSet) -> tuple[Drawing, ...]:
+def diagrams_of(requirements: RequirementSet, measures: MeasureSet | None = None) -> tuple[Drawing, ...]:
     """Draw the containment map, and what a model of moderate size has of each other kind of diagram.
 
-    These are requirement diagrams, block definition diagrams, a use-case diagram, activities,
+    These are requirement diagrams, block definition, internal block and parametric
+    diagrams, a use-case diagram, activities,
     sequences and state machines.
 
     Args:
         requirements: The requirements and the architecture.
+        measures: The measures, for parametric diagrams; None for none of these.
 
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
     """
-    return tuple(_all(requirements))
+    return tuple(_all(requirements, measures))
 
 
 def missing_diagrams(requirements: RequirementSet) -> str:
@@ -91,13 +96,16 @@ def file_stem(drawing: Drawing) -> str:
     return _NOT_IN_NAMES.sub("_", drawing.name)
 
 
-def _all(requirements: RequirementSet) -> Iterator[Drawing]:
+def _all(requirements: RequirementSet, measures: MeasureSet | None) -> Iterator[Drawing]:
     yield containment_map(requirements)
     if len(requirements.elements) > MOST_ELEMENTS:
         return
     architecture = requirements.architecture
     yield from requirement_diagrams(requirements)
     yield from block_definition_diagrams(architecture.blocks)
+    yield from internal_block_diagrams(architecture.blocks)
+    if measures is not None:
+        yield from parametric_diagrams(measures, architecture.blocks)
     use_cases = use_case_diagram(architecture.behaviours, architecture.blocks)
     if use_cases is not None:
         yield use_cases

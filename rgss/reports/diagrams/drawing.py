@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from rgss.reports.diagrams.canvas import Canvas, Point
 from rgss.reports.diagrams.crossings import edges_are_clear
 from rgss.reports.diagrams.frame import ORIGIN, Heading
-from rgss.reports.diagrams.graph import Edge, Graph
+from rgss.reports.diagrams.graph import Edge, Graph, Shape
 from rgss.reports.diagrams.labels import (
     FAR,
     FARTHEST,
@@ -23,6 +23,7 @@ from rgss.reports.diagrams.labels import (
 from rgss.reports.diagrams.lanes import draw_lanes, lane_borders, lane_headers, widened
 from rgss.reports.diagrams.layout import Layout, label_size, layout
 from rgss.reports.diagrams.nodes import Content, content_of, draw_node
+from rgss.reports.diagrams.ports import draw_frame_port
 from rgss.reports.diagrams.style import FONT, SMALL
 from rgss.reports.diagrams.text import text_width, wrapped
 
@@ -114,13 +115,18 @@ def draw_graph(
     # Last, so that no line crosses a label.
     for index, edge in enumerate(graph.edges):
         _draw_label(canvas, edge, placed.labels[index])
+    inner = _extent(placed, graph)
+    for node in graph.nodes:
+        if node.shape is Shape.FREE:
+            size = (contents[node.id].width, contents[node.id].height)
+            draw_frame_port(canvas, node, size, placed.nodes[node.id], heading.inner_width(inner[0]))
     return Drawing(
         name=name,
         title=title,
         description=description,
         text_alternative=text_alternative,
         heading=heading,
-        inner=_extent(placed, graph),
+        inner=inner,
         canvas=canvas,
     )
 
@@ -204,6 +210,10 @@ def _draw_edge(canvas: Canvas, edge: Edge, points: tuple[Point, ...]) -> None:
     with canvas.group(f"{edge.source} → {edge.target} {' '.join(edge.labels)}".strip()):
         canvas.curve(points, "line dashed" if edge.dashed else "line")
         canvas.arrow(points[-1], points[-2], edge.head)
+        if edge.flows:
+            way = flattened(points)
+            middle = len(way) // 2
+            canvas.arrow(way[middle], way[middle - 1], "filled")
 
 
 def _draw_label(canvas: Canvas, edge: Edge, centre: Point | None) -> None:

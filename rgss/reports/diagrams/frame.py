@@ -8,7 +8,7 @@ from rgss.reports.diagrams.canvas import Canvas, Point
 from rgss.reports.diagrams.style import FONT
 from rgss.reports.diagrams.text import text_width
 
-_EDGE, _HEADER, _CORNER = 4.0, 24.0, 9.0
+_EDGE, _HEADER, _CORNER = 8.0, 24.0, 9.0
 _PAD = 8.0
 
 ORIGIN: Point = (_EDGE, _EDGE + _HEADER)
@@ -40,7 +40,11 @@ class Heading:
 
     def size(self, width: float, height: float) -> Point:
         """Width and height of the paper about what is within the frame."""
-        return max(width, self.width + _CORNER) + 2 * _EDGE, height + _HEADER + 2 * _EDGE
+        return self.inner_width(width) + 2 * _EDGE, height + _HEADER + 2 * _EDGE
+
+    def inner_width(self, width: float) -> float:
+        """Width within the frame about what is of a width; the header may need more."""
+        return max(width, self.width + _CORNER)
 
     def draw(self, size: Point) -> Canvas:
         """The frame about a paper's whole size."""

@@ -17,6 +17,38 @@ class Shape(str, Enum):
     INITIAL = "initial"
     FINAL = "final"
     ACTOR = "actor"
+    FREE = "free"
+    """No outline: its text stands alone."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NodePort:
+    """A small square at the left or right border of a node.
+
+    Attributes:
+        id: Its id within the node.
+        label: What is beside it, within the node.
+        right: It is on the right border; otherwise on the left.
+        sign: What is in the square: ``right`` or ``left`` for an arrow, ``both``, or nothing.
+    """
+
+    id: str
+    label: str
+    right: bool = False
+    sign: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Compartment:
+    """Lines of a node below its name, apart from others by a line.
+
+    Attributes:
+        title: What they are, in italics above them; may be empty.
+        lines: The lines, each broken where it does not fit.
+    """
+
+    title: str
+    lines: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,6 +64,9 @@ class Node:
         tint: The sort that colours it besides its stereotype: ``need``, ``requirement``,
             ``behaviour``, ``measure``, ``fail`` or empty.
         cluster: Id of the cluster that it stands in; empty for none.
+        compartments: Compartments behind the texts.
+        ports: Squares at its borders.
+        rank: ``min`` or ``max`` for a node at the beginning or the end of the diagram; else empty.
     """
 
     id: str
@@ -41,6 +76,9 @@ class Node:
     texts: tuple[str, ...] = ()
     tint: str = ""
     cluster: str = ""
+    compartments: tuple[Compartment, ...] = ()
+    ports: tuple[NodePort, ...] = ()
+    rank: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,6 +94,9 @@ class Edge:
         labels: What stands beside it, one line each.
         backwards: The target is laid out before the source, as what it rests on.
         straight: It is to be as short and straight as can be, where others have to bend.
+        source_port: Id of the port of its source where it begins; empty for anywhere.
+        target_port: Id of the port of its target where it ends.
+        flows: A filled triangle at its middle shows that something flows along it.
     """
 
     source: str
@@ -65,6 +106,9 @@ class Edge:
     labels: tuple[str, ...] = ()
     backwards: bool = False
     straight: bool = False
+    source_port: str = ""
+    target_port: str = ""
+    flows: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,6 +16,7 @@ from rgss.reports.diagrams.canvas import Point
 from rgss.reports.diagrams.graph import Edge, Graph, Shape
 from rgss.reports.diagrams.labels import Box
 from rgss.reports.diagrams.lanes import add_lanes, is_mirrored, read_lanes
+from rgss.reports.diagrams.ports import port_of, table_of_ports
 from rgss.reports.diagrams.style import FONT, LINE, SMALL
 from rgss.reports.diagrams.text import text_width
 
@@ -96,6 +97,11 @@ def layout(graph: Graph, sizes: Mapping[str, Size], *, spacing: float = 1.0, ort
     names = {node.id: f"n{index}" for index, node in enumerate(graph.nodes)}
     for node in graph.nodes:
         width, height = sizes[node.id]
+        if node.ports:
+            drawn.add_node(
+                names[node.id], shape="plain", fixedsize="false", label=table_of_ports(node, (width, height))
+            )
+            continue
         drawn.add_node(
             names[node.id],
             # What has a text above or below it is not a circle any more.
@@ -107,6 +113,10 @@ def layout(graph: Graph, sizes: Mapping[str, Size], *, spacing: float = 1.0, ort
         within = [names[node.id] for node in graph.nodes if node.cluster == cluster.id]
         title = _blank(text_width(cluster.title, FONT, bold=True) + 16, LINE * FONT + 4)
         drawn.add_subgraph(within, name=f"cluster_{index}", label=title, margin="14")
+    for rank in ("min", "max"):
+        ranked = [names[node.id] for node in graph.nodes if node.rank == rank]
+        if ranked:
+            drawn.add_subgraph(ranked, name=f"rank_{rank}", rank="source" if rank == "min" else "sink")
     if graph.lanes:
         add_lanes(drawn, graph, names)
     edges = [_add_edge(drawn, names, graph, index, with_label=not orthogonal) for index in range(len(graph.edges))]
@@ -131,6 +141,9 @@ def _add_edge(drawn: Any, names: Mapping[str, str], graph: Graph, index: int, *,
         attributes["headport" if edge.backwards else "tailport"] = "e" if rightwards else "s"
     if last.name and last.shape in (Shape.FINAL, Shape.BAR):
         attributes["tailport" if edge.backwards else "headport"] = "w" if rightwards else "n"
+    for end, node, port in (("tailport", first, edge.source_port), ("headport", last, edge.target_port)):
+        if port:
+            attributes[end] = port_of(node, port)
     if edge.straight:
         attributes["weight"] = "20"
     if edge.backwards:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil
 
 from rgss.reports.diagrams.canvas import Canvas, Point
 from rgss.reports.diagrams.graph import Node, Shape
+from rgss.reports.diagrams.ports import ROW, draw_ports, port_rows, ports_width
 from rgss.reports.diagrams.style import FONT, LINE, SMALL
 from rgss.reports.diagrams.text import text_width, wrapped
 
@@ -25,7 +27,8 @@ class Content:
     Attributes:
         stereotype: Lines of the stereotype.
         name: Lines of the name.
-        texts: Lines of each further text.
+        texts: Lines of each further text or compartment.
+        titles: The title of each of these; empty for none.
         width: Width of the node, in pixels.
         height: Height of the node, in pixels.
         beside: Lines that stand beside the node, for they have no room in it.
@@ -36,6 +39,7 @@ class Content:
     stereotype: tuple[str, ...]
     name: tuple[str, ...]
     texts: tuple[tuple[str, ...], ...]
+    titles: tuple[str, ...] = ()
     width: float
     height: float
     beside: tuple[str, ...] = ()
@@ -56,14 +60,22 @@ def content_of(node: Node, line_width: float, *, rightwards: bool = False) -> Co
     stereotype = (f"«{node.stereotype}»",) if node.stereotype else ()
     name = wrapped(node.name, line_width, FONT, bold=True)
     texts = tuple(wrapped(text, line_width, SMALL) for text in node.texts)
+    texts += tuple(
+        tuple(part for line in each.lines for part in wrapped(line, line_width, SMALL)) for each in node.compartments
+    )
+    titles = ("",) * len(node.texts) + tuple(each.title for each in node.compartments)
     widths = [text_width(line, SMALL) for line in stereotype]
     widths += [text_width(line, FONT, bold=True) for line in name]
     widths += [text_width(line, SMALL) for lines in texts for line in lines]
     inner = max(widths, default=0.0)
     height = LINE * (SMALL * len(stereotype) + FONT * len(name))
     height += sum(LINE * SMALL * len(lines) + 2 * _BETWEEN for lines in texts)
+    height += LINE * SMALL * sum(map(bool, titles))
     width, height = _outer(node.shape, inner, height)
-    return Content(stereotype=stereotype, name=name, texts=texts, width=width, height=height)
+    if node.ports:
+        # Whole pixels, as the layout counts them.
+        width, height = float(ceil(max(width, ports_width(node)))), float(ceil(height + port_rows(node) * ROW))
+    return Content(stereotype=stereotype, name=name, texts=texts, titles=titles, width=width, height=height)
 
 
 def draw_node(canvas: Canvas, node: Node, content: Content, centre: Point) -> None:
@@ -82,13 +94,17 @@ def draw_node(canvas: Canvas, node: Node, content: Content, centre: Point) -> No
             canvas.ellipse(x, y, width, height, style)
         elif node.shape is Shape.DIAMOND:
             canvas.polygon([(x, top), (left + width, y), (x, top + height), (left, y)], style)
+        elif node.shape is Shape.FREE:
+            pass
         elif node.shape in _SMALL_SHAPES:
             _draw_small(canvas, node.shape, content, centre)
         else:
             _draw_figure(canvas, x, top)
             top += _FIGURE[1]
             height -= _FIGURE[1]
-        _write(canvas, content, x, left, top, height, node.shape)
+        _write(canvas, content, x, left, top, height - port_rows(node) * ROW, node.shape)
+    if node.ports and node.shape is not Shape.FREE:
+        draw_ports(canvas, node, (width, content.height), centre)
 
 
 def _small_content(node: Node, line_width: float, *, rightwards: bool) -> Content:
@@ -147,15 +163,21 @@ def _outer(shape: Shape, inner: float, height: float) -> tuple[float, float]:
 
 def _write(canvas: Canvas, content: Content, x: float, left: float, top: float, height: float, shape: Shape) -> None:
     text = LINE * (SMALL * len(content.stereotype) + FONT * len(content.name))
-    text += sum(LINE * SMALL * len(lines) + 2 * _BETWEEN for lines in content.texts)
+    text += sum(LINE * SMALL * (len(lines) + bool(title)) + 2 * _BETWEEN for title, lines in _titled(content))
     y = top + (height - text) / 2
     y = canvas.lines(x, y, content.stereotype, SMALL, "soft", anchor="middle")
     y = canvas.lines(x, y, content.name, FONT, "name", anchor="middle")
-    for lines in content.texts:
+    for title, lines in _titled(content):
         if shape is Shape.BOX and lines:
             canvas.line([(left, y + _BETWEEN / 2), (left + content.width, y + _BETWEEN / 2)], "line thin")
         inset, anchor = (left + _PAD_X, "start") if shape is Shape.BOX else (x, "middle")
-        y = canvas.lines(inset, y + _BETWEEN, lines, SMALL, "", anchor=anchor) + _BETWEEN
+        y = canvas.lines(x, y + _BETWEEN, [title] if title else [], SMALL, "soft italic", anchor="middle")
+        y = canvas.lines(inset, y, lines, SMALL, "", anchor=anchor) + _BETWEEN
+
+
+def _titled(content: Content) -> list[tuple[str, tuple[str, ...]]]:
+    titles = content.titles or ("",) * len(content.texts)
+    return list(zip(titles, content.texts, strict=True))
 
 
 def _draw_figure(canvas: Canvas, x: float, top: float) -> None:

@@ -31,6 +31,7 @@ svg.rgss-diagram { --d-paper: #ffffff; --d-ink: #1b1f24; --d-soft: #57606a; --d-
 .rgss-diagram .behaviour { fill: var(--d-behaviour); }
 .rgss-diagram .measure { fill: var(--d-measure); }
 .rgss-diagram .fail { fill: var(--d-fail); stroke-dasharray: 5 3; }
+.rgss-diagram .value { fill: var(--d-need); }
 .rgss-diagram .open { fill: none; }
 .rgss-diagram .solid { fill: var(--d-ink); stroke: var(--d-ink); }
 .rgss-diagram .hollow { fill: var(--d-paper); stroke: var(--d-ink); stroke-width: 1.1; }

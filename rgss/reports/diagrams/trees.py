@@ -10,6 +10,7 @@ from rgss.reports.diagrams.drawing import Drawing
 from rgss.reports.diagrams.frame import ORIGIN, Heading
 from rgss.reports.diagrams.graph import Node, Shape
 from rgss.reports.diagrams.nodes import Content, content_of, draw_node
+from rgss.reports.diagrams.properties import compartments_of
 from rgss.reports.diagrams.style import FONT, SMALL
 from rgss.reports.diagrams.text import shortened, text_width
 from rgss.requirements import Block, BlockRelation, RequirementSet
@@ -21,7 +22,7 @@ MOST_IN_TREE = 30
 
 _MARGIN = 14.0
 _INDENT, _ROW = 28.0, 28.0
-_GAP_X, _GAP_Y = 70.0, 12.0
+_GAP_X, _GAP_Y = 84.0, 12.0
 _TEXT_WIDTH = 770.0
 _NODE_WIDTH = 200.0
 
@@ -170,7 +171,8 @@ def _tree(root: Block, children: Mapping[str | None, list[Block]], opened: froze
     last = max(middles[block.id] + contents[block.id].height / 2 for _, block in order)
     right = max(columns[depth] + contents[block.id].width for depth, block in order)
     parts = [
-        f"{block.name} is a {'part' if block.relation is BlockRelation.PART else 'kind'} of {nodes[block.parent].name}."
+        f"{block.name} is a {'part' if block.relation is BlockRelation.PART else 'kind'} of {nodes[block.parent].name}"
+        f"{f', {block.multiplicity} of it' if block.multiplicity else ''}."
         for _, block in order
         if block.parent in nodes
     ]
@@ -188,7 +190,14 @@ def _tree(root: Block, children: Mapping[str | None, list[Block]], opened: froze
 def _block_node(block: Block, *, continued: bool) -> Node:
     stereotype = "actor" if block.actor else "block"
     text = f"{block.id} (its parts are drawn apart)" if continued else block.id
-    return Node(id=block.id, shape=Shape.BOX, name=block.name, stereotype=stereotype, texts=(text,))
+    return Node(
+        id=block.id,
+        shape=Shape.BOX,
+        name=block.name,
+        stereotype=stereotype,
+        texts=(text,),
+        compartments=compartments_of(block),
+    )
 
 
 def _columns(order: Sequence[tuple[int, Block]], contents: Mapping[str, Content]) -> dict[int, float]:
@@ -238,12 +247,13 @@ def _connect(
     for relation, head, aside in ((BlockRelation.PART, "diamond", 1), (BlockRelation.KIND, "triangle", -1)):
         mine = [block for block in below if block.relation is relation]
         start = middles[whole.id] + (aside * 9 if both else 0)
-        trunk = columns[depth + 1] - _GAP_X + (44 if both and relation is BlockRelation.KIND else 30)
+        trunk = columns[depth + 1] - _GAP_X + (40 if both and relation is BlockRelation.KIND else 28)
         if not mine:
             continue
         ends = [middles[block.id] for block in mine]
         canvas.line([(right, start), (trunk, start)], "line")
         canvas.line([(trunk, min(start, *ends)), (trunk, max(start, *ends))], "line")
-        for end in ends:
+        for block, end in zip(mine, ends, strict=True):
             canvas.line([(trunk, end), (columns[depth + 1], end)], "line")
+            canvas.text(columns[depth + 1] - 4, end - 4, block.multiplicity or "", "", anchor="end")
         canvas.arrow((right, start), (right + 10, start), head)

@@ -43,11 +43,17 @@ def declared_requirements(loaded: LoadedDocument[SystemFile]) -> Iterator[Declar
 def declared_elements(loaded: LoadedDocument[ArchitectureFile]) -> Iterator[Declaration]:
     """The blocks and behaviours of a file."""
     for index, block in enumerate(loaded.value.blocks):
-        references = _one("parent", block.parent, _BLOCK)
+        references = [*_one("parent", block.parent, _BLOCK), *_connector_references(block)]
         yield _declaration(block, ElementKind.BLOCK, loaded.document, ("blocks", index), references)
     for index, behaviour in enumerate(loaded.value.behaviours):
         references = list(_behaviour_references(behaviour))
         yield _declaration(behaviour, ElementKind.BEHAVIOUR, loaded.document, ("behaviours", index), references)
+
+
+def _connector_references(block: Block) -> Iterator[Reference]:
+    for index, connector in enumerate(block.connectors):
+        yield from _inner(("connectors", index, "source"), connector.source, _BLOCK)
+        yield from _inner(("connectors", index, "target"), connector.target, _BLOCK)
 
 
 def _behaviour_references(behaviour: Behaviour) -> Iterator[Reference]:

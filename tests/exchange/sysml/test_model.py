@@ -70,6 +70,26 @@ def test_every_block_is_a_definition_and_a_part(elements, shipped):
     assert sorted(each.name for each in usages(elements, "part") if not each.is_ref) == sorted(blocks)
 
 
+def test_values_ports_and_multiplicities_of_blocks_are_found(elements, shipped):
+    blocks = shipped.requirements.architecture.blocks
+    found = {identity(each): each.members for each in definitions(elements, "part")}
+    parts = {each.name: each for each in usages(elements, "part") if not each.is_ref}
+
+    for block in blocks:
+        inner = {"attribute": [], "port": []}
+        for each in found[block.id]:
+            if isinstance(each, longeron.Usage):
+                inner[each.kind].append(each.name)
+        assert inner == {"attribute": [one.id for one in block.values], "port": [one.id for one in block.ports]}
+        assert (parts[block.id].multiplicity is not None) is (block.multiplicity is not None), block.id
+
+
+def test_every_connector_is_found(written, shipped):
+    stated = [each for block in shipped.requirements.architecture.blocks for each in block.connectors]
+
+    assert written.count("interface connect ") == len(stated) > 20
+
+
 def test_every_satisfy_relation_is_found(elements, shipped):
     found = [(last(e.by), last(e.subsets[0])) for e in elements if isinstance(e, longeron.SatisfyUsage)]
 
@@ -95,7 +115,7 @@ def test_every_allocation_is_found(elements, shipped):
 def test_every_derivation_is_found(elements, shipped):
     found = []
     for each in elements:
-        if isinstance(each, longeron.ConnectionUsage):
+        if isinstance(each, longeron.ConnectionUsage) and "derivation" in each.metadata:
             ends = {end.metadata[0]: last(end.references) for end in each.members}
             found.append((ends["derive"], ends["original"]))
 

@@ -14,6 +14,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from rgss.errors import DefinitionError
+from rgss.measures import load_measures
 from rgss.reports.diagrams import diagrams
 from rgss.reports.diagrams import requirements as diagram_requirements
 from rgss.reports.diagrams import trees as diagram_trees
@@ -36,8 +37,13 @@ def shipped():
 
 
 @pytest.fixture(scope="module")
-def drawings(shipped):
-    return {drawing.name: drawing for drawing in diagrams_of(shipped)}
+def measures():
+    return load_measures(ROOT / "requirements/measures.yaml")
+
+
+@pytest.fixture(scope="module")
+def drawings(shipped, measures):
+    return {drawing.name: drawing for drawing in diagrams_of(shipped, measures)}
 
 
 def words_of(drawing) -> str:
@@ -56,6 +62,8 @@ def test_all_kinds_of_diagrams_are_there(shipped, drawings):
 
     assert {"containment", "use-cases"} <= set(drawings)
     assert kinds["requirements"] == len({requirement.group for requirement in shipped.system})
+    assert kinds["internal"] == sum(bool(block.connectors) for block in shipped.architecture.blocks) >= 4
+    assert kinds["parametric"] >= 5
     assert kinds["states"] == sum(one.machine is not None for one in behaviours) >= 1
     assert kinds["activity"] == sum(one.flow is not None for one in behaviours) >= 8
     assert kinds["sequence"] == sum(one.interaction is not None for one in behaviours) >= 8
@@ -168,7 +176,9 @@ def test_the_same_model_gives_the_same_drawings_in_another_process(shipped, draw
     script = (
         "import hashlib, sys; from pathlib import Path\n"
         "from rgss.reports.diagrams.diagrams import diagrams_of; from rgss.requirements import load_requirements\n"
-        "for one in diagrams_of(load_requirements(Path(sys.argv[1]))): sys.stdout.write(one.to_svg())"
+        "from rgss.measures import load_measures; folder = Path(sys.argv[1])\n"
+        "measures = load_measures(folder / 'measures.yaml')\n"
+        "for one in diagrams_of(load_requirements(folder), measures): sys.stdout.write(one.to_svg())"
     )
     environment = {"PYTHONHASHSEED": "7", "PATH": "", "FONTCONFIG_FILE": "none", "LANG": "C"}
     command = [sys.executable, "-c", script, str(ROOT / "requirements")]
@@ -259,7 +269,7 @@ def test_what_stands_in_a_cluster_is_within_its_frame():
 
     for node in nodes:
         x, y = placed.nodes[node.id]
-        within = frame.x <= x - 25 and x + 25 <= frame.x + frame.width and frame.y <= y - 10 <= frame.y + frame.height
+        within = frame.left <= x - 25 and x + 25 <= frame.right and frame.top <= y - 10 <= frame.bottom
         assert within == (node.cluster == "c")
 
 

@@ -20,7 +20,7 @@ def _report(report: TraceReport, selection: Selection) -> bytes:
     notice = ""
     if not selection.gaps_only:
         try:
-            drawings = drawings_for_page(diagrams_of(report.model.requirements))
+            drawings = drawings_for_page(diagrams_of(report.model.requirements, report.definitions))
             notice = missing_diagrams(report.model.requirements)
         except DefinitionError as error:
             notice = f"The diagrams are left out: {error}."
