@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
 from typing import Any
 
+from rgss.errors import RgssError
 from rgss.serving.observer import StudyObserver
+from rgss.serving.replays import TrialReplays
 
 HOSTS = ("127.0.0.1", "localhost")
 """Names by which a browser on this machine calls it; another name is that of a page that has been rebound to it."""
@@ -16,6 +19,7 @@ _HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
+_FRAMES = "frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
 _POLICY = "default-src 'none'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
 _PAGE_POLICY = (
     "default-src 'none'; connect-src 'self'; style-src 'unsafe-inline'; script-src {scripts}; frame-ancestors 'none'; "
@@ -23,17 +27,18 @@ _PAGE_POLICY = (
 )
 
 
-def study_application(observer: StudyObserver, page: str) -> Any:
+def study_application(observer: StudyObserver, page: str, replays: TrialReplays) -> Any:
     """The ASGI application.
 
     Args:
         observer: Observes the study.
+        replays: Replays its trials.
         page: The page, which names the digests of its scripts.
     """
     from starlette.applications import Starlette
     from starlette.middleware import Middleware
     from starlette.middleware.trustedhost import TrustedHostMiddleware
-    from starlette.responses import HTMLResponse, JSONResponse
+    from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse
     from starlette.routing import Route
 
     policy = _PAGE_POLICY.format(scripts=" ".join(re.findall(r"'sha256-[A-Za-z0-9+/=]+'", page)))
@@ -46,7 +51,22 @@ def study_application(observer: StudyObserver, page: str) -> Any:
         state = observer.state(seen=int(seen) if seen.isdecimal() and len(seen) < 10 else -1)
         return JSONResponse(state, headers={**_HEADERS, "Content-Security-Policy": _POLICY})
 
+    async def show_replay(request: Any) -> Any:
+        headers = {**_HEADERS, "Content-Security-Policy": _FRAMES}
+        # A page from elsewhere must not make this machine run trials.
+        if request.headers.get("sec-fetch-site", "none") not in ("none", "same-origin"):
+            return PlainTextResponse("Only the page of this server opens a replay.", status_code=403, headers=headers)
+        try:
+            made = replays.page(request.path_params["variant"], request.path_params["seed"])
+            return HTMLResponse(await asyncio.shield(asyncio.wrap_future(made)), headers=headers)
+        except RgssError as error:
+            return PlainTextResponse(f"{error}\n", status_code=404, headers=headers)
+
     return Starlette(
-        routes=[Route("/", show_page, methods=["GET"]), Route("/state.json", show_state, methods=["GET"])],
+        routes=[
+            Route("/", show_page, methods=["GET"]),
+            Route("/state.json", show_state, methods=["GET"]),
+            Route("/replay/{variant:int}/{seed:int}", show_replay, methods=["GET"]),
+        ],
         middleware=[Middleware(TrustedHostMiddleware, allowed_hosts=list(HOSTS), www_redirect=False)],
     )

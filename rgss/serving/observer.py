@@ -15,6 +15,8 @@ from rgss.errors import DocumentError, RgssError
 from rgss.evidence import EvidenceStore
 from rgss.evidence.store import observed, state_of
 from rgss.reports.live import live_study_document
+from rgss.serving.pace import Pace
+from rgss.serving.replays import can_replay
 from rgss.studies import FOLDERS, Project
 
 _PAUSE_PER_WORK = 3.0
@@ -37,6 +39,7 @@ class StudyObserver:
         self._project: Project | None = None
         self._files: object = None
         self._seen: object = None
+        self._pace = Pace()
         self._state: dict[str, Any] = {
             "version": 0,
             "sentence": "The evidence is being read for the first time.",
@@ -47,6 +50,15 @@ class StudyObserver:
     def start(self) -> None:
         """Start the thread, which ends with the process."""
         threading.Thread(target=self._observe, name="study-observer", daemon=True).start()
+
+    def project(self) -> Project:
+        """The project as its files were at the last look.
+
+        Raises:
+            DefinitionError: They have a mistake.
+        """
+        found = self._project
+        return self._load() if found is None else found
 
     def state(self, *, seen: int = -1) -> dict[str, Any]:
         """The last state that was read; another look is ordered, and not waited for.
@@ -115,7 +127,13 @@ class StudyObserver:
                 made = decide_study(project, whole, evidence=self._label, analysed=False, screened=screened)
             except RgssError as error:
                 problem = str(error)
-        return live_study_document(project, measured, made, problem=problem, screened=screened)
+        found = live_study_document(
+            project, measured, made, problem=problem, screened=screened, replayable=can_replay(project)
+        )
+        progress = found["progress"]
+        left = self._pace.left(time.monotonic(), progress["done"], progress["planned"])
+        progress["notes"] = [*([left] if left else []), *progress["notes"]]
+        return found
 
 
 def _files_state(folder: Path) -> tuple[tuple[str, int, int], ...]:

@@ -42,6 +42,7 @@ from rgss.trace.model.model import build_trace_model
 from rgss.trials.metrics import METRICS
 from tests.fixtures import made_replay
 from tests.fixtures.eight_states import PLANNED_PHASES, Phase
+from tests.fixtures.processes import PATIENCE_S
 from tests.fixtures.shipped_project import copy_project
 
 REPOSITORY = Path(__file__).parents[2]
@@ -211,7 +212,7 @@ class Reader:
         """Wait until a script says true."""
         from selenium.webdriver.support.wait import WebDriverWait
 
-        WebDriverWait(self.driver, 30, poll_frequency=0.05).until(lambda _: self.script(text, *arguments))
+        WebDriverWait(self.driver, PATIENCE_S, poll_frequency=0.05).until(lambda _: self.script(text, *arguments))
 
     def see_all_plots(self) -> None:
         """Scroll through the page until every plot is drawn or says that there is nothing to draw."""

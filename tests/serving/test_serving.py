@@ -16,7 +16,9 @@ from starlette.testclient import TestClient
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.reports.live import live_page_to_html
-from rgss.serving import StudyObserver, listen, require_server, study_application
+from rgss.serving import StudyObserver, TrialReplays, listen, require_server, study_application
+from rgss.serving.pace import Pace
+from rgss.serving.replays import MOST_KEPT
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.sweep.trial_keys import key_of
@@ -38,9 +40,14 @@ def observer(project):
 
 
 @pytest.fixture
-def client(observer, project):
+def replays(observer):
+    return TrialReplays(observer.project)
+
+
+@pytest.fixture
+def client(observer, project, replays):
     page = live_page_to_html(project.study.id)
-    return TestClient(study_application(observer, page), base_url="http://127.0.0.1")
+    return TestClient(study_application(observer, page, replays), base_url="http://127.0.0.1")
 
 
 @pytest.fixture
@@ -204,3 +211,61 @@ def test_a_process_from_start_to_end(folder, end):
             process.kill()
     assert (process.returncode, output, errors) == (0, "", "")
     assert not (folder / ".rgss").exists()
+
+
+def test_a_replay_is_made_once_and_shown(client, observer, project, sweep, monkeypatch):
+    sweep({4}, success=False)
+    observer.look()
+    made = []
+
+    def page_of(of, variant, seed):
+        made.append((variant, seed))
+        return f"<p>{of.study.id} {variant}/{seed}</p>"
+
+    monkeypatch.setattr("rgss.serving.replays.replay_page", page_of)
+    first, again = client.get("/replay/4/1"), client.get("/replay/4/1")
+    assert first.text == again.text == f"<p>{project.study.id} 4/1</p>"
+    assert made == [(4, 1)]
+    assert "frame-ancestors 'none'" in first.headers["content-security-policy"]
+    for seed in range(2, 2 + MOST_KEPT):
+        client.get(f"/replay/4/{seed}")
+    client.get("/replay/4/1")
+    assert made.count((4, 1)) == 2
+
+
+def test_only_the_own_page_opens_a_replay(client, monkeypatch):
+    monkeypatch.setattr("rgss.serving.replays.replay_page", lambda *_: "<p>made</p>")
+    for site, status in (("cross-site", 403), ("same-site", 403), ("same-origin", 200), ("none", 200)):
+        assert client.get("/replay/4/1", headers={"sec-fetch-site": site}).status_code == status
+
+
+@pytest.mark.parametrize(
+    ("trial", "said"),
+    [
+        ("999/1", "999"),
+        ("4/2147483648", "seed 2147483648 is out of range (give a seed from 0 to 2147483647)"),
+    ],
+)
+def test_a_trial_that_is_not_there_has_no_replay(client, trial, said):
+    answer = client.get(f"/replay/{trial}")
+    assert answer.status_code == 404
+    assert said in answer.text
+
+
+def test_a_trial_is_run_again_for_its_replay(client, project):
+    before = sorted(project.folder.rglob("*"))
+    answer = client.get("/replay/1/1")
+    assert answer.status_code == 200
+    assert "Replay: Variant 1, seed 1" in answer.text
+    assert sorted(project.folder.rglob("*")) == before
+
+
+def test_the_time_that_is_left():
+    pace = Pace()
+    assert pace.left(0.0, 0, 100) == ""
+    assert pace.left(5.0, 10, 100) == ""
+    assert pace.left(60.0, 10, 100) == "At this pace about 9 minutes are left."
+    assert pace.left(400.0, 40, 100) == "At this pace about 11 minutes are left."
+    assert pace.left(405.0, 99, 100) == "At this pace less than a minute is left."
+    assert pace.left(410.0, 100, 100) == ""
+    assert pace.left(411.0, 3, 100) == ""

@@ -29,7 +29,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.main import CLEAN
     from rgss.cli.output import shown_path
     from rgss.reports.live import live_page_to_html
-    from rgss.serving import StudyObserver, listen, require_server, serve, study_application
+    from rgss.serving import StudyObserver, TrialReplays, listen, require_server, serve, study_application
 
     require_server()
     project = chosen_project(options)
@@ -42,7 +42,7 @@ def run(options: argparse.Namespace) -> int:
     page = live_page_to_html(project.study.id)
     listening = listen(options.port)
     host, port = listening.getsockname()
-    app = study_application(observer, page)
+    app = study_application(observer, page, TrialReplays(observer.project))
     observer.start()
     serve(app, listening, ready=lambda: _print_address(options, f"http://{host}:{port}/"))
     return CLEAN

@@ -28,6 +28,7 @@ def live_study_document(
     *,
     problem: str,
     screened: ScreeningResult | None = None,
+    replayable: bool = False,
 ) -> dict[str, Any]:
     """What the evidence shows so far.
 
@@ -37,6 +38,7 @@ def live_study_document(
         made: The decision among the variants whose trials are all there; None if there is none.
         problem: Why there is no decision; empty if there is one.
         screened: The outcome of screening; None without.
+        replayable: Whether the server replays trials.
     """
     requirements = requirements_with_criteria(project)
     return {
@@ -48,7 +50,7 @@ def live_study_document(
         ],
         "variants": [_variant(entry) for entry in measured[:MOST_VARIANTS]],
         "more_variants": max(0, len(measured) - MOST_VARIANTS),
-        **_failures(record for entry in measured for record in entry.records),
+        **_failures((record for entry in measured for record in entry.records), replayable=replayable),
     }
 
 
@@ -116,11 +118,12 @@ def _variant(entry: VariantMeasures) -> dict[str, Any]:
     }
 
 
-def _failures(records: Iterable[TrialRecord]) -> dict[str, Any]:
+def _failures(records: Iterable[TrialRecord], *, replayable: bool) -> dict[str, Any]:
     failed = [record for record in records if not record.success]
     return {
         "failures": list(_named(failed[:MOST_FAILURES])),
         "more_failures": max(0, len(failed) - MOST_FAILURES),
+        "replayable": replayable,
     }
 
 

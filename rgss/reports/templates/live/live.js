@@ -17,11 +17,19 @@
       const cell = document.createElement(place ? "td" : "th");
       if (!place) cell.scope = "row";
       if (typeof text === "number") cell.className = "number";
-      cell.textContent = text;
+      cell.append(text);
       row.append(cell);
     });
     return row;
   }));
+  const replay = (trial) => {
+    const link = document.createElement("a");
+    link.href = `replay/${trial}`;
+    link.target = "_blank";
+    link.rel = "noopener";
+    link.textContent = trial;
+    return link;
+  };
   const counted = (counts) => [counts.met, counts.not_met, counts.inconclusive + counts.not_run + counts.stale];
 
   const show = (found) => {
@@ -37,7 +45,8 @@
     rows("requirements", found.requirements.map((one) => [`${one.id} ${one.text}`, ...counted(one.counts)]));
     rows("variants", found.variants.map((one) => [one.id, one.done, one.failed, one.missing, ...counted(one.verdicts), one.not_met.join(", ")]));
     put("more-variants", found.more_variants ? `${found.more_variants} more variants are not listed.` : "");
-    rows("failures", found.failures.map((one) => [one.trial, one.failure, one.phase, one.detail]));
+    rows("failures", found.failures.map((one) => [found.replayable ? replay(one.trial) : one.trial, one.failure, one.phase, one.detail]));
+    put("replays", found.replayable && found.failures.length ? "A trial's number opens its replay: the trial is run again, which takes seconds." : "");
     part("failure-table").hidden = !found.failures.length;
     part("no-failures").hidden = found.failures.length > 0;
     put("more-failures", found.more_failures ? `${found.more_failures} more are not listed.` : "");
