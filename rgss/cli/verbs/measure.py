@@ -158,35 +158,27 @@ def _print_variant(project: Project, entry: VariantMeasures) -> None:
     print_table(["measure", "kind", "name", "value", "unit", "interval", "trials"], rows, right=(3, 6))
     print()
     print_table(["requirement", "verdict"], [[name, verdict.value] for name, verdict in entry.verdicts.items()])
-    _print_gaps(project, [entry], entry.estimates)
+    gaps = _gap_lines(project, [entry], entry.estimates)
+    if gaps:
+        print("", *gaps, sep="\n")
     _print_stale([entry])
 
 
 def _print_all(project: Project, measured: Sequence[VariantMeasures]) -> None:
-    from rgss.cli.output import number, print_table
+    from rgss.cli.measured_tables import print_measures, print_verdict_counts
     from rgss.measures import MeasureKind
 
     shown = project.measures.of_kind(MeasureKind.EFFECTIVENESS)
-    titles = ["variant", *(f"{m.id} [{m.unit}]" for m in shown), "trials", *(measured[0].verdicts if measured else ())]
-    rows = []
-    for entry in measured:
-        cells = []
-        for m in shown:
-            estimate = entry.estimates[m.id]
-            spread = estimate.n > 0 and estimate.low is not None and estimate.low != estimate.high
-            cells.append(
-                number(estimate.value) + (f" ({number(estimate.low, 3)}–{number(estimate.high, 3)})" if spread else "")
-            )
-        rows.append(
-            [str(entry.variant.id), *cells, str(len(entry.records)), *(v.value for v in entry.verdicts.values())]
-        )
-    print_table(titles, rows, right=(0,))
-    _print_gaps(project, measured, [measure.id for measure in shown])
+    print_verdict_counts(project, measured)
+    gaps = _gap_lines(project, measured, [measure.id for measure in shown])
+    if gaps:
+        print(*gaps, "", sep="\n")
+    print_measures(shown, measured)
     _print_stale(measured)
 
 
-def _print_gaps(project: Project, measured: Sequence[VariantMeasures], shown: Container[str]) -> None:
-    """Say where an equation and the simulation differ by more than a tenth."""
+def _gap_lines(project: Project, measured: Sequence[VariantMeasures], shown: Container[str]) -> tuple[str, ...]:
+    """Cautions where an equation and the simulation differ by more than a tenth."""
     from rgss.measures import ModelGap, model_gaps
     from rgss.reports.decision import gap_sentence
 
@@ -195,14 +187,14 @@ def _print_gaps(project: Project, measured: Sequence[VariantMeasures], shown: Co
         for gap in model_gaps(project.measures, entry.estimates):
             if gap.is_notable and gap.measure in shown:
                 found.setdefault(gap.measure, []).append((entry.variant.id, gap))
-    if found:
-        print()
+    lines = []
     for measure, gaps in found.items():
         variant, widest = max(gaps, key=lambda pair: abs(pair[1].relative))
         in_all = (
             f"{measure}: equation and simulation differ by more than 10 % in {len(gaps)} of {len(measured)} variants"
         )
-        print(f"Caution: {in_all}, most in variant {variant}: {gap_sentence(widest)}.")
+        lines.append(f"Caution: {in_all}, most in variant {variant}: {gap_sentence(widest)}.")
+    return tuple(lines)
 
 
 def _print_stale(measured: Sequence[VariantMeasures]) -> None:

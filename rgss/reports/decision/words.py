@@ -12,8 +12,13 @@ LONGEST_IDS = 12
 UNKNOWN = "–"
 
 
-def ids_text(variants: Iterable[int]) -> str:
-    """Ids in ascending order, runs of three and more joined: ``28–30, 64``."""
+def ids_text(variants: Iterable[int], *, longest: int = LONGEST_IDS) -> str:
+    """Ids in ascending order, runs of three and more joined: ``28–30, 64``.
+
+    Args:
+        variants: The ids.
+        longest: Runs that are written out; more are three dots.
+    """
     runs: list[list[int]] = []
     for variant in sorted(variants):
         if runs and variant == runs[-1][-1] + 1:
@@ -23,8 +28,8 @@ def ids_text(variants: Iterable[int]) -> str:
     parts = []
     for run in runs:
         parts += [f"{run[0]}–{run[-1]}"] if len(run) > 2 else [str(variant) for variant in run]
-    more = " …" if len(parts) > LONGEST_IDS else ""
-    return ", ".join(parts[:LONGEST_IDS]) + more
+    more = " …" if len(parts) > longest else ""
+    return ", ".join(parts[:longest]) + more
 
 
 def variants_text(variants: Sequence[int]) -> str:

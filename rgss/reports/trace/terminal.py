@@ -96,7 +96,7 @@ def table_lines(tables: Sequence[Table]) -> list[str]:
         if lines:
             lines.append("")
         lines.append(table.title)
-        lines += _folded(table.note)
+        lines += [_safe(" ".join(table.note.split()))]
         if table.rows:
             cells = [[_safe(cell_text(cell)) for cell in row] for row in (table.heads, *table.rows)]
             lines += aligned_table(cells[0], cells[1:])
@@ -107,7 +107,7 @@ def chain_lines(chain: Chain) -> list[str]:
     """A chain as indented lines: the id, what is above it, what is below it."""
     note = f" [{chain.note}]" if chain.note else ""
     lines = [_safe(f"{chain.id} ({chain.kind.value}){note}")]
-    lines += [f"  {line}" for line in _folded(chain.text)]
+    lines += [f"  {_safe(' '.join(chain.text.split()))}"] if chain.text.strip() else []
     for title, steps in (("Up, towards the need", chain.up), ("Down, towards the evidence", chain.down)):
         lines += ["", f"{title}:"]
         lines += [line for step in steps for line in _step_lines(step)] or ["  nothing"]
@@ -134,7 +134,7 @@ def impact_lines(impact: Impact) -> list[str]:
     for title, names in groups:
         lines += ["", f"{title} ({len(names)})"]
         separator = "\n" if title.startswith("Tests") else ", "
-        lines += [f"  {line}" for part in separator.join(names).splitlines() for line in _folded(part)]
+        lines += [f"  {_safe(' '.join(part.split()))}" for part in separator.join(names).splitlines()]
     return lines
 
 
@@ -176,13 +176,6 @@ def _named(names: Sequence[str]) -> str:
 def _short(text: str) -> str:
     line = " ".join(text.split())
     return line if len(line) <= _LONGEST else f"{line[: _LONGEST - 1].rstrip()}…"
-
-
-def _folded(text: str) -> list[str]:
-    import textwrap
-
-    # An id or the name of a test is whole, so that it can be copied.
-    return textwrap.wrap(_safe(" ".join(text.split())), width=100, break_on_hyphens=False, break_long_words=False)
 
 
 def _safe(text: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -17,7 +16,6 @@ WIDEST = 100
 """Characters of a line; JSON and CSV have every column by its full name, however wide."""
 
 _GAP = 2
-_HELD_SPACE = "\N{NO-BREAK SPACE}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,9 +59,7 @@ def variant_table_lines(designs: DesignSpace, variants: Sequence[DesignVariant])
         notes.append(f"The same in all designs: {_listed(same)}")
     yield from _block_lines(ids, columns)
     yield ""
-    for note in notes:
-        filled = textwrap.fill(note, WIDEST, subsequent_indent="  ", break_on_hyphens=False)
-        yield from filled.replace(_HELD_SPACE, " ").split("\n")
+    yield from notes
 
 
 def _block_lines(ids: _Column, columns: Sequence[_Column]) -> Iterator[str]:
@@ -86,8 +82,7 @@ def _blocks(ids: _Column, columns: Sequence[_Column]) -> list[list[_Column]]:
 
 
 def _listed(texts: Iterable[str]) -> str:
-    """Texts after each other, none of which is broken at the end of a line unless it must."""
-    return ", ".join(printable(text).replace(" ", _HELD_SPACE) for text in texts)
+    return ", ".join(map(printable, texts))
 
 
 def _fits(ids: _Column, columns: Sequence[_Column]) -> bool:

