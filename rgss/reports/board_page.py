@@ -19,6 +19,8 @@ _MOST_COMPARED = 18
 _MOST_MEASURES = 6
 _MOST_FILMS = 2
 _LONGEST = 160
+_LONGEST_REASON = 230
+"""Characters of a reason or a caution, which have half a page of their own."""
 
 
 def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictures] = (), tornado: str = "") -> str:
@@ -58,8 +60,8 @@ def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictur
         glance=glance,
         glance_picture=chosen_picture(decision["chosen"], pictures),
         open=[] if glance is None else _cut(_open_lines(glance)),
-        reasons=_cut(decision["reasons"]),
-        cautions=_cut(decision["cautions"]),
+        reasons=_cut(decision["reasons"], _LONGEST_REASON),
+        cautions=_cut(decision["cautions"], _LONGEST_REASON),
         comparison=compared[:_MOST_COMPARED],
         comparison_more=_more(compared, _MOST_COMPARED, "rows"),
         compared_heads=[
@@ -93,9 +95,11 @@ def _open_lines(glance: Mapping[str, Any]) -> list[str]:
     return missed + [f"{one['id']}: {one['text']}" for one in glance["open"]]
 
 
-def _cut(lines: Sequence[str]) -> list[str]:
+def _cut(lines: Sequence[str], longest: int = _LONGEST) -> list[str]:
     """As many lines as a page holds, each of a length that it holds, and how many more there are."""
-    shown = [_short(line) for line in lines[:_MOST_LINES]]
+    # A single line more takes no more room than the words that there is one.
+    fitting = len(lines) if len(lines) == _MOST_LINES + 1 else _MOST_LINES
+    shown = [_short(line, longest) for line in lines[:fitting]]
     more = len(lines) - len(shown)
     return [*shown, f"and {more} more, in the whole report"] if more else shown
 
@@ -111,8 +115,8 @@ def _more(whole: Sequence[Any], shown: int, what: str) -> str:
     return f"{left} more {what} in the whole report." if left > 0 else ""
 
 
-def _short(text: str) -> str:
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
+def _short(text: str, longest: int = _LONGEST) -> str:
+    return text if len(text) <= longest else f"{text[: longest - 1].rpartition(' ')[0] or text[: longest - 1]} …"
 
 
 def _best(document: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:

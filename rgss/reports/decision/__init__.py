@@ -16,6 +16,6 @@ if TYPE_CHECKING:
     from rgss.reports.decision.text import decision_lines, question_lines, screening_lines, weighing_lines
     from rgss.reports.decision.tornado_picture import tornado_svg
     from rgss.reports.decision.until_decided import open_paragraph, until_decided_summary
-    from rgss.reports.decision.words import ids_text, quantity_text
+    from rgss.reports.decision.words import ids_text, quantity_text, variants_text
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

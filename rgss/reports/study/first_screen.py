@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from rgss.reports.decision import variants_text
 from rgss.reports.plain_numbers import Plain
 from rgss.reports.study.column_entries import entry_at
 from rgss.trace.views import value_in_words
@@ -15,6 +16,11 @@ MOST_BULLETS = 6
 _OPEN = ("inconclusive", "stale", "not_run")
 _WORDS = {"<=": "at most", "<": "below", ">=": "at least", ">": "above", "==": "exactly"}
 _ROOM = 1.12
+_PRICES = "prices"
+"""The assumption whose alternatives are factors."""
+
+_LEAST_WEIGHT = 5e-4
+"""A smaller weight is written as nearly 0."""
 
 
 def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
@@ -93,7 +99,8 @@ def _changes(decision: Mapping[str, Any]) -> Iterator[str]:
     rows = decision["modelling"]["rows"]
     changing = [row["cells"] for row in rows if row["changes"]]
     for cells in changing[:3]:
-        yield f"{cells[0]} = {cells[2]}: then {cells[3]}"
+        sign = "×" if cells[0] == _PRICES else "="
+        yield f"{cells[0]} {sign} {cells[2]}: then {cells[3]}"
     unknown = sum(row["changes"] is None for row in rows)
     if unknown:
         yield f"{unknown} of {len(rows)} rows of assumptions have no trials yet"
@@ -114,5 +121,5 @@ def _nearest_weight(ranges: Sequence[Mapping[str, Any]]) -> str | None:
     if not found:
         return None
     _, measure, side, bound, winners = min(found)
-    variants = f"variant{'s' if len(winners) > 1 else ''} {', '.join(map(str, winners))}"
-    return f"the weight of {measure} {side} {bound:.3g}: then {variants}"
+    least = f"{side} {bound:.3g}" if bound >= _LEAST_WEIGHT else "of nearly 0"
+    return f"the weight of {measure} {least}: then {variants_text(winners)}"

@@ -94,7 +94,7 @@ def _plot_joints(ax: Axes, trace: TrialTrace, joints: Sequence[str]) -> None:
 def _plot_speed(ax: Axes, trace: TrialTrace) -> None:
     limit = trace.tool_speed_limit_m_s
     ax.plot(trace.time_s, trace.tool_speed_m_s, color=_SERIES_COLOURS[0], linewidth=1.4, label="tool speed")
-    ax.axhline(limit, color=_LIMIT_COLOUR, linestyle="--", linewidth=1.2, label=f"limit {limit:g} m/s")
+    ax.axhline(limit, color=_LIMIT_COLOUR, linestyle="--", linewidth=1.2, label=f"limit {limit:.3g} m/s")
     ax.set_ylim(0.0, 1.15 * max(limit, float(trace.tool_speed_m_s.max())))
     ax.set_ylabel("tool speed [m/s]")
 

@@ -96,10 +96,13 @@ def test_an_interval_that_goes_far_is_cut_at_the_end_of_the_chart():
 
 def test_what_would_change_it():
     assert first_screen_content(DOCUMENT)["changes"] == [
-        "prices = 1.5: then nothing is feasible",
+        "prices × 1.5: then nothing is feasible",
         "1 of 3 rows of assumptions have no trials yet",
         "the weight of share below 0.3: then variants 1, 3",
     ]
+    tiny = [{"measure": "time", "weight": 0.4, "low": 4.46e-5, "high": 1.0, "below": [1, 2, 3], "above": []}]
+    shown = first_screen_content(changed(modelling={"rows": []}, weight_ranges=tiny))
+    assert shown["changes"] == ["the weight of time of nearly 0: then variants 1–3"]
     free = [{"measure": "time", "weight": 0.4, "low": 0.0, "high": 1.0, "below": [], "above": []}]
     shown = first_screen_content(changed(modelling={"rows": []}, weight_ranges=free))
     assert shown["changes"] == ["no single weight: each may be anything, the others in proportion"]

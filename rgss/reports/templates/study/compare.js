@@ -14,8 +14,10 @@ const startCompare = () => {
       const values = places.map(value);
       const there = values.filter((one) => typeof one === "number");
       const top = better === "higher" ? Math.max(...there) : better === "lower" ? Math.min(...there) : null;
-      const differs = new Set(values.map(String)).size > 1;
-      rows.push({ name, kind, key, differs, text, best: (place) => differs && top !== null && value(place) === top });
+      // What is written alike neither differs nor is better.
+      const differs = new Set(places.map(text)).size > 1;
+      const topText = top === null ? "" : text(places.find((place) => value(place) === top));
+      rows.push({ name, kind, key, differs, text, best: (place) => differs && top !== null && text(place) === topText });
     };
     for (const one of data.parameters) add(one.name, "parameter", one.id, "none", (place) => at(one.values, place), (place) => show(at(one.values, place), one.unit));
     for (const one of data.measures) {

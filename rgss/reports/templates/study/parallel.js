@@ -1,7 +1,7 @@
 // --------------------------------------------- parallel coordinates, drawn on a canvas
 const DENSE = 600;
 const BINS = 48;
-const TOP = 62, BOTTOM = 46, HEIGHT = 420, SIDE = 64, LEAST_STEP = 108, MOST_STEP = 160;
+const TOP = 62, BOTTOM = 46, HEIGHT = 420, SIDE = 64, LEAST_STEP = 90, MOST_STEP = 160;
 
 // Multiples of 1, 2, 2.5 or 5 times a power of ten within the ends, some four to seven of them.
 const roundTicks = (low, high) => {

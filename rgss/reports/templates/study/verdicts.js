@@ -21,10 +21,10 @@ const verdictCell = (requirement, place) => {
   const measure = measureOf.get(requirement.measure);
   const spread = interval(measure, place);
   const number = element("a", { href: figureAddress(variants.id[place], requirement.id), tabindex: -1, class: "quiet" }, show(at(measure.value, place), measure.unit));
-  if (spread) number.append(" ", element("span", { class: "small" }, `(${spread})`));
   const badge = element("span", { class: `verdict ${verdict}`, title: causes.length ? `${words}: ${causes.join(", ")} changed` : words },
     element("span", { "aria-hidden": "true" }, sign), element("span", { class: "vh" }, words));
-  return element("span", { class: "judged" }, badge, " ", number);
+  const figure = element("span", {}, badge, " ", number);
+  return element("span", { class: "judged" }, figure, ...(spread ? [" ", element("span", { class: "small" }, `(${spread})`)] : []));
 };
 const verdictsTable = () => tableIn("verdict-table", {
   label: "Verdicts of the shown variants",
