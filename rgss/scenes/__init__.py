@@ -43,6 +43,7 @@ from rgss.scenes.hands import (
     at_opening,
     at_top,
     misfit,
+    palm_fit,
     suction_point_of,
     too_narrow,
     too_wide,

@@ -10,7 +10,7 @@ from rgss.documents import Document, read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
-from rgss.scenes import GripperGeometry, Waypoint, at_object, misfit
+from rgss.scenes import GRIPPER_BASE_LINK, GripperGeometry, Waypoint, at_object, misfit, palm_fit
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
@@ -45,15 +45,21 @@ def check_scene(project: Project) -> SceneCheck:
 
         of_bodies = scene_problems(project.scene)
         of_reach: dict[SceneProblem, list[str]] = {}
+        too_tall: dict[_TooTall, list[str]] = {}
         for file in _gripper_files(project):
+            geometry = _mounting_that_holds(project, file)
+            tall = _too_tall(geometry, project)
+            if tall is not None:
+                too_tall.setdefault(tall, []).append(file)
             for problem in reach_problems(
                 project.scene,
-                _mounting_that_holds(project, file),
+                geometry,
                 clearance_m=project.study.planning.clearance_m,
                 friction=_pad_friction(project, file),
                 task=project.study.task,
             ):
-                of_reach.setdefault(problem, []).append(file)
+                if tall is None or not _is_at_the_palm(problem, project.scene.workpiece.id):
+                    of_reach.setdefault(problem, []).append(file)
     except ImportError as error:
         missing = f"{error.name or error} is not installed"
         return SceneCheck(findings=(), skipped=f"the scene is not checked: {missing} ({INSTALL})")
@@ -65,6 +71,7 @@ def check_scene(project: Project) -> SceneCheck:
     found = [places.finding(problem, ()) for problem in of_bodies]
     every = len(_gripper_files(project))
     found += [places.finding(problem, files if len(files) < every else ()) for problem, files in of_reach.items()]
+    found += [places.too_tall(tall, files, serves=len(files) < every) for tall, files in too_tall.items()]
     return SceneCheck(findings=tuple(sorted(found)))
 
 
@@ -88,6 +95,27 @@ def _mounting_that_holds(project: Project, file: str) -> GripperGeometry:
     gripper, scene = project.grippers[file], project.scene
     held = (geometry for geometry in gripper.mountings.values() if not misfit(geometry, scene))
     return at_object(next(held, gripper.geometry), scene)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _TooTall:
+    """Heights above the grasp: of the object's top, and the most that leaves the clearance below the palm."""
+
+    top_m: float
+    most_m: float
+
+
+def _too_tall(geometry: GripperGeometry, project: Project) -> _TooTall | None:
+    """An object whose top would reach the palm, or come nearer to it than the clearance; None where it does not."""
+    fit = palm_fit(geometry, project.scene)
+    most_m = 0.0 if fit is None else fit.palm_m - project.study.planning.clearance_m
+    return None if fit is None or fit.top_m <= most_m else _TooTall(top_m=fit.top_m, most_m=most_m)
+
+
+def _is_at_the_palm(problem: SceneProblem, workpiece: str) -> bool:
+    """True if a problem is that of palm and object, which has a finding of its own where the object is too tall."""
+    pair = None if problem.reason is None else problem.reason.pair
+    return pair is not None and {*pair} == {GRIPPER_BASE_LINK, workpiece}
 
 
 class _Places:
@@ -148,6 +176,29 @@ class _Places:
             hint = f"move 'at', or move {problem.second}"
         rule = f"scene.{problem.kind.value.replace('_', '-')}"
         return self.document.finding(rule, message, location, hint=hint, severity=severity)
+
+    def too_tall(self, tall: _TooTall, grippers: Sequence[str], *, serves: bool) -> Finding:
+        """An object that is too tall for a hand, at its height.
+
+        Args:
+            tall: The heights.
+            grippers: Files of the grippers for which it is.
+            serves: Whether the designs have another gripper, for which it is not: then this is no mistake.
+        """
+        entry = self.document.data.get("workpiece") if isinstance(self.document.data, dict) else None
+        key = "height" if isinstance(entry, dict) and "height" in entry else "id"
+        message = (
+            f"{self._workpiece} is too tall for {', '.join(grippers)}: held at its middle, its top is "
+            f"{tall.top_m * 1e3:.4g} mm above the grasp, and the palm leaves {tall.most_m * 1e3:.4g} mm"
+        )
+        hint = (
+            f"take an object of at most {tall.most_m * 2e3:.4g} mm, a gripper with longer fingers, or let the task "
+            "choose the grasp ('candidates' of the task)"
+        )
+        if serves:
+            hint = "designs with this gripper fail at the grasp, and the others do not"
+        severity = Severity.INFO if serves else Severity.ERROR
+        return self.document.finding("scene.too-tall", message, ("workpiece", key), hint=hint, severity=severity)
 
     def _named(self, body: str) -> str:
         """A body with its place in the file, where it has one."""

@@ -6,6 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.scenes.hands.fit import misfit, suction_point_of, too_narrow, too_wide
+    from rgss.scenes.hands.height_fit import palm_fit
     from rgss.scenes.hands.kinds import kind_of_gripper
     from rgss.scenes.hands.linkage_document import LinkageGripperDocument
     from rgss.scenes.hands.linkage_fit import at_object, at_opening

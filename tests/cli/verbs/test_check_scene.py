@@ -132,3 +132,38 @@ def test_without_engines_the_rest_is_checked(monkeypatch, rgss, untouched):
     ]
     assert "72 variants: 0 findings" in told.output
     assert document["skipped"] == ["the scene is not checked: coal is not installed (pip install 'rgss[sim]')"]
+
+
+@pytest.mark.parametrize("height", ["105 mm", "300 mm", "1.5 m"])
+def test_an_object_too_tall_for_the_hand_is_named_with_what_would_fit(check_with, height):
+    status, findings, text = check_with(("height: 100 mm", f"height: {height}"))
+
+    (one,) = [finding for finding in findings if finding["rule"] == "scene.too-tall"]
+    assert (status, one["severity"], one["line"]) == (1, "error", line_of(text, f"height: {height}"))
+    assert re.fullmatch(
+        r"cup is too tall for scenes/grippers/kg-2\.yaml, scenes/grippers/kg-3\.yaml: held at its middle, its top is "
+        r"[\d.]+ mm above the grasp, and the palm leaves 52 mm",
+        one["message"],
+    )
+    assert one["hint"].startswith("take an object of at most 104 mm, a gripper with longer fingers")
+    # The same collision is not reported again as a waypoint that nothing serves.
+    assert not any("gripper_base" in finding["message"] for finding in findings)
+
+
+def test_an_object_that_just_fits_is_not_too_tall(check_with):
+    status, findings, _ = check_with(("height: 100 mm", "height: 104 mm"))
+
+    assert (status, findings) == (0, [])
+
+
+def test_an_object_too_tall_for_one_hand_of_two_is_a_result(check_with, folder):
+    longer = folder / "scenes/grippers/kg-3.yaml"
+    text = longer.read_text(encoding="utf-8")
+    assert text.count("grasp_depth: 145 mm") == text.count("length: 90 mm") == 1
+    text = text.replace("grasp_depth: 145 mm", "grasp_depth: 175 mm").replace("length: 90 mm", "length: 120 mm")
+    longer.write_text(text, encoding="utf-8")
+    status, findings, _ = check_with(("height: 100 mm", "height: 130 mm"))
+
+    (one,) = [finding for finding in findings if finding["rule"] == "scene.too-tall"]
+    assert (status, one["severity"]) == (0, "info")
+    assert one["message"].startswith("cup is too tall for scenes/grippers/kg-2.yaml: ")
