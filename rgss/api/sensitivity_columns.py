@@ -8,7 +8,7 @@ from rgss.api.shared_columns import AS_UNIT, UNIT, VARIANT
 TORNADO = FrameDescription(
     name="tornado",
     row="an uncertain input of the decision, the largest swing first",
-    index=(Column(name="input", meaning="its name as what_if takes it, or shape.MEASURE for a curvature"),),
+    index=(Column(name="input", meaning="its name as what_if takes it"),),
     columns=(
         Column(name="kind", meaning="weight, anchor, threshold, assumption or shape"),
         UNIT,

@@ -36,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=[],
         metavar="NAME=VALUE",
         help="suppose another weight.MEASURE, REQUIREMENT.threshold (or that of a chance:, tail: or limit: as the page "
-        "prints it), value.MEASURE.worst (or best …), "
+        "prints it), value.MEASURE.worst (or best …), shape.MEASURE (a curvature of its value), "
         "catalogue.COMPONENT.cost (or another property), prices (a factor on all that are assumed), "
         "measures.CONSTANT, reading.MEASURE (an alternative of a "
         "measure), or how trials are made (planning.charge_per_check, planning.time_limit, uncertainty.nominal, "

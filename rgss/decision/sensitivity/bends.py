@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rgss.decision.sensitivity.inputs import ALL, InputKind
+from rgss.decision.sensitivity.inputs import InputKind
 from rgss.decision.sensitivity.tornado import Tornado, TornadoEnd
+from rgss.decision.what_if import ALL
 from rgss.studies import Project
 from rgss.tradeoff import PiecewiseValue, ValueFunction
 from rgss.tradeoff.problem import half_value_share

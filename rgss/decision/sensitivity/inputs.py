@@ -8,8 +8,6 @@ from enum import Enum
 
 from rgss.tradeoff.robustness import Standing
 
-SHAPE, ALL = "shape", "all"
-
 
 class InputKind(str, Enum):
     """Kind of an input."""
@@ -61,7 +59,7 @@ class UncertainInput:
     """An input of a decision that is moved from a low to a high value.
 
     Attributes:
-        id: Its name as ``--what-if`` takes it; of a curvature ``shape.MEASURE``.
+        id: Its name as ``--what-if`` takes it.
         kind: Its kind.
         unit: Its unit.
         base: Its value in the study.

@@ -43,7 +43,7 @@ class TornadoBar:
     """Swing of the advantage over the range of one input.
 
     Attributes:
-        id: The input, as ``--what-if`` takes it; of a curvature ``shape.MEASURE``.
+        id: The input, as ``--what-if`` takes it.
         kind: Its kind.
         unit: Its unit.
         base: Its value in the study.

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rgss.decision.robustness import Robustness
-from rgss.decision.sensitivity.inputs import ALL, SHAPE, Flip, FlipSearch, InputKind, RangeBasis, UncertainInput
+from rgss.decision.sensitivity.inputs import Flip, FlipSearch, InputKind, RangeBasis, UncertainInput
 from rgss.decision.sensitivity.ranges import RangeBook
 from rgss.decision.sensitivity.standings import Standings, anchor_quantity, anchored_on_requirements
-from rgss.decision.what_if import assumed_numbers
+from rgss.decision.what_if import ALL, SHAPE, assumed_numbers
 from rgss.tradeoff.robustness import AssumptionRange, admitted_weights
 from rgss.tradeoff.weights import Polytope
 

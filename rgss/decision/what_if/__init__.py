@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rgss.decision.what_if.readings import Reading, readings_of
     from rgss.decision.what_if.remeasured import measured_in
     from rgss.decision.what_if.scenario import Change, Scenario
+    from rgss.decision.what_if.shapes import ALL, SHAPE
     from rgss.decision.what_if.simulated import simulated_numbers
     from rgss.decision.what_if.trial_evidence import ScenarioEvidenceReader
     from rgss.decision.what_if.what_if import PRICES, suppose

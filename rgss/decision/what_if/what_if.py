@@ -15,6 +15,7 @@ from rgss.decision.what_if.numbers import CATALOGUE, COST, MEASURES, assumed_num
 from rgss.decision.what_if.readings import READING, Reading, with_reading
 from rgss.decision.what_if.scenario import Change, Scenario
 from rgss.decision.what_if.setting import SettingChange
+from rgss.decision.what_if.shapes import SHAPE, curvature_names, with_curvature
 from rgss.decision.what_if.simulated import simulated_numbers
 from rgss.decision.what_if.weights import with_weights
 from rgss.errors import DefinitionError, EvidenceError, QuantityError
@@ -74,6 +75,8 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
             weights[rest] = change.after
         elif kind == VALUE:
             change, changed = _anchor(changed, name, rest, value)
+        elif kind == SHAPE:
+            change, changed = _curvature(changed, name, value)
         elif kind in (CATALOGUE, MEASURES):
             change, changed = _number(changed, name, value)
         elif name in demand_numbers(changed):
@@ -81,7 +84,7 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
         elif field == THRESHOLD:
             change, changed = _threshold(changed, name, demand, value)
         else:
-            kinds = [WEIGHT, VALUE, CATALOGUE, MEASURES, READING, PRICES, *model_settings(project)]
+            kinds = [WEIGHT, VALUE, CATALOGUE, MEASURES, SHAPE, READING, PRICES, *model_settings(project)]
             raise _unknown(name, [*kinds, *_requirements(project), *demand_numbers(project)], name)
         changes.append(change)
     rescaled: tuple[Change, ...] = ()
@@ -226,6 +229,14 @@ def _anchor(project: Project, name: str, rest: str, text: str) -> tuple[Change, 
     moved = tuple(one.with_anchor(anchor, after) if one is valued else one for one in trade_off.valued)
     change = Change(id=name, before=before, after=after, unit=unit)
     return change, replace(project, study=replace(project.study, trade_off=replace(trade_off, valued=moved)))
+
+
+def _curvature(project: Project, name: str, text: str) -> tuple[Change, Project]:
+    known = curvature_names(project)
+    if name not in known:
+        raise _unknown(name, known, name.partition(".")[2])
+    after = _quantity(name, text, "1")
+    return Change(id=name, before=0.0, after=after, unit="1"), with_curvature(project, name, after)
 
 
 def _number(project: Project, name: str, text: str) -> tuple[Change, Project]:

@@ -25,7 +25,7 @@ class StatedRange:
     """Range of one input.
 
     Attributes:
-        input: Name of the input, as ``--what-if`` takes it, or ``shape.MEASURE``.
+        input: Name of the input, as ``--what-if`` takes it.
         low: The low end, with its unit.
         high: The high end, with its unit.
         rationale: The reason.

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         SHAPE_KEYS,
         TIE_TOLERANCE,
         Anchor,
+        AnchoredBent,
         AnchoredValue,
         AnchorField,
         ExponentialValue,

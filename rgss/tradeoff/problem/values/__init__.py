@@ -11,7 +11,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField, PointEntry, QuantityField, RequirementAnchor
-    from rgss.tradeoff.problem.values.bent import bent_values, half_value_share
+    from rgss.tradeoff.problem.values.bent import AnchoredBent, bent_values, half_value_share
     from rgss.tradeoff.problem.values.exponential import AnchoredExponential, ExponentialValue
     from rgss.tradeoff.problem.values.piecewise import AnchoredPiecewise, PiecewiseValue
     from rgss.tradeoff.problem.values.s_curve import AnchoredSCurve
