@@ -157,7 +157,9 @@ def loads_without_inertia(root: ET.Element) -> tuple[str, ...]:
     return tuple(
         link.get("name", "")
         for link in root.findall("link")
-        if link.get("name") not in standing_links(root) and not _has_inertia(link) and not _is_frame(root, link)
+        if not (_has_inertia(link) and _has_moments(link))
+        and link.get("name") not in standing_links(root)
+        and not _is_frame(root, link)
     )
 
 
@@ -263,11 +265,20 @@ def _is_frame(root: ET.Element, link: ET.Element) -> bool:
 
 def _has_inertia(link: ET.Element) -> bool:
     mass = link.find("inertial/mass")
-    return (
-        mass is not None
-        and mass.get("value", "").strip() not in ("", "0", "0.0")
-        and (link.find("inertial/inertia") is not None)
-    )
+    return mass is not None and not _is_zero(mass.get("value", "0")) and link.find("inertial/inertia") is not None
+
+
+def _has_moments(link: ET.Element) -> bool:
+    inertia = link.find("inertial/inertia")
+    return inertia is not None and not all(_is_zero(inertia.get(name, "0")) for name in _MOMENTS)
+
+
+def _is_zero(text: str) -> bool:
+    """Whether a text is a number that is zero; what is no number is reported elsewhere."""
+    try:
+        return float(text or "0") == 0.0
+    except ValueError:
+        return False
 
 
 def _end(joint: ET.Element, end: str) -> str:

@@ -36,6 +36,8 @@ _NUMBERS: Mapping[str, Mapping[str, int]] = {
     "mesh": {"scale": 3},
 }
 _COMPLETE = frozenset({"mass", "inertia", "box", "cylinder", "sphere"})
+_AXES = 3
+_TURNING = frozenset({"revolute", "continuous", "prismatic"})
 _POSITIVE = frozenset({"mass", "box", "cylinder", "sphere"})
 
 
@@ -168,6 +170,13 @@ def number_problems(root: ET.Element) -> Iterable[tuple[str, Location, str]]:
         root: The URDF.
     """
     for part in (*root.findall("link"), *root.findall("joint")):
+        axis = part.find("axis")
+        if part.get("type") in _TURNING and axis is not None and _is_null(axis.get("xyz", "")):
+            yield (
+                f"has an axis without a direction for {shown(part.get('name', ''))}",
+                ("description",),
+                "write a direction, such as 0 0 1",
+            )
         for element in part.iter():
             for attribute, count in _NUMBERS.get(element.tag, {}).items():
                 text = element.get(attribute)
@@ -185,6 +194,11 @@ def number_problems(root: ET.Element) -> Iterable[tuple[str, Location, str]]:
                         ("description",),
                         f"write {wanted}{' greater than zero' if positive else ''}",
                     )
+
+
+def _is_null(text: str) -> bool:
+    words = text.split()
+    return len(words) == _AXES and all(_is_zero(word) for word in words)
 
 
 def _is_zero(text: str | None) -> bool:

@@ -66,11 +66,45 @@ def test_a_slide_is_in_millimetres(capsys, written):
         ('ixx="0.01"', 'ixx="0.5"', "link_1 has moments of inertia that no body has"),
         ('effort="100"', 'effort="0"', "joint joint_1 has no effort"),
         ('velocity="2"', 'velocity="0"', "joint joint_1 has no velocity"),
+        (' effort="100"', "", "joint joint_1 has no effort"),
+        ('lower="-2.9" upper="2.9"', 'lower="2.9" upper="-2.9"', "joint joint_1 has a range from 2.9 to -2.9"),
+        ('lower="-2.9" upper="2.9"', 'lower="-170" upper="170"', "joint joint_1 has a range from -170 to 170 rad: are"),
     ],
 )
 def test_what_is_suspicious_is_found_with_its_line(capsys, written, old, new, message):
     assert main(["robot", str(written(old=old, new=new))]) == 1
     assert f"arm.urdf:1:1: warning: {message}" in capsys.readouterr().out
+
+
+def test_joints_that_do_not_hold_the_arm_are_found(capsys, written):
+    assert main(["robot", str(written(serial_urdf(SEVEN).replace('effort="100"', 'effort="2"')))]) == 1
+    text = capsys.readouterr().out
+    assert "joint joint_2 gives 2 N*m, and needs " in text
+    assert "joint joint_1 gives" not in text  # its axis is vertical
+
+
+def test_moments_that_are_zero_are_those_of_the_shape(capsys, written):
+    zeros = " ".join(f'{name}="0"' for name in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))
+    head, tail = serial_urdf(SEVEN).split("<inertia ", 1)
+    path = written(f"{head}<inertia {zeros}/>{tail.split('/>', 1)[1]}")
+    main(["robot", str(path)])
+    assert "Assumed: The URDF has a mass and no inertia of link_1" in capsys.readouterr().out
+    main(["robot", str(path), "--json"])
+    assert len(json.loads(capsys.readouterr().out)["assumed"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('axis xyz="0 0 1"', 'axis xyz="0 0 0"', "arm.urdf has an axis without a direction for 'joint_1'"),
+        ('mass value="1"', 'mass value="0.00"', "arm.urdf has no mass or no inertia for 1 links: link_1"),
+        ('mass value="1"', 'mass value="nan"', "arm.urdf has value='nan' in <mass> of 'link_1'"),
+        ('joint name="joint_2"', 'joint name="joint_1"', "the URDF has two joints of the name 'joint_1'"),
+    ],
+)
+def test_what_cannot_be_used_is_said_of_the_urdf(capsys, written, old, new, message):
+    assert main(["robot", str(written(old=old, new=new))]) == 2
+    assert message in capsys.readouterr().err
 
 
 def test_links_that_touch_at_the_home_are_found(capsys, written):

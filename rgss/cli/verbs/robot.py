@@ -64,6 +64,8 @@ def _show(summary: RobotSummary) -> None:
     if summary.left_out:
         pairs = ", ".join(f"{first} and {second}" for first, second in summary.left_out)
         print(f"Not checked, since they touch however the arm stands: {pairs}.")
+    for note in summary.notes:
+        print(f"Assumed: {note.rationale}")
     for finding in summary.findings:
         print(finding)
 
@@ -98,5 +100,6 @@ def _plain(summary: RobotSummary) -> dict[str, Any]:
         "convex_shapes": summary.convex_shapes,
         "left_out": [list(pair) for pair in summary.left_out],
         "touching_at_home": [list(pair) for pair in summary.at_home],
+        "assumed": [note.rationale for note in summary.notes],
         "findings": [str(finding) for finding in summary.findings],
     }

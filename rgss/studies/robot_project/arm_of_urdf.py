@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -109,6 +110,10 @@ def _check_tree(root: ET.Element, links: list[str]) -> None:
                     f"the joint {joint.get('name')} has the {end} link {_end(joint, end)!r}, which the URDF has not",
                     hint="is the URDF a part of another one? Name one with all links",
                 )
+    for kind, names in (("joints", [joint.get("name", "") for joint in joints]), ("links", links)):
+        twice = next((name for name, count in Counter(names).items() if count > 1), None)
+        if twice is not None:
+            raise DefinitionError(f"the URDF has two {kind} of the name {twice!r}", hint="give each a name of its own")
     carried = {_end(joint, "child") for joint in joints}
     bases = [name for name in links if name not in carried]
     if len(bases) != 1 or len(carried) != len(joints):

@@ -14,14 +14,16 @@ from rgss.documents import read_document
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
 from rgss.kinematics import lasting_contacts
-from rgss.scenes import Robot, mesh_summary
+from rgss.scenes import JointKind, Robot, mesh_summary
 from rgss.studies.motion import calibrated_at
 from rgss.studies.project import Project
+from rgss.studies.robot_project.holding import weak_joints
 
 LARGEST_HULL_RATIO = 1.25
 """Volume of a mesh's hull over its own from which the loss is reported."""
 
 _LARGEST_LENGTH_M, _LARGEST_MASS_KG = 10.0, 1000.0
+_LARGEST_ANGLE_RAD = 30.0
 _LIMITS = (("joints.torque", "effort", "effort"), ("joints.speed", "velocity", "velocity"))
 _NOTES = frozenset({"robot.open-mesh", "robot.concave-mesh"})
 
@@ -38,7 +40,8 @@ def robot_findings(project: Project) -> tuple[Finding, ...]:
     urdf = robot.parent / data["description"]
     path = project.folder / urdf
     found = description_findings(project.scene.robot, path, str(urdf), assumed=assumed_subjects(data))
-    return (*found, *unchecked_pairs(project.scene.robot, path, str(urdf)), *_misfit_findings(project))
+    moving = (*weak_joint_findings(project.scene.robot, path, str(urdf)), *_misfit_findings(project))
+    return (*found, *unchecked_pairs(project.scene.robot, path, str(urdf)), *moving)
 
 
 def _misfit_findings(project: Project) -> Iterator[Finding]:
@@ -85,6 +88,36 @@ def unchecked_pairs(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]
     )
 
 
+def weak_joint_findings(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]:
+    """Warnings of joints that do not hold the arm itself where it reaches farthest; none without the engines.
+
+    Args:
+        robot: The arm.
+        urdf: The file whose lines are named.
+        label: The URDF's name in messages.
+    """
+    try:
+        weak = weak_joints(robot)
+    except (ImportError, DefinitionError):
+        return ()
+    lines = urdf.read_text(encoding="utf-8-sig").splitlines()
+    return tuple(
+        Finding(
+            file=label,
+            line=next(
+                (at for at, line in enumerate(lines, start=1) if "<joint" in line and f'"{one.name}"' in line), 1
+            ),
+            column=1,
+            rule="robot.weak-joint",
+            severity=Severity.WARNING,
+            message=f"joint {one.name} gives {one.effort:.3g} {one.unit}, "
+            f"and needs {one.needed:.3g} {one.unit} to hold the arm itself where it reaches farthest",
+            hint="correct the effort of the joint, or the masses of the links that it carries",
+        )
+        for one in weak
+    )
+
+
 def assumed_subjects(data: Mapping[str, Any]) -> frozenset[str]:
     """What a robot file's assumptions are about.
 
@@ -118,6 +151,7 @@ def description_findings(
             root.remove(link)
     stated = tuple(_limits(root, robot, _subjects(assumed, kept=True)))
     lacking = (*_lengths(root), *_masses(root), *_limits(root, robot, _subjects(assumed, kept=False)))
+    lacking += tuple(_ranges(root, robot))
     for name, rule, message, hint in (*lacking, *stated, *_meshes(root, urdf)):
         at = next((number for number, line in enumerate(lines, start=1) if f'"{name}"' in line), 1)
         noted = rule in _NOTES or (name, rule, message, hint) in stated
@@ -175,6 +209,21 @@ def _limits(
         for key, what in subjects:
             if limit is None or float(limit.get(key, "0")) <= 0.0:
                 yield name, "robot.limit", f"joint {name} has no {what}", "the robot file's value is used alone"
+
+
+def _ranges(root: ET.Element, robot: Robot) -> Iterator[tuple[str, str, str, str]]:
+    kinds = {joint.name: joint.kind for joint in robot.joints}
+    for joint in root.findall("joint"):
+        name, limit = joint.get("name", ""), joint.find("limit")
+        if name not in kinds or limit is None or joint.get("type") == "continuous":
+            continue
+        lower, upper = (float(limit.get(end, "0")) for end in ("lower", "upper"))
+        if lower > upper:
+            message = f"joint {name} has a range from {lower:g} to {upper:g}"
+            yield name, "robot.limit", message, "exchange lower and upper; the robot file's range is used alone"
+        elif kinds[name] is JointKind.REVOLUTE and max(abs(lower), abs(upper)) > _LARGEST_ANGLE_RAD:
+            message = f"joint {name} has a range from {lower:g} to {upper:g} rad: are these degrees?"
+            yield name, "robot.units", message, "a URDF is in metres and radians"
 
 
 def _meshes(root: ET.Element, urdf: Path) -> Iterator[tuple[str, str, str, str]]:

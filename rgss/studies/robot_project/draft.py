@@ -7,6 +7,8 @@ import xml.etree.ElementTree as ET
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from rgss.errors import DefinitionError, DocumentError
+from rgss.findings import shown
 from rgss.scenes import Pose, Robot, load_robot
 from rgss.studies.robot_project.arm_of_urdf import UrdfArm, arm_of_urdf
 from rgss.studies.robot_project.masses import complete_masses
@@ -55,8 +57,7 @@ def drafted_robot(
         mass_kg: Mass of the arm with its base, for a URDF without masses.
 
     Raises:
-        DefinitionError: There is no arm in the URDF, or a file that it names is missing.
-        DocumentError: The description is wrong.
+        DefinitionError: There is no arm in the URDF, a file that it names is missing, or the description is wrong.
     """
     root, notes = read_arm_urdf(urdf)
     arm = arm_of_urdf(root, flange=flange)
@@ -75,7 +76,15 @@ def drafted_robot(
     file = robots / f"{id_}.yaml"
     draft = robot_text(arm, id_=id_, urdf=f"{id_}.urdf", home=home, payload_kg=_DRAFT_PAYLOAD_KG)
     file.write_text(draft, encoding="utf-8")
-    robot = load_robot(file, base=Pose(), label=f"scenes/robots/{id_}.yaml", project=project)
+    try:
+        robot = load_robot(file, base=Pose(), label=f"scenes/robots/{id_}.yaml", project=project)
+    except DocumentError as error:
+        # The drafted files are not there any more when the message is read.
+        first = error.findings[0]
+        message = first.message.removeprefix(f"{shown(f'{id_}.urdf')} ")
+        raise DefinitionError(
+            f"{urdf.name} {message}" if message.startswith("has ") else f"{urdf.name}: {message}", hint=first.hint
+        ) from error
     return DraftedRobot(arm=arm, robot=robot, file=file, likely_tool_axes=likely, flange=link)
 
 

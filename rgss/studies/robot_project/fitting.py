@@ -1,9 +1,8 @@
-"""Fitting of a cell to an arm: a layout that it reaches, a home, and what it carries."""
+"""Fitting of a cell to an arm: a layout that it reaches, and a home."""
 
 from __future__ import annotations
 
 import itertools
-import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -12,57 +11,22 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.kinematics import Arm, ArmDynamics, Load, inverse_kinematics
+from rgss.kinematics import Arm, inverse_kinematics
 from rgss.scenes import GripperGeometry, JointKind, Pose, Robot, Scene, Waypoint, load_scene, waypoint_poses
 from rgss.studies.robot_project.layout import Layout, layouts, scene_text
 from rgss.studies.robot_project.overhead_layout import overhead_layouts
+from rgss.studies.robot_project.reach import horizontal_reach_m, sampled_configurations
 from rgss.tasks import default_task
 from rgss.trials import Workcell, serves_every_stop, unserved_waypoints, waypoint_configurations
 
 Array = NDArray[np.float64]
 
-_SAMPLES = 2048
 _POINTING_SAMPLES, _MOST_TOUCHING = 96, 0.9
 _PEDESTAL, _PEDESTAL_GAP_M = "pedestal", 0.15
 _LEAST_REACH_M = 0.2
 _POSE_FREEDOMS = 6
 _ROOM = {JointKind.REVOLUTE: 0.6, JointKind.PRISMATIC: 0.15}
 _CLEARANCE_M = 0.008
-_LEAST_PAYLOAD_KG, _MOST_PAYLOAD_KG = 0.1, 100.0
-
-
-def horizontal_reach_m(robot: Robot) -> float:
-    """Greatest distance of the flange from the first axis over sampled configurations.
-
-    Args:
-        robot: The arm.
-    """
-    arm = Arm(robot, Pose())
-    positions = arm.tool_position(sampled_configurations(robot)) - np.array(arm.first_axis_m)
-    return float(np.max(np.linalg.norm(positions, axis=1)))
-
-
-def payload_at_reach_kg(robot: Robot) -> float:
-    """Mass at the flange that the efforts of the joints hold with the arm farthest out; rounded down to 0.1 kg.
-
-    Args:
-        robot: The arm.
-    """
-    arm = Arm(robot, Pose())
-    samples = sampled_configurations(robot)
-    offsets = (arm.tool_position(samples) - np.array(arm.first_axis_m))[:, :2]
-    q = samples[int(np.argmax(np.linalg.norm(offsets, axis=1)))]
-    still = np.zeros(len(robot.joints))
-    kilogram = Load(mass_kg=1.0, moments_kg_m2=(0.0, 0.0, 0.0), pose=Pose())
-    own = ArmDynamics(robot, (), gravity_m_s2=9.81).torques(q, still, still)
-    more = ArmDynamics(robot, (kilogram,), gravity_m_s2=9.81).torques(q, still, still) - own
-    margins = [
-        (joint.torque_n_m - abs(float(mine))) / abs(float(each))
-        for joint, mine, each in zip(robot.joints, own, more, strict=True)
-        if abs(float(each)) > 1e-9
-    ]
-    held = math.floor(10 * min(margins, default=_MOST_PAYLOAD_KG)) / 10
-    return min(max(held, _LEAST_PAYLOAD_KG), _MOST_PAYLOAD_KG)
 
 
 def is_yaw_free(robot: Robot) -> bool:
@@ -189,15 +153,3 @@ def _reaches_ends(scene: Scene, geometry: GripperGeometry) -> bool:
     )
     ends = (Waypoint.GRASP, Waypoint.GRASP_DEPARTURE, Waypoint.PLACE)
     return all(inverse.nearest(poses[waypoint], scene.robot.home_rad) is not None for waypoint in ends)
-
-
-def sampled_configurations(robot: Robot) -> Array:
-    """Joint positions drawn evenly from the ranges, the same at every call, shape (k, n).
-
-    Args:
-        robot: The arm.
-    """
-    lower, upper = (np.array([getattr(joint, end) for joint in robot.joints]) for end in ("lower_rad", "upper_rad"))
-    shares = np.random.default_rng(0).random((_SAMPLES, len(robot.joints)))
-    samples: Array = lower + shares * (upper - lower)
-    return samples

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 import xml.etree.ElementTree as ET
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,9 +15,11 @@ from rgss.documents import read_document
 from rgss.findings import Finding, Severity
 from rgss.kinematics import Arm, lasting_contacts, touching_links
 from rgss.scenes import Pose, Robot, convex_parts, load_robot
-from rgss.studies.robot_project.description import assumed_subjects, description_findings
+from rgss.studies.robot_project.description import assumed_subjects, description_findings, weak_joint_findings
 from rgss.studies.robot_project.draft import drafted_robot
-from rgss.studies.robot_project.fitting import horizontal_reach_m, payload_at_reach_kg, sampled_configurations
+from rgss.studies.robot_project.holding import payload_at_reach_kg
+from rgss.studies.robot_project.reach import horizontal_reach_m, sampled_configurations
+from rgss.studies.robot_project.urdf_reading import Note
 
 _YAML = frozenset({".yaml", ".yml"})
 
@@ -36,6 +38,7 @@ class RobotSummary:
         at_home: Pairs of links that touch at the home.
         positions_m: Positions of the flange in sampled configurations, shape (k, 3).
         findings: The findings.
+        notes: What was assumed about the URDF.
     """
 
     robot: Robot
@@ -47,6 +50,7 @@ class RobotSummary:
     at_home: tuple[tuple[str, str], ...]
     positions_m: NDArray[np.float64]
     findings: tuple[Finding, ...]
+    notes: tuple[Note, ...] = ()
 
 
 def robot_summary(path: Path, *, flange: str | None = None, mass_kg: float | None = None) -> RobotSummary:
@@ -58,8 +62,8 @@ def robot_summary(path: Path, *, flange: str | None = None, mass_kg: float | Non
         mass_kg: Of a URDF without masses, that of the whole arm.
 
     Raises:
-        DefinitionError: There is no arm in the file.
-        DocumentError: The description is wrong; with every problem in it.
+        DefinitionError: There is no arm in the URDF, or it is wrong.
+        DocumentError: The robot file is wrong; with every problem in it.
     """
     if path.suffix.lower() in _YAML:
         project = next((one for one in path.resolve().parents if (one / "scenes").is_dir()), path.resolve().parent)
@@ -69,7 +73,8 @@ def robot_summary(path: Path, *, flange: str | None = None, mass_kg: float | Non
         return _summary(robot, urdf, urdf.name, assumed_subjects(data))
     with tempfile.TemporaryDirectory() as folder:
         drafted = drafted_robot(path, Path(folder), flange=flange, mass_kg=mass_kg)
-        return _summary(drafted.robot, drafted.file.with_suffix(".urdf"), path.name, lines_of=path)
+        found = _summary(drafted.robot, drafted.file.with_suffix(".urdf"), path.name, lines_of=path)
+        return replace(found, notes=drafted.arm.notes)
 
 
 def _summary(
@@ -97,6 +102,7 @@ def _summary(
         )
         for first, second in pairs
     ]
+    findings += weak_joint_findings(robot, urdf if lines_of is None else lines_of, label)
     return RobotSummary(
         robot=robot,
         masses_kg={name: mass for name, mass in masses.items() if mass > 1e-5},

@@ -50,6 +50,7 @@ def read_arm_urdf(urdf: Path) -> tuple[ET.Element, list[Note]]:
     if not root.get("name", "").strip():
         root.set("name", urdf.stem)
     notes = [*_rename(root), *_drop_empty_shapes(root)]
+    _complete_limits(root)
     problems = [
         f"{urdf.name} {problem}"
         for problem, _, _ in number_problems(root)
@@ -155,6 +156,17 @@ def _drop_empty_shapes(root: ET.Element) -> Iterator[Note]:
     if dropped:
         names = ", ".join(dict.fromkeys(dropped))
         yield Note(about="description", rationale=f"Collision shapes of zero size are left out, of {names}.")
+
+
+def _complete_limits(root: ET.Element) -> None:
+    """Write a speed and an effort of zero, which are reported as lacking, where parsers require the attributes."""
+    for joint in root.findall("joint"):
+        limit = joint.find("limit")
+        if joint.get("type") not in ("revolute", "prismatic"):
+            continue
+        limit = ET.SubElement(joint, "limit") if limit is None else limit
+        for key in ("effort", "velocity"):
+            limit.set(key, limit.get(key, "0"))
 
 
 def _is_empty(shape: ET.Element) -> bool:

@@ -11,7 +11,8 @@ from pathlib import Path, PurePosixPath
 from rgss.errors import DefinitionError
 from rgss.scenes import load_gripper
 from rgss.studies.robot_project.draft import drafted_robot
-from rgss.studies.robot_project.fitting import fitted, is_yaw_free, payload_at_reach_kg
+from rgss.studies.robot_project.fitting import fitted, is_yaw_free
+from rgss.studies.robot_project.holding import payload_at_reach_kg
 from rgss.studies.robot_project.layout import scene_text
 from rgss.studies.robot_project.robot_text import robot_text
 from rgss.studies.robot_project.urdf_reading import Note
@@ -55,8 +56,7 @@ def write_robot_project(
         mass_kg: Mass of the arm with its base, for a URDF without masses.
 
     Raises:
-        DefinitionError: The URDF has no arm that the task can be fitted to, or a file is there already.
-        DocumentError: The description is wrong.
+        DefinitionError: The URDF is wrong or has no arm that the task can be fitted to, or a file is there already.
     """
     with tempfile.TemporaryDirectory() as scratch:
         project = Path(scratch) / "project"

@@ -1,0 +1,36 @@
+"""Reach of an arm over sampled configurations."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.kinematics import Arm
+from rgss.scenes import Pose, Robot
+
+Array = NDArray[np.float64]
+
+_SAMPLES = 2048
+
+
+def horizontal_reach_m(robot: Robot) -> float:
+    """Greatest distance of the flange from the first axis over sampled configurations.
+
+    Args:
+        robot: The arm.
+    """
+    arm = Arm(robot, Pose())
+    positions = arm.tool_position(sampled_configurations(robot)) - np.array(arm.first_axis_m)
+    return float(np.max(np.linalg.norm(positions, axis=1)))
+
+
+def sampled_configurations(robot: Robot) -> Array:
+    """Joint positions drawn evenly from the ranges, the same at every call, shape (k, n).
+
+    Args:
+        robot: The arm.
+    """
+    lower, upper = (np.array([getattr(joint, end) for joint in robot.joints]) for end in ("lower_rad", "upper_rad"))
+    shares = np.random.default_rng(0).random((_SAMPLES, len(robot.joints)))
+    samples: Array = lower + shares * (upper - lower)
+    return samples
