@@ -359,6 +359,7 @@ class World(ClientOwner):
         self._link_names = index.link_names
         self._reader = self._reader_of_workpiece()
         builder.set_robot_dynamics(self._robot, index)
+        builder.leave_out_standing_links(self._robot, index, self._scene_names)
         self._solver_iterations = builder.solver_iterations
         self._linkage = builder.linkage_drive(self._robot, index)
         self._seal_on = partial(builder.seal, self._robot, index)

@@ -8,7 +8,8 @@ names its client.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,6 +30,7 @@ from rgss.scenes import (
     finger_joint,
     most_elements,
     pad_layouts,
+    standing_links,
     suction_point_of,
 )
 
@@ -212,6 +214,19 @@ class WorldBuilder:
             )
         if len(index.finger_joints) == 2 and self.gripper.geometry.linkage is None:
             self._couple_fingers(robot, *index.finger_joints)
+
+    def leave_out_standing_links(self, robot: int, index: RobotIndex, scene_bodies: Iterable[int]) -> None:
+        """Let what is fixed to the robot's base touch the scene, as the base does: neither moves.
+
+        The engine leaves out the base itself alone.
+        """
+        root = ET.fromstring(self.scene.robot.urdf)  # noqa: S314 - entities and document types are refused on reading
+        standing = standing_links(root)
+        for link, name in index.link_names.items():
+            if link < 0 or name not in standing:
+                continue
+            for body in scene_bodies:
+                self.engine.setCollisionFilterPair(robot, body, link, -1, 0, physicsClientId=self.client)
 
     def linkage_drive(self, robot: int, index: RobotIndex) -> LinkageDrive | None:
         """The drive of a gripper's linkage; None for fingers that slide, and for a cup."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location
 from rgss.scenes.robot import JointKind
+from rgss.scenes.urdf_inertia import MOMENTS, has_inertia, has_moments
 
 Problem = tuple[str, Location, str]
 
@@ -22,7 +23,6 @@ _KINDS: Mapping[str, JointKind] = {
     "prismatic": JointKind.PRISMATIC,
 }
 _NO_MASS_KG, _NO_MOMENT_KG_M2 = 1e-6, 1e-9
-_MOMENTS = ("ixx", "iyy", "izz")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -157,7 +157,7 @@ def loads_without_inertia(root: ET.Element) -> tuple[str, ...]:
     return tuple(
         link.get("name", "")
         for link in root.findall("link")
-        if not (_has_inertia(link) and _has_moments(link))
+        if not (has_inertia(link) and has_moments(link))
         and link.get("name") not in standing_links(root)
         and not _is_frame(root, link)
     )
@@ -225,7 +225,7 @@ def _complete_inertials(root: ET.Element) -> bool:
     """Take the inertia off what stands, where it has no mass, and give one that counts for nothing to mere frames."""
     changed, standing = False, standing_links(root)
     for link in root.findall("link"):
-        if _has_inertia(link):
+        if has_inertia(link):
             continue
         if link.get("name") not in {_end(joint, "child") for joint in root.findall("joint")}:
             for inertial in link.findall("inertial"):
@@ -236,7 +236,7 @@ def _complete_inertials(root: ET.Element) -> bool:
                 link.remove(inertial)
             inertial = ET.SubElement(link, "inertial")
             ET.SubElement(inertial, "mass", {"value": repr(_NO_MASS_KG)})
-            moments = {name: repr(_NO_MOMENT_KG_M2) if name in _MOMENTS else "0" for name in _MOMENTS}
+            moments = {name: repr(_NO_MOMENT_KG_M2) if name in MOMENTS else "0" for name in MOMENTS}
             ET.SubElement(inertial, "inertia", {**moments, "ixy": "0", "ixz": "0", "iyz": "0"})
             changed = True
     return changed
@@ -261,24 +261,6 @@ def _is_frame(root: ET.Element, link: ET.Element) -> bool:
     """Whether a link is a frame alone: without a collision shape, and fixed to what carries it."""
     mounts = [joint for joint in root.findall("joint") if _end(joint, "child") == link.get("name")]
     return link.find("collision") is None and all(joint.get("type") == "fixed" for joint in mounts)
-
-
-def _has_inertia(link: ET.Element) -> bool:
-    mass = link.find("inertial/mass")
-    return mass is not None and not _is_zero(mass.get("value", "0")) and link.find("inertial/inertia") is not None
-
-
-def _has_moments(link: ET.Element) -> bool:
-    inertia = link.find("inertial/inertia")
-    return inertia is not None and not all(_is_zero(inertia.get(name, "0")) for name in _MOMENTS)
-
-
-def _is_zero(text: str) -> bool:
-    """Whether a text is a number that is zero; what is no number is reported elsewhere."""
-    try:
-        return float(text or "0") == 0.0
-    except ValueError:
-        return False
 
 
 def _end(joint: ET.Element, end: str) -> str:

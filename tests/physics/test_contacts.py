@@ -1,6 +1,7 @@
 """Who touches whom, by name, and what it costs to ask."""
 
 import math
+import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 import numpy as np
@@ -63,6 +64,23 @@ def test_the_pedestal_that_bears_the_arm_is_not_reported(cell):
                 world.reset_arm(configuration)
                 world.step()
                 assert world.contacts().robot_bodies == ()
+
+
+@pytest.mark.engine
+def test_a_link_that_is_fixed_to_the_base_may_touch_the_pedestal_too(cell):
+    root = ET.fromstring(cell.scene.robot.urdf)  # noqa: S314 - our own
+    carried = {joint.find("child").get("link") for joint in root.findall("joint")}
+    (base,) = (link.get("name") for link in root.findall("link") if link.get("name") not in carried)
+    ET.SubElement(root, "link", {"name": "world"})
+    mount = ET.SubElement(root, "joint", {"name": "mount", "type": "fixed"})
+    ET.SubElement(mount, "parent", {"link": "world"})
+    ET.SubElement(mount, "child", {"link": base})
+    robot = replace(cell.scene.robot, urdf=ET.tostring(root, encoding="unicode"))
+    for depth_m, touching in ((0.005, set()), (0.1, {("shoulder_link", "pedestal"), ("upper_arm_link", "pedestal")})):
+        with cell.world(robot=replace(robot, base=robot.base.raised(-depth_m))) as world:
+            world.reset_arm(robot.home_rad)
+            world.step()
+            assert {*world.contacts().robot_bodies} == touching
 
 
 @pytest.mark.engine

@@ -20,6 +20,7 @@ from rgss.studies.scaffolding import scaffold_texts
 from rgss.studies.schema_headers import cannot_write
 
 _MOST_AXES = 3
+_ITERATIONS = "solver_iterations: 100 # joints follow their targets with any distribution of the arm's masses"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -120,6 +121,7 @@ def _write_files(
 def _renamed(text: str, old: str, id_: str, name: str) -> str:
     """A file of the scaffold with the arm's name in the place of the scaffold's."""
     text = text.replace(f"scenes/robots/{old}.yaml", f"scenes/robots/{id_}.yaml")
+    text = re.sub(r"solver_iterations: \d+", _ITERATIONS, text)
     component = rf"id: {re.escape(old)}\n( *)role: manipulator\n *name: .*\n *manufacturer: .*\n"
     return re.sub(component, lambda found: _component(found[1], id_, name), text)
 
