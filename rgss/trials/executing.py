@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 
 from rgss.evidence import Fidelity
 from rgss.physics import TorqueArm, open_world
-from rgss.scenes import Workpiece
+from rgss.scenes import Gripper, Scene, Workpiece
 from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.controlled_motion import controlled_motion
 from rgss.trials.execution import Execution
@@ -16,13 +17,12 @@ from rgss.trials.monitors import ForceSensorErrors, GripEstimate, StepObserver
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants import DynamicPlant, GripSequence, KinematicPlant
 from rgss.trials.program import run_program
-from rgss.trials.reference import reference_of
+from rgss.trials.reference import Reference, reference_of
 from rgss.trials.timing import TaskTiming
 from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.workcell import Workcell, cell_of, with_grasp_of
 
 
-# long function: one branch for each fidelity, which share only the references.
 def execute(
     spec: TrialSpec,
     cell: Workcell,
@@ -45,42 +45,73 @@ def execute(
         SimulationError: The physics engine cannot build the world.
     """
     conditions = conditions_of(spec)
-    physics, scene = spec.settings.physics, with_grasp_of(conditions.true_scene, cell)
-    references = {}
-    for phase in spec.task.phases:
-        if phase in timing.trajectories:
-            references[phase] = reference_of(
-                timing.trajectories[phase], cell.arm, step_s=physics.step_s, gravity_m_s2=scene.gravity_m_s2
-            )
-    control, gripper = spec.settings.control, conditions.true_gripper
-    if spec.fidelity is Fidelity.KINEMATIC:
-        model = KinematicPlant(
+    scene = with_grasp_of(conditions.true_scene, cell)
+    references = {
+        phase: reference_of(
+            timing.trajectories[phase],
             cell.arm,
-            scene.robot.joints,
-            gripper,
-            GripSequence(spec.task, scene, gripper.geometry),
-            control,
-            step_s=physics.step_s,
+            step_s=spec.settings.physics.step_s,
+            gravity_m_s2=scene.gravity_m_s2,
         )
-        return _with_quality(run_program(model, references, task=spec.task, checkpoint=checkpoint), timing)
-    motion = None
-    if spec.fidelity is Fidelity.DYNAMIC or spec.settings.controller.in_contact:
-        with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
-            believed = [one.workpiece for one in conditions.scene.objects]
-            plant = DynamicPlant(
-                machine,
-                cell.arm,
-                scene,
-                gripper,
-                physics,
-                control,
-                controller=spec.settings.controller,
-                believed=believed,
-                checkpoint=checkpoint,
-                task=spec.task,
-            )
-            if spec.fidelity is Fidelity.DYNAMIC:
-                return _with_quality(run_program(plant, references, task=spec.task), timing)
+        for phase in spec.task.phases
+        if phase in timing.trajectories
+    }
+    if spec.fidelity is Fidelity.KINEMATIC:
+        plant = _kinematic_plant(spec, cell, scene, conditions.true_gripper)
+        results = run_program(plant, references, task=spec.task, checkpoint=checkpoint)
+    elif spec.fidelity is Fidelity.DYNAMIC:
+        with _dynamic_plant(spec, cell, scene, conditions, checkpoint) as dynamic:
+            results = run_program(dynamic, references, task=spec.task)
+    else:
+        results = _in_contact(spec, cell, scene, conditions, references, observer=observer, checkpoint=checkpoint)
+    return _with_quality(results, timing)
+
+
+def _kinematic_plant(spec: TrialSpec, cell: Workcell, scene: Scene, gripper: Gripper) -> KinematicPlant:
+    return KinematicPlant(
+        cell.arm,
+        scene.robot.joints,
+        gripper,
+        GripSequence(spec.task, scene, gripper.geometry),
+        spec.settings.control,
+        step_s=spec.settings.physics.step_s,
+    )
+
+
+@contextmanager
+def _dynamic_plant(
+    spec: TrialSpec, cell: Workcell, scene: Scene, conditions: Conditions, checkpoint: Callable[[], None] | None
+) -> Iterator[DynamicPlant]:
+    physics, gripper = spec.settings.physics, conditions.true_gripper
+    with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
+        yield DynamicPlant(
+            machine,
+            cell.arm,
+            scene,
+            gripper,
+            physics,
+            spec.settings.control,
+            controller=spec.settings.controller,
+            believed=[one.workpiece for one in conditions.scene.objects],
+            checkpoint=checkpoint,
+            task=spec.task,
+        )
+
+
+def _in_contact(
+    spec: TrialSpec,
+    cell: Workcell,
+    scene: Scene,
+    conditions: Conditions,
+    references: Mapping[str, Reference],
+    *,
+    observer: StepObserver | None,
+    checkpoint: Callable[[], None] | None,
+) -> tuple[PhaseResult, ...]:
+    """The phases in contact physics; where the controller acts in contact, on the motion that it makes of the arm."""
+    physics, gripper, motion = spec.settings.physics, conditions.true_gripper, None
+    if spec.settings.controller.in_contact:
+        with _dynamic_plant(spec, cell, scene, conditions, checkpoint) as plant:
             motion = controlled_motion(
                 plant,
                 references,
@@ -99,7 +130,7 @@ def execute(
         execution = Execution(
             world,
             references if motion is None else motion.references,
-            control,
+            spec.settings.control,
             cell.arm,
             estimates=_grip_estimates(spec, conditions),
             observer=observer,
@@ -108,7 +139,7 @@ def execute(
             settling_limit_s=spec.settings.controller.settling_limit_s,
         )
         results = execution.run()
-    return _with_quality(results if motion is None else motion.joined(results), timing)
+    return results if motion is None else motion.joined(results)
 
 
 def _grip_estimates(spec: TrialSpec, conditions: Conditions) -> dict[str, GripEstimate]:
