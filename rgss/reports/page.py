@@ -55,7 +55,7 @@ def render_page(
         # Markup is a str too, and its methods keep it one; what reaches it is made visible where it is made.
         finalize=lambda value: visible(value) if type(value) is str else value,
     )
-    own = [_text("page/page.js"), *scripts]
+    own = [_text("page/page.js"), *([_text("page/diagram_pages.js")] if context.get("drawings") else []), *scripts]
     return environment.get_template(template).render(
         style=Markup(_text("page/page.css") + "".join(styles)),  # noqa: S704 - this package's own files
         scripts=[Markup(script) for script in own],  # noqa: S704 - this package's own files
