@@ -32,7 +32,6 @@ from rgss.documents.fields import (
 )
 from rgss.documents.model import STRICT, DocumentModel
 from rgss.documents.output_files import (
-    DATA_FOLDERS,
     is_standard_output,
     replaced_file,
     require_no_source,
@@ -41,6 +40,7 @@ from rgss.documents.output_files import (
     write_output,
 )
 from rgss.documents.project_files import FilePlace, content_digest, place_of
+from rgss.documents.project_sources import DATA_FOLDERS
 from rgss.documents.reader import LARGEST_FILE_BYTES, Document, read_document
 from rgss.documents.refusals import MOST_PROBLEMS, cut_short
 from rgss.documents.regular_file import chunks_of, open_regular

@@ -19,13 +19,9 @@ from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 
+from rgss.documents.project_sources import project_source, source_with_another_name
 from rgss.errors import DefinitionError, RgssError, StorageError
 
-DATA_FOLDERS = ("requirements", "designs", "scenes", "studies")
-"""The folders of a project that hold its sources."""
-
-_STATE = frozenset({"evidence.sqlite", "evidence.sqlite-wal", "evidence.sqlite-shm", "verdicts.json"})
-_STATE_FOLDER, _TESTS = ".rgss", "tests"
 _MOST_LINKS = 40
 _DESCRIPTORS = "/proc/"
 _DISK_FAILURES = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
@@ -149,33 +145,13 @@ def is_standard_output(path: Path) -> bool:
         return False
 
 
-def project_source(path: Path) -> str:
-    """The path of a source within the project that it belongs to; empty for any other file.
-
-    Sources are what a project reads: everything in its data folders, its tests, and its evidence.
-
-    Args:
-        path: A file, without symbolic links.
-    """
-    path = path.absolute()
-    for folder in path.parents:
-        if not all((folder / name).is_dir() for name in DATA_FOLDERS):
-            continue
-        within = path.relative_to(folder)
-        first = within.parts[0]
-        is_test = first == _TESTS and path.suffix == ".py"
-        is_state = first == _STATE_FOLDER and len(within.parts) == 2 and within.name in _STATE
-        if first in DATA_FOLDERS or is_test or is_state:
-            return within.as_posix()
-    return ""
-
-
 def _refuse_source(path: Path, target: _Target) -> None:
     if target.status is None or target.in_place:
         return
-    source = project_source(target.path)
+    source = project_source(target.path) or source_with_another_name(target.status)
     if source:
-        through = "" if target.path.absolute() == path.absolute() else f" (through the link {str(path)!r})"
+        is_itself = target.path.absolute() == path.absolute() and target.path.name == Path(source).name
+        through = "" if is_itself else f" (through the link {str(path)!r})"
         raise SourceOverwriteError(
             f"{source} is a source of the project and is not overwritten{through}",
             hint="name another file; to replace this one, remove it first",

@@ -157,7 +157,9 @@ def _change(own: Row | None, foreign: Content, row: Row, wishes: Wishes) -> Elem
         return findings
     element, problems = validated(entry, MODELS[part])
     if element is None:
-        return [_value_problem(part, foreign, row, location, message) for location, message in problems]
+        return [
+            _value_problem(part, foreign, row, location, message, new=own is None) for location, message in problems
+        ]
     after = cells_of(part, as_written(element, entry))
     before = own.cells if own is not None else dict.fromkeys(after, "")
     return ElementChange(
@@ -214,14 +216,17 @@ def _dangling(known: set[str], foreign: Content) -> Iterator[Finding]:
                     yield _at(foreign, row, name, "unknown-id", message, "correct the id, or add the element")
 
 
-def _value_problem(part: Part, foreign: Content, row: Row, location: Sequence[str | int], message: str) -> Finding:
+def _value_problem(
+    part: Part, foreign: Content, row: Row, location: Sequence[str | int], message: str, *, new: bool
+) -> Finding:
     keys = tuple(key for key in location if isinstance(key, str))
     name = next((each.name for each in ATTRIBUTES[part] if each.path == keys[: len(each.path)]), "id")
     if name == "id" and keys and keys[0] != "id":
         name = next((each.name for each in ATTRIBUTES[part] if each.path[0] == keys[0]), "id")
     hint = ""
     if message == "is missing":
-        hint = f"fill it in, or give --default {name}=…"
+        # A default is for elements that are new; an empty cell of another would take a value away.
+        hint = f"fill it in, or give --default {name}=…" if new else "fill it in"
     label = f"{row.id}: {name}" if keys else row.id
     return _at(foreign, row, name, "value", f"{label}: {message}", hint)
 

@@ -13,11 +13,14 @@ from pathlib import Path
 
 import numpy as np
 
-from rgss.documents import write_output
+from rgss.documents import chunks_of, write_output
 from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity, shown
 from rgss.identification.recording import JointSeries, Recording, Segment
 from rgss.scenes import ServoControl
+
+LARGEST_RECORDING_BYTES = 128 * 1024 * 1024
+"""Size of the largest recording that is read: about an hour of six joints at 125 Hz."""
 
 LEAST_SAMPLES = 8
 LARGEST_GAP = 1.5
@@ -79,7 +82,7 @@ def read_recording(path: Path) -> Recording:
         DocumentError: The file is not a recording; with its first problem.
     """
     try:
-        content = path.read_bytes()
+        content = b"".join(chunks_of(path, largest=LARGEST_RECORDING_BYTES))
         text = content.decode("utf-8")
     except OSError as error:
         raise _wrong(path, 1, f"the file cannot be read: {error.strerror}") from error

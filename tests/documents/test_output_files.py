@@ -261,6 +261,18 @@ SOURCES = (
 )
 
 
+def test_a_source_that_has_another_name_outside_is_refused(project, tmp_path, monkeypatch):
+    source, output = project / "requirements/system.yaml", tmp_path / "out.csv"
+    source.write_bytes(b"old")
+    os.link(source, output)
+    monkeypatch.chdir(project / "studies")
+
+    for refusing in (why_not_writable, require_no_source, lambda path: write_output(path, b"new")):
+        with pytest.raises(SourceOverwriteError, match=r"requirements/system\.yaml is a source .* \(through the link"):
+            refusing(output)
+    assert source.read_bytes() == b"old"
+
+
 @pytest.mark.parametrize("name", SOURCES)
 @pytest.mark.parametrize("linked", [False, True], ids=["named", "linked"])
 def test_a_source_of_a_project_is_refused(project, tmp_path, name, linked):

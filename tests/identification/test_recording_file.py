@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from rgss.errors import DocumentError
-from rgss.identification import read_recording, write_recording
+from rgss.identification import read_recording, recording_file, write_recording
 from rgss.scenes import JointServo
 from tests.identification.recordings import motions_of, recording_of
 
@@ -130,6 +132,16 @@ def test_joints_are_named_once(path):
     )
 
     assert "has columns twice" in complaint(path).message
+
+
+def test_what_has_no_end_or_is_too_large_is_not_read(tmp_path, monkeypatch):
+    large = tmp_path / "large.csv"
+    with large.open("wb") as file:
+        file.truncate(2 * 1024 * 1024)
+    monkeypatch.setattr(recording_file, "LARGEST_RECORDING_BYTES", 1024 * 1024)
+
+    assert "cannot be read: larger than the 1 MiB" in complaint(large).message
+    assert "cannot be read: not a regular file" in complaint(Path("/dev/zero")).message
 
 
 def test_a_file_that_is_not_there(tmp_path):

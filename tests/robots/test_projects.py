@@ -120,6 +120,12 @@ def test_a_urdf_that_is_not_there(tmp_path, capsys):
     assert "no.urdf cannot be read" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(("verb", "after"), [(["robot"], []), (["init", "--robot"], ["new"])], ids=["robot", "init"])
+def test_a_urdf_without_end_is_not_read(tmp_path, capsys, verb, after):
+    assert main([*verb, "/dev/zero", *(str(tmp_path / name) for name in after)]) == 2
+    assert "/dev/zero cannot be read: not a regular file (name a URDF" in capsys.readouterr().err
+
+
 def test_a_flange_needs_a_urdf(tmp_path, capsys):
     assert main(["init", "--flange", "tool0", str(tmp_path / "new")]) == 2
     assert "--flange names a link of a URDF (give the URDF with --robot)" in " ".join(capsys.readouterr().err.split())

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from rgss.documents import open_regular
 from rgss.errors import DefinitionError
 from rgss.scenes import number_problems
 
@@ -65,10 +66,13 @@ def read_arm_urdf(urdf: Path) -> tuple[ET.Element, list[Note]]:
 def _parsed(urdf: Path) -> ET.Element:
     hint = "name a URDF; a xacro is expanded with the tool of that name first"
     try:
-        content = urdf.read_bytes()[: _LARGEST_URDF_BYTES + 1]
+        with open_regular(urdf) as file:
+            content = file.read(_LARGEST_URDF_BYTES + 1)
         text = content.decode("utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise DefinitionError(f"{urdf} cannot be read: {error}", hint=hint) from error
+    except OSError as error:
+        raise DefinitionError(f"{urdf} cannot be read: {error.strerror or error}", hint=hint) from error
+    except UnicodeDecodeError as error:
+        raise DefinitionError(f"{urdf} cannot be read: it is not UTF-8", hint=hint) from error
     if len(content) > _LARGEST_URDF_BYTES or "<!DOCTYPE" in text or "<!ENTITY" in text:
         raise DefinitionError(f"{urdf} is larger than 1 MiB or declares a document type", hint=hint)
     try:

@@ -42,6 +42,17 @@ def rewritten(path, *, old, new):
     return path
 
 
+def test_an_empty_cell_of_what_is_there_already_is_not_answered_with_a_default(project, written, refused):
+    """A default is for new elements, so that a hint at it would lead nowhere."""
+    path = written / "t.csv"
+    text = path.read_text(encoding="utf-8-sig")
+    assert text.count(",low,draft,") == 1
+    path.write_text(text.replace(",low,draft,", ",low,,"), encoding="utf-8", newline="")
+
+    (line,) = refused(project.compare, read_csv(path), defaults={"status": "draft"})
+    assert line.endswith("SYS-2: status: is missing (fill it in) [exchange.value]")
+
+
 def test_another_reader_finds_every_requirement_in_the_csv(project):
     rows = list(csv.DictReader(io.StringIO(csv_text(project.content))))
     assert [(row["part"], row["id"]) for row in rows] == [
