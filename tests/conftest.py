@@ -8,6 +8,7 @@ requirements into the file, and the run the digests of what was tested; `rgss tr
 from __future__ import annotations
 
 import os
+import re
 import signal
 import sys
 from pathlib import Path
@@ -58,11 +59,18 @@ def pytest_configure(config: pytest.Config) -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+_ALL_NEED_AN_ENGINE = re.compile(r"^pytestmark = \[?pytest\.mark\.(engine|browser)\b", re.MULTILINE)
+
+
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Leave out files that are known to take long where slow tests are not wanted: reading them takes long, too."""
-    if "not slow" in config.option.markexpr and collection_path.suffix == ".py":
-        name = collection_path.relative_to(config.rootpath).as_posix()
-        return name in slow_tests() or None
+    """Leave out files of which nothing would be run, where slow tests or engines are not wanted: reading takes long."""
+    wanted = config.option.markexpr
+    if collection_path.suffix != ".py":
+        return None
+    if "not slow" in wanted and collection_path.relative_to(config.rootpath).as_posix() in slow_tests():
+        return True
+    if "not engine and not browser" in wanted and _ALL_NEED_AN_ENGINE.search(collection_path.read_text("utf-8")):
+        return True
     return None
 
 

@@ -12,7 +12,7 @@ import nbformat
 from nbclient import NotebookClient
 from traitlets.config import Config
 
-LONGEST_S = 300
+LONGEST_S = 600  # of one cell, after which it is given up; no result depends on it
 METADATA = {
     "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},
     "language_info": {"name": "python"},

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+
+from rgss.cli.main import main
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("**/*.md"))]
@@ -17,7 +17,6 @@ _FENCED = re.compile(r"^```[a-z]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
 _SPAN = re.compile(r"`([^`\n]+)`")
 _COMMAND = re.compile(r"(?:^|[\s/])rgss ([a-z][a-z-]*)(?![a-z-]*[=.:])([^|;&#\n`]*)")
 _LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
-_RUN = "import sys; sys.argv[0] = 'rgss'; from rgss.cli.main import main; sys.exit(main())"
 
 
 def code_of(page: Path) -> list[str]:
@@ -44,13 +43,15 @@ def test_the_main_job_is_in_the_first_screen_of_the_readme():
     assert "make test" in first_screen
 
 
-def test_commands_and_their_options_exist():
+def test_commands_and_their_options_exist(capsys):
     missing = []
     for verb, options in sorted(named_commands().items()):
-        run = subprocess.run([sys.executable, "-c", _RUN, verb, "--help"], capture_output=True, text=True, check=False)
-        known = set(re.findall(r"--[a-z][a-z-]*", run.stdout)) if run.returncode == 0 else set()
+        with pytest.raises(SystemExit) as end:
+            main([verb, "--help"])
+        helped = capsys.readouterr().out
+        known = set(re.findall(r"--[a-z][a-z-]*", helped)) if end.value.code == 0 else set()
         missing += [f"rgss {verb} {option}".strip() for option in sorted(options or {""}) if option not in {*known, ""}]
-        missing += [f"rgss {verb}"] if run.returncode else []
+        missing += [f"rgss {verb}"] if end.value.code else []
 
     assert missing == []
 
