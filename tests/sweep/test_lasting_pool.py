@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from rgss.sweep.persistent_pool import PersistentWorkerPool
+from tests.fixtures.processes import PATIENCE_S
 
 DOUBLES = Path(__file__).parent / "doubles"
-LIMITS = {"time_limit_s": 60.0, "memory_limit_bytes": 0}
+LIMITS = {"time_limit_s": PATIENCE_S, "memory_limit_bytes": 0}
 
 
 @pytest.fixture

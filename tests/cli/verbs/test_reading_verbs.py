@@ -168,10 +168,23 @@ def test_measure_shows_what_is_missing(rgss, with_evidence):
     assert {row["n"] for row in told.document if row["measure"] == "S"} == {3}
 
 
+@pytest.fixture(scope="module")
+def kept():
+    """What was printed for one test and is looked at by another."""
+    return {}
+
+
+@pytest.fixture
+def trade_as_json(rgss, with_evidence, kept):
+    """The document of the trade-off of the made evidence."""
+    if "trade" not in kept:
+        kept["trade"] = rgss("trade", "--json", "--project", with_evidence)
+    return kept["trade"]
+
+
 @pytest.mark.verifies("SYS-038")
-def test_trade_as_json(rgss, with_evidence):
-    told = rgss("trade", "--json", "--project", with_evidence)
-    document = told.document
+def test_trade_as_json(trade_as_json):
+    told, document = trade_as_json, trade_as_json.document
 
     assert (told.status, told.errors) == (0, "")
     assert {"status", "chosen", "runner_up", "ranking", "infeasible", "certificate"} <= set(document)
@@ -188,9 +201,9 @@ def test_trade_as_json(rgss, with_evidence):
 
 
 @pytest.mark.verifies("SYS-038")
-def test_trade_says_what_is_chosen_and_why(rgss, with_evidence):
+def test_trade_says_what_is_chosen_and_why(rgss, with_evidence, trade_as_json):
     told = rgss("trade", "--project", with_evidence)
-    document = rgss("trade", "--json", "--project", with_evidence).document
+    document = trade_as_json.document
 
     assert (told.status, told.errors) == (0, "")
     assert told.output.startswith("Study pick_place: 72 variants, 216 trials\n")
@@ -254,7 +267,7 @@ def test_what_only_reads_makes_no_evidence(rgss, folder, verb):
 
 
 def test_json_is_one_document_and_nothing_else(rgss_process, with_evidence):
-    for words in (["check"], ["variants"], ["measure"], ["trade"]):
+    for words in (["check"], ["variants"], ["measure"], ["trade", "--brief"]):
         done = rgss_process(*words, "--json", "--project", with_evidence)
 
         assert (done.returncode, done.stderr) == (0, "")

@@ -26,7 +26,7 @@ from tests.fixtures.processes import PATIENCE_S, is_running, wait_until
 
 DOUBLES = Path(__file__).parents[1] / "doubles"
 GIB = 1024**3
-LIMITS = {"time_limit_s": 600.0, "memory_limit_bytes": 1 * GIB}
+LIMITS = {"time_limit_s": PATIENCE_S, "memory_limit_bytes": 1 * GIB}
 HINT = "every worker needs the same engines and the same rgss"
 
 
@@ -137,7 +137,7 @@ def test_a_cluster_that_loses_a_worker_makes_the_same_records(local, shipped, tm
             victims.append(next(iter(local.workers.values())).process.pid)
             os.kill(victims[0], signal.SIGKILL)
 
-    limits = {"time_limit_s": 300.0, "memory_limit_bytes": 2 * GIB}
+    limits = {"time_limit_s": PATIENCE_S, "memory_limit_bytes": 2 * GIB}
     with (
         EvidenceStore.open(tmp_path / "here.sqlite") as here,
         EvidenceStore.open(tmp_path / "there.sqlite") as there,
@@ -166,7 +166,7 @@ def test_stopping_ends_what_is_being_done_at_once(local, doubles, carried_out):
 
 
 def test_each_thread_of_a_dask_worker_has_a_process_of_its_own(threads, doubles, carried_out):
-    with dask_cluster(threads.scheduler_address, time_limit_s=60.0, memory_limit_bytes=0) as cluster:
+    with dask_cluster(threads.scheduler_address, time_limit_s=PATIENCE_S, memory_limit_bytes=0) as cluster:
         workers = cluster.workers(doubles.act)
         assert workers.size == 2
         # Each waits for the other to begin.
@@ -180,7 +180,7 @@ def test_a_cluster_without_workers_in_the_middle_is_left_in_the_end(doubles, car
         n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=60
     ) as local:
         address = local.scheduler_address
-        with dask_cluster(address, time_limit_s=60.0, memory_limit_bytes=0) as cluster:
+        with dask_cluster(address, time_limit_s=PATIENCE_S, memory_limit_bytes=0) as cluster:
             workers = cluster.workers(doubles.act, without_workers_s=0.1)
             workers.begin("hang", ("hang",))
             local.scale(0)
@@ -198,7 +198,7 @@ def test_a_scheduler_that_goes_is_an_error(doubles, carried_out):
         n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=60
     ) as local:
         address = local.scheduler_address
-        with dask_cluster(address, time_limit_s=60.0, memory_limit_bytes=0) as cluster:
+        with dask_cluster(address, time_limit_s=PATIENCE_S, memory_limit_bytes=0) as cluster:
             workers = cluster.workers(doubles.act)
             workers.begin("hang", ("hang",))
             local.close()
