@@ -218,18 +218,26 @@ def _middles(
     children: Mapping[str | None, list[Block]],
     opened: frozenset[str],
 ) -> dict[str, float]:
-    """The height of each block: leaves below each other, a whole in the middle of its first and last part."""
-    middles: dict[str, float] = {}
-    y = _MARGIN
-    for _, block in order:
-        if block.id not in opened:
-            height = contents[block.id].height
-            middles[block.id] = y + height / 2
-            y += height + _GAP_Y
+    """The middle of each block: a whole beside its first and last part, and the room of both below each other."""
+    rooms: dict[str, float] = {}
     for _, block in reversed(order):
-        if block.id in opened:
-            below = children[block.id]
-            middles[block.id] = (middles[below[0].id] + middles[below[-1].id]) / 2
+        below = children[block.id] if block.id in opened else []
+        inner = sum(rooms[part.id] for part in below) + _GAP_Y * max(0, len(below) - 1)
+        rooms[block.id] = max(contents[block.id].height, inner)
+    tops = {order[0][1].id: _MARGIN}
+    for _, block in order:
+        below = children[block.id] if block.id in opened else []
+        inner = sum(rooms[part.id] for part in below) + _GAP_Y * max(0, len(below) - 1)
+        top = tops[block.id] + (rooms[block.id] - inner) / 2
+        for part in below:
+            tops[part.id] = top
+            top += rooms[part.id] + _GAP_Y
+    middles: dict[str, float] = {}
+    for _, block in reversed(order):
+        top, room, half = tops[block.id], rooms[block.id], contents[block.id].height / 2
+        below = children[block.id] if block.id in opened else []
+        wanted = (middles[below[0].id] + middles[below[-1].id]) / 2 if below else top + room / 2
+        middles[block.id] = min(max(wanted, top + half), top + room - half)
     return middles
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import random
 from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -13,7 +15,7 @@ from rgss.reports.diagrams.internal_blocks import internal_block_diagrams
 from rgss.reports.diagrams.parametric import parametric_diagrams
 from rgss.reports.diagrams.style import STYLE
 from rgss.reports.diagrams.trees import block_definition_diagrams
-from rgss.requirements import load_requirements
+from rgss.requirements import Block, BlockLevel, ValueProperty, load_requirements
 from tests.fixtures.diagram_geometry import SVG, crossings
 
 ROOT = Path(__file__).parents[3]
@@ -133,3 +135,28 @@ def test_a_measure_of_ones_own_has_its_diagram(blocks, measures):
 
 def test_blocks_without_connectors_have_no_internal_block_diagram(blocks):
     assert internal_block_diagrams(tuple(replace(block, connectors=()) for block in blocks)) == ()
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_blocks_of_any_height_do_not_overlap(seed):
+    """Wholes that are taller than all their parts together, too."""
+    chosen = random.Random(seed)  # noqa: S311 - a made model
+    blocks = []
+    for index in range(chosen.randint(2, 25)):
+        parent = f"BLK-{chosen.randrange(index)}" if index else None
+        values = tuple(ValueProperty(id=f"v{number}", unit="kg") for number in range(chosen.choice((0, 0, 1, 12))))
+        blocks.append(
+            Block(id=f"BLK-{index}", name="Made", level=BlockLevel.ELEMENT, parent=parent, text="T.", values=values)
+        )
+    (drawing,) = block_definition_diagrams(blocks)
+    root = ET.fromstring(drawing.to_svg())  # noqa: S314 - our own
+    boxes = [
+        tuple(float(box.get(key)) for key in ("x", "y", "width", "height"))
+        for box in root.iter(f"{SVG}rect")
+        if box.get("x") and "open" not in box.get("class")
+    ]
+
+    assert len(boxes) == len(blocks)
+    for (x, y, width, height), (u, v, breadth, length) in combinations(boxes, 2):
+        assert x + width <= u or u + breadth <= x or y + height < v - 2 or v + length < y - 2
+    assert crossings(drawing.to_svg(), STYLE) == []
