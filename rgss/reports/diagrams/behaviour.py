@@ -13,7 +13,7 @@ from rgss.requirements.behaviour import Flow, FlowNode, FlowNodeKind, State, Sta
 
 _SYSTEM = "system"
 _LONGEST_LABEL = 4
-"""With more failures than this on one way, each line of its label holds two."""
+"""With more failures than this on one way, they are listed in the state that it leaves."""
 
 _FLOW_SHAPES = {
     FlowNodeKind.INITIAL: Shape.INITIAL,
@@ -174,8 +174,15 @@ def state_diagram(behaviour: Behaviour) -> Drawing | None:
     if machine is None:
         return None
     edges = tuple(_transitions(machine))
+    # A long list beside one of many long ways cannot be seen to belong to it; it stands in its state.
+    listed = {edge.source: ", ".join(edge.labels) for edge in edges if _is_listed(edge)}
+    nodes = tuple(_state_node(state, listed.get(state.id, "")) for state in machine.states)
+    short = tuple(
+        replace(edge, labels=(f"any of its {len(edge.labels)} failures",)) if _is_listed(edge) else edge
+        for edge in edges
+    )
     return draw_graph(
-        Graph(nodes=tuple(map(_state_node, machine.states)), edges=edges, node_width=240.0),
+        Graph(nodes=nodes, edges=short, node_width=300.0 if listed else 240.0),
         heading=Heading(kind="stm", element="State Machine", subject=behaviour.name),
         name=f"states-{behaviour.id}",
         title=f"State diagram: {behaviour.name}",
@@ -191,13 +198,18 @@ def _flow_node(node: FlowNode) -> Node:
     return Node(id=node.id, shape=shape, name=node.text or "", texts=texts, tint=tint)
 
 
-def _state_node(state: State) -> Node:
+def _is_listed(edge: Edge) -> bool:
+    return edge.dashed and len(edge.labels) > _LONGEST_LABEL
+
+
+def _state_node(state: State, failures: str) -> Node:
     if state.kind is StateKind.INITIAL:
         return Node(id=state.id, shape=Shape.INITIAL, name=state.name)
     if state.kind is StateKind.FINAL:
         return Node(id=state.id, shape=Shape.FINAL, name=state.name)
     texts = [f"phase {state.phase}"] if state.phase else []
     texts += [f"do / {state.does}"] if state.does else []
+    texts += [f"failures: {failures}"] if failures else []
     tint = "fail" if state.kind is StateKind.FAILED else "behaviour"
     return Node(id=state.id, shape=Shape.ROUND, name=state.name, texts=tuple(texts), tint=tint)
 
@@ -211,14 +223,8 @@ def _transitions(machine: StateMachine) -> Iterable[Edge]:
         ways.setdefault((transition.source, transition.target), []).append(" ".join(parts))
     for (source, target), labels in ways.items():
         there = [label for label in labels if label]
-        lines = there if len(there) <= _LONGEST_LABEL else _paired(there)
         fails = target in failed
-        yield Edge(source=source, target=target, head="filled", labels=tuple(lines), dashed=fails, straight=not fails)
-
-
-def _paired(labels: list[str]) -> list[str]:
-    lines = [", ".join(labels[index : index + 2]) for index in range(0, len(labels), 2)]
-    return [f"{line}," for line in lines[:-1]] + lines[-1:]
+        yield Edge(source=source, target=target, head="filled", labels=tuple(there), dashed=fails, straight=not fails)
 
 
 def _describe(edges: Iterable[Edge], names: Mapping[str, str]) -> str:

@@ -118,6 +118,20 @@ def test_every_behaviour_is_drawn_with_all_that_it_has(shipped, drawings):
             assert [text for text in named if squeezed(text) not in words[f"states-{one.id}"]] == [], one.id
 
 
+def test_many_failures_stand_in_the_state_that_they_leave(shipped, drawings):
+    (machine,) = (one.machine for one in shipped.architecture.behaviours if one.id == "STM-task")
+    root = ET.fromstring(drawings["states-STM-task"].to_svg())  # noqa: S314 - our own
+    boxes = [" ".join(group.find(f"{SVG}title").text.split()) for group in root.iter(f"{SVG}g")]
+    counts = Counter(way.source for way in machine.transitions if way.failure)
+
+    assert max(counts.values()) > 4
+    for state in machine.states:
+        failures = [way.failure for way in machine.transitions if way.source == state.id and way.failure]
+        if len(failures) > 4:
+            assert any(box.startswith(state.name) and f"failures: {', '.join(failures)}" in box for box in boxes)
+            assert f"any of its {len(failures)} failures" in words_of(drawings["states-STM-task"])
+
+
 def test_each_is_well_formed_and_says_what_it_is(drawings):
     for drawing in drawings.values():
         root = ET.fromstring(drawing.to_svg())  # noqa: S314 - our own
