@@ -1,4 +1,4 @@
-"""Errors of the Python interface in terms of its arguments, where the library speaks of options."""
+"""Errors of the Python interface, which name arguments where the library names options."""
 
 from __future__ import annotations
 
@@ -18,31 +18,31 @@ TERMS = (
     ("'rgss variants' lists all of them", "study.variants lists all of them"),
     ("--what-if:", "what_if:"),
 )
-"""What the library says, and what an analyst is told; the first that fits, in turn."""
+"""Phrases of the command line and their replacements, applied in order."""
 
 
-class SpeaksOfArguments(ContextDecorator):
+class ErrorsNameArguments(ContextDecorator):
     """Context, or decorator of a function, whose errors name arguments and methods.
 
-    The library's errors name what a shell has, for most of its users sit there. The error that is raised is the same
-    object, of the same type and with the same data.
+    The library words its errors for the command line. The error that is raised is the same object, of the same type
+    and with the same data.
     """
 
     def __enter__(self) -> None:
         """Begin."""
 
     def __exit__(self, _type: object, error: BaseException | None, _traceback: TracebackType | None) -> None:
-        """Put an error of rgss in terms of arguments."""
+        """Replace options by arguments in the message and the hint of an error of rgss."""
         if isinstance(error, RgssError):
             error.message, error.hint = in_arguments(error.message), in_arguments(error.hint)
 
 
 def in_arguments(text: str) -> str:
-    """A text with arguments in place of options.
+    """Text with options replaced by arguments.
 
     Args:
         text: A message or a hint.
     """
-    for said, told in TERMS:
-        text = text.replace(said, told)
+    for option, argument in TERMS:
+        text = text.replace(option, argument)
     return text

@@ -1,4 +1,4 @@
-"""Suppositions on how trials are made, and the table of the modelling assumptions, for analysts."""
+"""Measures under suppositions, and the table of the modelling assumptions, for the Python interface."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ def scenario_measures(
         project: The project without them.
         scenario: The suppositions.
         measured: Every variant without them.
-        run: Whether trials that lack are run.
+        run: True to run missing trials.
         jobs: Number of worker processes for that.
 
     Raises:
-        EvidenceError: Trials lack.
-        SimulationError: Trials could not be made.
+        EvidenceError: Trials are missing.
+        SimulationError: Trials could not be run.
     """
     if not scenario.settings:
         return measured_in(scenario, measured)

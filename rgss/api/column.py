@@ -1,4 +1,4 @@
-"""A column of a frame: its name, its unit and what it says."""
+"""Column of a frame: name, unit and meaning."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ class Column:
     """One column, or one pattern of columns.
 
     Attributes:
-        name: Its name; parts in capitals stand for what a project has, such as ``PARAMETER``.
-        unit: The unit of its numbers, in SI; ``"1"`` for a pure number, empty for what is not a number;
-            where another column or the project says it, words that say so.
-        meaning: What it says.
-        kind: What its cells are.
+        name: Its name; a part in capitals, such as ``PARAMETER``, is a placeholder for names of the project.
+        unit: The unit of its numbers, in SI; ``"1"`` for a dimensionless number, empty if it is not a number;
+            a sentence where another column or the project determines the unit.
+        meaning: Its meaning.
+        kind: Type of its cells.
         items: For a row of numbers how many entries it has, each a column ``item_N_NAME``; 0 where
             that differs; None for a single value.
     """
@@ -37,7 +37,7 @@ class Column:
 
     @property
     def title(self) -> str:
-        """The name as a table shows it: that of its entries for a row."""
+        """The name in a table: for a row of numbers that of its entries."""
         return self.name if self.items is None else f"item_N_{self.name}"
 
     def entries(self, count: int = 0) -> tuple[Column, ...]:
@@ -64,8 +64,8 @@ class FrameDescription:
     """One frame.
 
     Attributes:
-        name: What it is called in `rgss.load_study`'s result.
-        row: What a row is.
+        name: Its attribute of `Study` or `Trade`.
+        row: Meaning of a row.
         index: The columns of its index.
         columns: The other columns, in order.
     """

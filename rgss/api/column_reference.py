@@ -1,4 +1,4 @@
-"""The columns of the frames as tables in Markdown, and docs/api.md with them put in."""
+"""Reference tables of the frames' columns in Markdown, and their insertion into docs/api.md."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def reference_table(name: str) -> str:
 
 
 def with_reference_tables(page: str) -> str:
-    """A page with the table of each frame between its two markers, as the code has it now.
+    """A page with the present table of each frame between its two markers.
 
     Args:
         page: The text of the page, with ``<!-- columns of trials -->`` and ``<!-- end of columns -->``.

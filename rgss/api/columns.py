@@ -28,16 +28,18 @@ _VARIANTS = FrameDescription(
         Column(name="level_FACTOR", meaning="level that the variant has of a factor"),
         Column(name="trials", meaning="trials with evidence", unit="1", kind=Kind.COUNT),
         Column(name="missing", meaning="trials without evidence", unit="1", kind=Kind.COUNT),
-        Column(name="screening", meaning="what became of it in screening; missing if the study has none"),
+        Column(name="screening", meaning="outcome of its screening; missing if the study has none"),
         Column(
             name="feasible",
-            meaning="whether it meets every demand of the trade-off; missing until all trials have evidence",
+            meaning="true if it meets every requirement of the trade-off; missing until all trials have evidence",
             kind=Kind.TRUTH,
         ),
-        Column(name="violates", meaning="demands that it does not meet, with commas between; empty if it meets all"),
+        Column(
+            name="violates", meaning="requirements that it does not meet, separated by commas; empty if it meets all"
+        ),
         Column(
             name="weighted_value",
-            meaning="its value in the trade-off, whatever it violates",
+            meaning="its value in the trade-off, also if it is infeasible",
             unit="1",
             kind=Kind.NUMBER,
         ),
@@ -49,16 +51,16 @@ _TRIALS = FrameDescription(
     row="a variant and a seed",
     index=(VARIANT, SEED),
     columns=(
-        Column(name="key", meaning="what the evidence store knows the trial by"),
+        Column(name="key", meaning="digest that identifies the trial in the evidence store"),
         Column(name="fidelity", meaning="kinematic, dynamic or contact"),
         Column(
             name="success",
-            meaning="whether all states are complete and the object is where it should be",
+            meaning="true if all states are complete and the object is at its place",
             kind=Kind.TRUTH,
         ),
-        Column(name="failure", meaning="what ended it; missing on success"),
+        Column(name="failure", meaning="kind of the failure; missing on success"),
         Column(name="failed_phase", meaning="the state in which it ended; missing on success"),
-        Column(name="failure_detail", meaning="the numbers that show the failure; missing on success"),
+        Column(name="failure_detail", meaning="description of the failure, with its figures; missing on success"),
         Column(name="workload", meaning="case of the workload; missing where the study has none"),
         Column(
             name="drawn_QUANTITY",
@@ -77,7 +79,7 @@ _PHASES = FrameDescription(
     columns=(
         Column(name="outcome", meaning="completed, failed or not_run"),
         recorded_column("duration_s"),
-        Column(name="planning_outcome", meaning="how the planning of the move ended; missing if it is not planned"),
+        Column(name="planning_outcome", meaning="outcome of the planning of the move; missing if it is not planned"),
         recorded_column("planning_checks", Kind.COUNT),
         Column(
             name="planning_simplification_checks",
@@ -102,12 +104,12 @@ _MEASURES = FrameDescription(
         UNIT,
         Column(
             name="n",
-            meaning="trials that the estimate is of; 0 if it follows from the design alone or is missing",
+            meaning="number of trials of the estimate; 0 if it follows from the design alone or is missing",
             unit="1",
             kind=Kind.COUNT,
         ),
         Column(name="kind", meaning="moe, mop or supplementary"),
-        Column(name="better", meaning="which values are better: higher, lower or none"),
+        Column(name="better", meaning="preferred direction: higher, lower or none"),
     ),
 )
 
@@ -118,21 +120,21 @@ _REQUIREMENTS = FrameDescription(
     columns=(
         Column(name="group", meaning="kind of the requirement, such as gripper or algorithm"),
         Column(name="text", meaning="its text"),
-        Column(name="rationale", meaning="why it is demanded"),
-        Column(name="source", meaning="where it comes from"),
+        Column(name="rationale", meaning="its rationale"),
+        Column(name="source", meaning="its source"),
         Column(name="parent", meaning="id of the requirement that contains it; missing if none does"),
-        Column(name="derived_from", meaning="ids of what it is derived from, with commas between"),
-        Column(name="traces", meaning="ids of what it traces to, with commas between"),
-        Column(name="satisfied_by", meaning="ids of the blocks and behaviours that satisfy it, with commas between"),
+        Column(name="derived_from", meaning="ids of the elements it is derived from, separated by commas"),
+        Column(name="traces", meaning="ids of the elements it traces to, separated by commas"),
+        Column(name="satisfied_by", meaning="ids of the blocks and behaviours that satisfy it, separated by commas"),
         Column(name="verification", meaning="inspection, analysis, demonstration or test; missing if not stated"),
         Column(name="priority", meaning="its priority"),
         Column(name="status", meaning="its status"),
-        Column(name="owner", meaning="who answers for it"),
+        Column(name="owner", meaning="its owner"),
         Column(name="measure", meaning="id of the measure of its criterion; missing if it has no criterion"),
-        Column(name="statistic", meaning="which number of the estimate is compared: value, low or high"),
-        Column(name="comparison", meaning="how it must stand to the threshold"),
-        Column(name="threshold", meaning="the bound", unit=AS_UNIT, kind=Kind.NUMBER),
-        Column(name="unit", meaning="unit of the bound"),
+        Column(name="statistic", meaning="compared number of the estimate: value, low or high"),
+        Column(name="comparison", meaning="comparison with the threshold"),
+        Column(name="threshold", meaning="the threshold", unit=AS_UNIT, kind=Kind.NUMBER),
+        Column(name="unit", meaning="unit of the threshold"),
     ),
 )
 
@@ -142,33 +144,35 @@ _VERDICTS = FrameDescription(
     index=(VARIANT, Column(name="requirement", meaning="id of the requirement")),
     columns=(
         Column(name="verdict", meaning="met, not_met, inconclusive, not_run or stale"),
-        Column(name="changed", meaning="why it is stale, with commas between; empty if it is not"),
+        Column(name="changed", meaning="reasons why it is stale, separated by commas; empty if it is not"),
         MEASURE,
-        Column(name="statistic", meaning="which number of the estimate is compared: value, low or high"),
-        Column(name="comparison", meaning="how it must stand to the threshold"),
-        Column(name="threshold", meaning="the bound", unit=AS_UNIT, kind=Kind.NUMBER),
-        Column(name="unit", meaning="unit of the bound"),
+        Column(name="statistic", meaning="compared number of the estimate: value, low or high"),
+        Column(name="comparison", meaning="comparison with the threshold"),
+        Column(name="threshold", meaning="the threshold", unit=AS_UNIT, kind=Kind.NUMBER),
+        Column(name="unit", meaning="unit of the threshold"),
     ),
 )
 
 
 _COURSE = FrameDescription(
     name="course",
-    row="an instant of a trial with contact, in simulated time without planning",
+    row="an instant of a trial at contact fidelity, in simulated time without planning",
     index=(Column(name="time_s", meaning="time from the start of the first state", unit="s", kind=Kind.NUMBER),),
     columns=(
-        Column(name="phase", meaning="the state that ran"),
+        Column(name="phase", meaning="the state at that time"),
         Column(name="joint_position_rad", meaning="position, of each joint", unit="rad", kind=Kind.NUMBER, items=0),
         Column(
             name="tool_position_m", meaning="grasp centre in the world: x, y, z", unit="m", kind=Kind.NUMBER, items=3
         ),
         Column(name="tool_speed_m_s", meaning="speed of the grasp centre", unit="m/s", kind=Kind.NUMBER),
         Column(
-            name="workpiece_position_m", meaning="object in the world: x, y, z", unit="m", kind=Kind.NUMBER, items=3
+            name="workpiece_position_m",
+            meaning="position of the object in the world: x, y, z",
+            unit="m",
+            kind=Kind.NUMBER,
+            items=3,
         ),
-        Column(
-            name="finger_travel_m", meaning="how far it had closed, of each finger", unit="m", kind=Kind.NUMBER, items=0
-        ),
+        Column(name="finger_travel_m", meaning="closing travel of each finger", unit="m", kind=Kind.NUMBER, items=0),
         Column(
             name="finger_force_n",
             meaning="normal force on the object, of each finger",
@@ -177,7 +181,7 @@ _COURSE = FrameDescription(
             items=0,
         ),
         Column(name="commanded_force_n", meaning="commanded normal force of each finger", unit="N", kind=Kind.NUMBER),
-        Column(name="grip_margin", meaning="friction available over friction needed", unit="1", kind=Kind.NUMBER),
+        Column(name="grip_margin", meaning="available friction divided by needed friction", unit="1", kind=Kind.NUMBER),
     ),
 )
 

@@ -1,4 +1,4 @@
-"""Frames of pandas for a study, with the columns of `rgss.api.columns`."""
+"""Pandas frames of a study, with the columns of `rgss.api.columns`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Row = dict[str, Any]
-"""The cells of a row by column; what is not there is missing."""
+"""The cells of a row by column; an absent key is a missing value."""
 
 
 def frame_of(index: Sequence[Column], columns: Sequence[Column], rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
@@ -34,7 +34,7 @@ def frame_of(index: Sequence[Column], columns: Sequence[Column], rows: Sequence[
         one.name: pd.Series([row.get(one.name) for row in rows], dtype=one.kind.value) for one in (*index, *columns)
     }
     frame: pd.DataFrame = pd.DataFrame(series)
-    for one in index:  # never missing, and plain integers read better
+    for one in index:  # The index is never missing, and plain integers are easier to read.
         if one.kind is Kind.COUNT:
             frame[one.name] = frame[one.name].astype("int64")
     indexed: pd.DataFrame = frame.set_index([one.name for one in index])
@@ -45,12 +45,12 @@ def frame_of(index: Sequence[Column], columns: Sequence[Column], rows: Sequence[
 def described_frame(
     name: str, rows: Sequence[Mapping[str, Any]], extra: Sequence[Column] | None = None
 ) -> pd.DataFrame:
-    """A frame as it is described.
+    """Frame with its described columns.
 
     Args:
         name: Its name.
         rows: Its rows.
-        extra: The columns in place of the described ones, where these are patterns.
+        extra: The columns that replace the described ones, where these are patterns.
     """
     frame = FRAMES[name]
     return frame_of(frame.index, frame.columns if extra is None else extra, rows)
@@ -153,7 +153,7 @@ def verdicts_frame(project: Project, measured: Iterable[VariantMeasures]) -> pd.
 
 
 def variant_columns(project: Project) -> tuple[Column, ...]:
-    """The columns of the frame of variants, with the project's parameters and factors in place of the patterns."""
+    """The columns of the frame of variants, with the patterns replaced by the project's parameters and factors."""
     found: list[Column] = []
     for column in FRAMES["variants"].columns:
         if column.name == "PARAMETER":
@@ -239,7 +239,7 @@ def _drawn_columns(there: Collection[str]) -> Iterator[Column]:
 
 
 def _with_entries(columns: Iterable[Column], rows: Sequence[Mapping[str, Any]]) -> tuple[Column, ...]:
-    """The columns with each row of numbers as its entries; of a length that differs, as many as are there."""
+    """The columns with each row of numbers divided into its entries; where the length differs, as many as exist."""
     there = dict.fromkeys(name for row in rows for name in row)
     found: list[Column] = []
     for column in columns:

@@ -1,4 +1,4 @@
-"""HTML views of a study, a trial and a trade-off, which Jupyter shows in place of the ``repr``."""
+"""HTML views of a study, a trial and a trade-off for Jupyter."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _LONGEST_RANKING = 5
 
 
 def study_view(title: str, project: Project, variants: int) -> str:
-    """Overview of a study from its documents; no evidence is read.
+    """Overview of a study from its files; no evidence is read.
 
     Args:
         title: Its heading.

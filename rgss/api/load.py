@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rgss.api.argument_terms import SpeaksOfArguments
+from rgss.api.argument_terms import ErrorsNameArguments
 from rgss.api.study import Study
 from rgss.api.trial import Drawing
 from rgss.errors import DefinitionError
 from rgss.studies import MOST_REPLICATES, find_project, load_project, project_of_study
 
 STUDY_SUFFIXES = (".yaml", ".yml")
-"""Endings of a study file, by which it is distinguished from a project's folder."""
+"""Suffixes of a study file, which distinguish it from a project's folder."""
 
 
-@SpeaksOfArguments()
+@ErrorsNameArguments()
 def load(
     folder: Path | None, study: str | None, *, fidelity: str | None, replicates: int | None, drawing: Drawing
 ) -> Study:
@@ -24,9 +24,9 @@ def load(
         folder: The project's folder, or a study file in one; the nearest folder at or above the
             current one if None.
         study: The study file, relative to the project.
-        fidelity: How much physics a trial has, in place of what the study says.
-        replicates: Trials of each variant, in place of what the study says.
-        drawing: How trials are drawn.
+        fidelity: Fidelity of the simulation; the study's if None.
+        replicates: Trials of each variant; the study's number if None.
+        drawing: Functions that draw a trial.
 
     Raises:
         DocumentError: Files are wrong; with every problem in all of them.
@@ -35,7 +35,7 @@ def load(
     if folder is not None and folder.suffix in STUDY_SUFFIXES:
         if study is not None:
             raise DefinitionError(
-                f"{str(folder)!r} is a study already, and {study!r} another", hint="name a folder and a study, or one"
+                f"{str(folder)!r} and {study!r} are both studies", hint="give a folder and a study, or one study alone"
             )
         folder, study = project_of_study(folder)
     project = load_project(find_project(folder), study)

@@ -1,4 +1,4 @@
-"""Errors for a study without trials, with what to run."""
+"""Errors of a study without trials, with the remedy as hint."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from rgss.studies import Project
 
 
 def sweep_hint(project: Project) -> str:
-    """Instruction on how to make the evidence of a study."""
+    """Instruction to make the evidence of a study."""
     study = project.study
     return (
         f"call sweep(), or run 'rgss sweep {study.label} --project {project.folder} "

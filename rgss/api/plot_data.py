@@ -1,4 +1,4 @@
-"""Measures and designs of a study as the plots take them."""
+"""Measures and designs of a study as input of the plots."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def measure_named(project: Project, name: str, *, argument: str) -> Measure:
         argument: The argument that names it.
 
     Raises:
-        DefinitionError: There is none of that id, or it is a row of numbers.
+        DefinitionError: There is no measure of that id, or it is a row of numbers.
     """
     known = {one.id: one for one in project.measures.measures if _is_single(one)}
     if name not in known:

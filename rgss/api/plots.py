@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 INSTALL = "pip install 'rgss[notebooks]'"
 
 MOST_INPUTS = 14
-"""Bars that a tornado draws."""
+"""Number of bars in a tornado."""
 
 _LARGE = 1e4
 
@@ -45,7 +45,7 @@ def require_matplotlib() -> None:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Plots:
-    """Figures of a trade-off as Matplotlib figures, each with a text for readers who do not see it.
+    """Matplotlib figures of a trade-off, each with a text for readers who do not see it.
 
     A figure needs neither a display nor pyplot; ``figure.savefig("front.svg")`` writes it, and Jupyter shows it. Marks
     and lines have a shape and a colour for each role: chosen, tied with it (equal, or within the practical margin),
@@ -53,10 +53,10 @@ class Plots:
 
     Attributes:
         project: The project, under suppositions if there are any.
-        measured: Every variant that the decision is between.
-        decision: Makes the decision.
-        robustness: Analyses its robustness.
-        sensitivity: Analyses its sensitivity.
+        measured: Every variant among which the decision chooses.
+        decision: Function that makes the decision.
+        robustness: Function that analyses its robustness.
+        sensitivity: Function that analyses its sensitivity.
     """
 
     project: Project = field(repr=False)
@@ -169,7 +169,7 @@ class Plots:
         chosen = decision.chosen if variant is None and decision is not None else variant
         found = [one for one in self.measured if one.variant.id == chosen]
         if not found:
-            why = "no design is chosen" if chosen is None else f"there is no variant {chosen}"
+            why = "no design is chosen" if chosen is None else f"unknown variant {chosen}"
             raise DefinitionError(f"variant: {why}", hint="name a variant of the study")
         return timeline_figure([_bars(record) for record in found[0].records], self._designs())
 

@@ -1,4 +1,4 @@
-"""Designs that serve the studies of a portfolio, as a frame."""
+"""Frame of the designs that serve the studies of a portfolio."""
 
 from __future__ import annotations
 

@@ -25,12 +25,12 @@ TORNADO = FrameDescription(
         Column(name="lead_high", meaning="the same at the high end", unit="1", kind=Kind.NUMBER),
         Column(
             name="swing",
-            meaning="greatest less least lead; infinite where the choice misses a requirement at an end",
+            meaning="greatest minus least lead; infinite where the choice misses a requirement at an end",
             unit="1",
             kind=Kind.NUMBER,
         ),
-        Column(name="wins_low", meaning="variants that are best at the low end, with commas between"),
-        Column(name="wins_high", meaning="variants that are best at the high end, with commas between"),
+        Column(name="wins_low", meaning="variants that are best at the low end, separated by commas"),
+        Column(name="wins_high", meaning="variants that are best at the high end, separated by commas"),
         Column(
             name="flip_low",
             meaning="value below which the choice changes; missing if it does not",
@@ -52,13 +52,21 @@ WORTH_KEEPING = FrameDescription(
     row="a feasible variant",
     index=(VARIANT,),
     columns=(
-        Column(name="kept", meaning="whether it is worth keeping", kind=Kind.TRUTH),
+        Column(name="kept", meaning="true if it is worth keeping", kind=Kind.TRUTH),
         Column(name="reason", meaning="best_as_stated, best_for_some, within_margin, dominated or mixture"),
         Column(
-            name="shortfall", meaning="least by which the best is worth more, over weights", unit="1", kind=Kind.NUMBER
+            name="shortfall",
+            meaning="least difference to the value of the best, over all weights",
+            unit="1",
+            kind=Kind.NUMBER,
         ),
-        Column(name="behind", meaning="what the best is worth more at the study's weights", unit="1", kind=Kind.NUMBER),
-        Column(name="beaten_by", meaning="variants that beat one that is not kept, with commas between"),
+        Column(
+            name="behind",
+            meaning="difference to the value of the best at the study's weights",
+            unit="1",
+            kind=Kind.NUMBER,
+        ),
+        Column(name="beaten_by", meaning="variants that beat one that is not kept, separated by commas"),
     ),
 )
 
@@ -69,11 +77,16 @@ STAKEHOLDERS = FrameDescription(
     index=(Column(name="stakeholder", meaning="name of the stakeholder"), VARIANT),
     columns=(
         Column(
-            name="regret", meaning="what their best is worth more, by their own weights", unit="1", kind=Kind.NUMBER
+            name="regret",
+            meaning="difference to the value of their best, by their own weights",
+            unit="1",
+            kind=Kind.NUMBER,
         ),
-        Column(name="best", meaning="whether it is their best", kind=Kind.TRUTH),
-        Column(name="accepted", meaning="whether it is within the accepted distance of their best", kind=Kind.TRUTH),
-        Column(name="compromise", meaning="whether its largest regret over all is least", kind=Kind.TRUTH),
+        Column(name="best", meaning="true if it is their best", kind=Kind.TRUTH),
+        Column(name="accepted", meaning="true if it is within the accepted distance of their best", kind=Kind.TRUTH),
+        Column(
+            name="compromise", meaning="true if its largest regret over all stakeholders is the least", kind=Kind.TRUTH
+        ),
     ),
 )
 
@@ -82,25 +95,25 @@ ASSUMPTIONS = FrameDescription(
     row="an alternative of a modelling assumption",
     index=(
         Column(name="assumption", meaning="its name as what_if takes it"),
-        Column(name="alternative", meaning="what it is taken as instead"),
+        Column(name="alternative", meaning="the alternative value"),
     ),
     columns=(
-        Column(name="taken_as", meaning="what the study takes it as"),
+        Column(name="taken_as", meaning="the value in the study"),
         Column(
             name="chosen",
-            meaning="variant that is then chosen; missing where none is, or trials lack",
+            meaning="variant that is then chosen; missing if none is, or if trials are missing",
             unit="1",
             kind=Kind.COUNT,
         ),
         Column(name="feasible", meaning="variants that then meet every requirement", unit="1", kind=Kind.COUNT),
         Column(
             name="changes_choice",
-            meaning="whether the study's choice is beaten, and not tied with the best",
+            meaning="true if the study's choice is beaten, and not tied with the best",
             kind=Kind.TRUTH,
         ),
-        Column(name="trials", meaning="trials that it needs", unit="1", kind=Kind.COUNT),
-        Column(name="missing", meaning="trials that would have to be run", unit="1", kind=Kind.COUNT),
-        Column(name="read_off", meaning="trials that are read off stored searches", unit="1", kind=Kind.COUNT),
-        Column(name="reason", meaning="why there is no answer; empty where there is one, or trials lack"),
+        Column(name="trials", meaning="number of trials that it needs", unit="1", kind=Kind.COUNT),
+        Column(name="missing", meaning="number of trials that would have to be run", unit="1", kind=Kind.COUNT),
+        Column(name="read_off", meaning="number of trials that follow from stored searches", unit="1", kind=Kind.COUNT),
+        Column(name="reason", meaning="why there is no answer; empty if there is one, or if trials are missing"),
     ),
 )

@@ -57,7 +57,7 @@ def worth_keeping_frame(found: Sensitivity) -> pd.DataFrame:
     """One row for each feasible variant.
 
     Raises:
-        TradeoffError: This was not analysed, or could not be computed.
+        TradeoffError: It was not analysed, or could not be computed.
     """
     rows = [
         {
@@ -74,10 +74,10 @@ def worth_keeping_frame(found: Sensitivity) -> pd.DataFrame:
 
 
 def stakeholders_frame(found: Sensitivity) -> pd.DataFrame:
-    """One row for each stakeholder and feasible variant; none where the study names no stakeholder.
+    """One row for each stakeholder and feasible variant; no row if the study names no stakeholder.
 
     Raises:
-        TradeoffError: This was not analysed, or could not be computed.
+        TradeoffError: It was not analysed, or could not be computed.
     """
     _computed(found, Part.STAKEHOLDERS, found.kept)
     agreement = found.agreement

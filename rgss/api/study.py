@@ -1,4 +1,4 @@
-"""A study for analysts: what `rgss.load_study` returns."""
+"""Study of the Python interface, the result of `rgss.load_study`."""
 
 # long file: one class with a short method for each frame and action; half of its lines are their docstrings.
 
@@ -10,7 +10,7 @@ from functools import cached_property
 from numbers import Integral
 from typing import TYPE_CHECKING
 
-from rgss.api.argument_terms import SpeaksOfArguments
+from rgss.api.argument_terms import ErrorsNameArguments
 from rgss.api.assumptions import assumptions_frame, scenario_measures
 from rgss.api.column import Column, Kind
 from rgss.api.columns import FRAMES
@@ -49,11 +49,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Study:
-    """A study with what is known of it, as pandas frames; docs/api.md describes their columns.
+    """A study and its evidence as pandas frames; docs/api.md describes their columns.
 
-    Evidence is read when it is first asked for and then held, so that all frames agree; `sweep`
-    returns the study with the evidence as it is then. Frames are made anew at each access, and
-    changing one changes nothing else.
+    Evidence is read at the first access and then cached, so that all frames agree; `sweep`
+    returns a study with the new evidence. Each access makes a new frame, which can be changed
+    without an effect on others.
 
     Attributes:
         project: Inputs of the study: requirements, measures, designs, scene.
@@ -83,13 +83,13 @@ class Study:
 
     @property
     def variants(self) -> pd.DataFrame:
-        """The designs, with what the trade-off says of them as far as there is evidence."""
+        """The designs, with their feasibility and value in the trade-off as far as there is evidence."""
         rows = []
         measured = {entry.variant.id: entry for entry in self._known}
         outcomes = {} if self._screened is None else {one.variant: one.outcome.value for one in self._screened.variants}
         judged = bool(measured) and not any(entry.missing for entry in measured.values())
         enumeration = self.trade().enumeration if judged else None
-        # A design that was screened out lacks nothing.
+        # A screened-out design has no missing trials.
         untried = 0 if measured else self.project.study.replicates
         for variant in self._designs:
             entry = measured.get(variant.id)
@@ -121,7 +121,7 @@ class Study:
         """One row for each variant and seed.
 
         Raises:
-            EvidenceError: There is no evidence for the project as it is now.
+            EvidenceError: There is no evidence for the present project.
         """
         return trials_frame(self._tried)
 
@@ -130,7 +130,7 @@ class Study:
         """One row for each variant, seed and state of the task.
 
         Raises:
-            EvidenceError: There is no evidence for the project as it is now.
+            EvidenceError: There is no evidence for the present project.
         """
         return phases_frame(record for entry in self._tried for record in entry.records)
 
@@ -167,20 +167,20 @@ class Study:
         """The feasible variants and the Pareto front; as of `trade`."""
         return self._trade.pareto
 
-    @SpeaksOfArguments()
+    @ErrorsNameArguments()
     def trade(self, what_if: WhatIf = (), *, run: bool = False, jobs: int | None = None) -> Trade:
-        """The trade-off, as it is or under suppositions.
+        """The trade-off, of the study as it is or under suppositions.
 
         Args:
-            what_if: What is to be supposed, such as ``{"weight.t_p": 0.4, "SYS-012.threshold": "0.9 kg"}`` or
+            what_if: The suppositions, such as ``{"weight.t_p": 0.4, "SYS-012.threshold": "0.9 kg"}`` or
                 ``{"planning.charge_per_check": "0.5 ms"}``.
-            run: Whether trials that the suppositions need and that are missing are run; they are kept as evidence.
+            run: True to run missing trials that the suppositions need; they are stored as evidence.
             jobs: Number of worker processes for them, as for `sweep`.
 
         Raises:
             EvidenceError: Trials have no evidence, or the suppositions need trials that were not run.
-            SimulationError: Trials could not be made.
-            DefinitionError: A supposition says nothing that is known.
+            SimulationError: Trials could not be run.
+            DefinitionError: A supposition has an unknown name or an impossible value.
             TradeoffError: Weights contradict each other.
         """
         texts = suppositions_of(what_if)
@@ -190,7 +190,7 @@ class Study:
         measured = scenario_measures(self.project, scenario, self._measured, run=run, jobs=jobs)
         return Trade(project=scenario.project, measured=measured, scenario=scenario)
 
-    @SpeaksOfArguments()
+    @ErrorsNameArguments()
     def assumptions(self) -> pd.DataFrame:
         """The choice under each alternative of each modelling assumption, as far as the evidence shows.
 
@@ -201,7 +201,7 @@ class Study:
         return assumptions_frame(self.project, self._measured)
 
     def robustness(self) -> Robustness:
-        """The decision questioned from every side; as of `trade`."""
+        """Robustness of the decision; as of `trade`."""
         return self._trade.robustness()
 
     def effects(self) -> pd.DataFrame:
@@ -212,9 +212,9 @@ class Study:
         """Effects of the uncertain inputs on the lead of the choice; as of `trade`."""
         return self._trade.tornado()
 
-    @SpeaksOfArguments()
+    @ErrorsNameArguments()
     def portfolio(self) -> pd.DataFrame:
-        """The designs that together serve the studies of the portfolio best, by each study's own evidence.
+        """The designs that together serve the studies of the portfolio best, each by the evidence of its study.
 
         Raises:
             DefinitionError: The study has no portfolio.
@@ -239,7 +239,7 @@ class Study:
         name, *others = (Column(name=name, meaning="", kind=Kind.TEXT) for name in ("column", "unit", "meaning"))
         return frame_of([name], others, rows)
 
-    @SpeaksOfArguments()
+    @ErrorsNameArguments()
     def sweep(
         self,
         only: Sequence[str | int] | str | int = (),
@@ -253,20 +253,20 @@ class Study:
         budget, plain ``rgss sweep`` adds replicates until it is decided; this does not.
 
         Args:
-            only: Which variants, as ``--only`` takes it: ids such as ``"1,5,60-72"``, filters such as
-                ``"planning.planner=RRT"`` or ``"robot.tool_speed <= 0.8 m/s"``; of several all must hold. All
+            only: The variants, as for ``--only``: ids such as ``"1,5,60-72"``, filters such as
+                ``"planning.planner=RRT"`` or ``"robot.tool_speed <= 0.8 m/s"``; all of several must hold. All
                 variants by default.
             jobs: Number of worker processes, one for each core by default; 0 for one child process. A script
                 that uses others needs ``if __name__ == "__main__":``, for they import it.
-            on_trial: Called after each trial with the number that is there and that of all.
+            on_trial: Called after each trial with the number of stored trials and the number of all.
 
         Returns:
-            The study with the evidence as it is then.
+            The study with the new evidence.
 
         Raises:
-            DefinitionError: `only` or `jobs` says nothing that is known.
+            DefinitionError: `only` or `jobs` is invalid.
             EvidenceError: The store cannot be read or written.
-            SimulationError: Trials could not be made; the others are kept.
+            SimulationError: Trials could not be run; the others are stored.
         """
         terms = [only] if isinstance(only, (str, int, Integral)) else only
         sweep_study(
@@ -277,17 +277,17 @@ class Study:
         )
         return replace(self)
 
-    @SpeaksOfArguments()
+    @ErrorsNameArguments()
     def trial(
         self, variant: int, seed: int | None = None, *, fidelity: str | None = None, rate_hz: float | None = None
     ) -> Trial:
-        """Run one trial, with its course over time where it has contact; nothing is stored.
+        """Run one trial, at contact fidelity with its course over time; nothing is stored.
 
         Args:
             variant: Id of the variant.
             seed: The seed; the study's first by default.
-            fidelity: How much physics it has; the study's by default.
-            rate_hz: Physics steps a second; the study's by default.
+            fidelity: Fidelity of the simulation; the study's by default.
+            rate_hz: Rate of the physics steps; the study's by default.
 
         Raises:
             DefinitionError: There is no such variant or fidelity, or a number is out of range.
@@ -295,11 +295,11 @@ class Study:
         """
         return run_one(self.project, self._drawing, variant, seed, fidelity=fidelity, rate_hz=rate_hz)
 
-    @SpeaksOfArguments()
+    @ErrorsNameArguments()
     def payload(
         self, variant: int, *, friction: float | None = None, finger_force_n: float | None = None
     ) -> PayloadResult:
-        """Put a variant's gripper on the payload bench: the mass at which it first fails.
+        """Test a variant's gripper on the payload bench: the mass at which it first fails.
 
         Args:
             variant: Id of the variant.
@@ -307,10 +307,10 @@ class Study:
             finger_force_n: Another force of each finger.
 
         Returns:
-            ``payload_kg`` with what limited it, and ``theory_kg``, which Coulomb's law gives.
+            ``payload_kg`` with the limiting cause, and ``theory_kg`` by Coulomb's law.
 
         Raises:
-            DefinitionError: There is no such variant, or the bench cannot be run so.
+            DefinitionError: There is no such variant, or the bench cannot be run with these values.
             SimulationError: The physics engine cannot build the rig.
         """
         return payload_of(self.project, variant, friction=friction, finger_force_n=finger_force_n)
@@ -320,7 +320,7 @@ class Study:
         return self.project.designs.expand()
 
     @cached_property
-    @SpeaksOfArguments()
+    @ErrorsNameArguments()
     def _read(self) -> tuple[tuple[VariantMeasures, ...], ScreeningResult | None]:
         project = self.project
         if not project.evidence.exists():

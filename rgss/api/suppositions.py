@@ -1,4 +1,4 @@
-"""Suppositions as an analyst writes them."""
+"""Suppositions in the forms that the Python interface accepts."""
 
 from __future__ import annotations
 
@@ -17,6 +17,6 @@ def suppositions_of(what_if: WhatIf) -> list[str]:
     if isinstance(what_if, str):
         return [what_if]
     if isinstance(what_if, Mapping):
-        # A number of NumPy is written as what it is, not as how it is made.
+        # `float` first: the repr of a number of NumPy is a call such as `np.float64(0.4)`.
         return [f"{name}={value if isinstance(value, str) else repr(float(value))}" for name, value in what_if.items()]
     return list(what_if)

@@ -1,4 +1,4 @@
-"""Running what a study lacks, with the engine of the command line."""
+"""Execution of a study's missing trials, by the sweep of the command line."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ def sweep_study(
     jobs: int | None = None,
     on_trial: Callable[[int, int], None] | None = None,
 ) -> None:
-    """Make every trial of some variants that has no evidence, and record the verdicts.
+    """Run every trial of some variants that has no evidence, and record the verdicts.
 
     Args:
         project: The project with its study.
         variants: The variants.
         jobs: Number of worker processes; with 0 trials are run one by one, and a script needs no guard
             against being imported by workers; one for each core by default.
-        on_trial: Called with the number of trials that are there and of all, for each trial.
+        on_trial: Called after each trial with the number of stored trials and the number of all.
 
     Raises:
-        DefinitionError: `jobs` is below 0, or a variant makes no trial.
+        DefinitionError: `jobs` is below 0, or a variant cannot be simulated.
         EvidenceError: The store cannot be read or written, or had another result for the same inputs.
-        SimulationError: Trials could not be made; what could is kept.
+        SimulationError: Trials could not be run; the others are stored.
     """
     runner = _runner(project, jobs, on_trial)
     with EvidenceStore.open(project.evidence) as store:
@@ -43,7 +43,7 @@ def sweep_study(
 
 
 def run_trials(project: Project, specs: Sequence[TrialSpec], store: EvidenceStore, *, jobs: int | None = None) -> None:
-    """Make some trials that have no evidence, of a study or of suppositions.
+    """Run missing trials of a study or of suppositions.
 
     Args:
         project: The project.
@@ -54,7 +54,7 @@ def run_trials(project: Project, specs: Sequence[TrialSpec], store: EvidenceStor
     Raises:
         DefinitionError: `jobs` is below 0.
         EvidenceError: The store cannot be read or written.
-        SimulationError: Trials could not be made; what could is kept.
+        SimulationError: Trials could not be run; the others are stored.
     """
     runner = _runner(project, jobs, None)
     runner.run(specs, store)
@@ -68,12 +68,12 @@ def _runner(project: Project, jobs: int | None, on_trial: Callable[[int, int], N
 
 
 def _one_by_one(maker: Maker) -> Workers:
-    """One task at a time, without a process that would import the caller's script."""
+    """Workers that run one task at a time, without a process that would import the caller's script."""
     return InlineWorkers(partial(compute, maker))
 
 
 class _Runner:
-    """Runs one list of trials after another and remembers what was lost."""
+    """Runner of lists of trials, which collects those that could not be run."""
 
     def __init__(self, project: Project, *, jobs: int, on_trial: Callable[[int, int], None] | None) -> None:
         self._project = project
@@ -82,7 +82,7 @@ class _Runner:
         self._lost: list[LostTrials] = []
 
     def run(self, specs: Sequence[TrialSpec], store: EvidenceStore) -> set[int]:
-        """Make what is missing; returns the variants of which a trial was run."""
+        """Run the missing trials; returns the variants of which a trial was run."""
         run_now: set[int] = set()
         done = 0
 
@@ -104,18 +104,18 @@ class _Runner:
                 workers_for=None if self._jobs else _one_by_one,
             )
         except SimulationError as error:
-            # A worker imports the script that started it, and would sweep in its turn.
-            hint = "a script that sweeps with processes needs 'if __name__ == \"__main__\":'; or give jobs=0"
+            # A worker imports the script that started it, and would start a sweep itself.
+            hint = "a script that sweeps with processes needs 'if __name__ == \"__main__\":'; or pass jobs=0"
             raise SimulationError(error.message, hint=hint) from error
         self._lost += result.lost
         return run_now
 
     def require_all(self) -> None:
-        """Make sure that nothing was lost."""
+        """Raise an error if a trial could not be run."""
         if self._lost:
             trials = sum(len(lost.trials) for lost in self._lost)
             first = self._lost[0].failure
             raise SimulationError(
-                f"{trials} trials could not be made; first, a {first.what}: {first.kind.value}: {first.detail}",
-                hint="the others are kept; sweep again to try these once more",
+                f"{trials} trials could not be run; first failure: {first.what}: {first.kind.value}: {first.detail}",
+                hint="the others are stored; sweep again to retry these",
             )

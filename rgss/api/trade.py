@@ -1,4 +1,4 @@
-"""A trade-off for analysts: the decision, and everything about it, as it is or under suppositions."""
+"""Trade-off of the Python interface: the decision and its analyses, with or without suppositions."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from rgss.api.argument_terms import SpeaksOfArguments
+from rgss.api.argument_terms import ErrorsNameArguments
 from rgss.api.html_views import decision_view
 from rgss.api.plots import Plots, require_matplotlib
 from rgss.api.sensitivity_frames import stakeholders_frame, tornado_frame, worth_keeping_frame
@@ -35,14 +35,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Trade:
-    """The choice among a study's variants; what takes time is done once, when it is first asked for.
+    """The choice among a study's variants; each analysis is computed once, at its first use.
 
-    Raises, as does everything of it: `EvidenceError` where trials have no evidence, `TradeoffError`
-    where the choice is ill posed.
+    The constructor and every method raise `EvidenceError` if trials have no evidence, and `TradeoffError`
+    if the choice is ill posed.
 
     Attributes:
         project: The project, under suppositions if there are any.
-        measured: Every variant that the decision is between.
+        measured: Every variant among which the decision chooses.
         scenario: The suppositions; None if there are none.
     """
 
@@ -74,15 +74,15 @@ class Trade:
         )
 
     @cached_property
-    @SpeaksOfArguments()
+    @ErrorsNameArguments()
     def decision(self) -> Decision:
-        """Decision: chosen, runner-up, ties, ranking, what is infeasible and why, certificate."""
+        """Decision: choice, runner-up, ties, ranking, infeasible variants with reasons, certificate."""
         return choose(self.project, self.measured)
 
     @cached_property
-    @SpeaksOfArguments()
+    @ErrorsNameArguments()
     def enumeration(self) -> Enumeration:
-        """Every variant with its value and what it violates."""
+        """Every variant with its value and its violations."""
         return enumerate_alternatives(trade_problem(self.project, self.measured))
 
     @property
@@ -91,22 +91,22 @@ class Trade:
         return ranking_frame(self.decision)
 
     @property
-    @SpeaksOfArguments()
+    @ErrorsNameArguments()
     def pareto(self) -> pd.DataFrame:
-        """The feasible variants, and whether another is at least as good in all weighted measures."""
+        """The feasible variants with their dominance over the weighted measures."""
         return pareto_frame(trade_problem(self.project, self.measured), self.enumeration)
 
     @property
     def changes(self) -> pd.DataFrame:
-        """Suppositions; no row if there are none."""
+        """The suppositions; no row if there are none."""
         return changes_frame(self.scenario)
 
     def robustness(self) -> Robustness:
-        """The decision questioned from every side; some seconds the first time."""
+        """Robustness of the decision; takes some seconds the first time."""
         return self._robustness
 
     def sensitivity(self) -> Sensitivity:
-        """Sensitivity of the decision to its inputs; some seconds the first time."""
+        """Sensitivity of the decision to its inputs; takes some seconds the first time."""
         return self._sensitivity
 
     def effects(self) -> pd.DataFrame:
@@ -122,7 +122,7 @@ class Trade:
         return tornado_frame(self.sensitivity())
 
     def worth_keeping(self) -> pd.DataFrame:
-        """The feasible variants: why each is worth keeping, or what beats it."""
+        """The feasible variants, each with the reason to keep it or the variants that beat it."""
         return worth_keeping_frame(self.sensitivity())
 
     def stakeholders(self) -> pd.DataFrame:
@@ -130,7 +130,7 @@ class Trade:
         return stakeholders_frame(self.sensitivity())
 
     def acceptability(self) -> pd.DataFrame:
-        """For what share of all weights, and of the noise, each variant is the best (SMAA-2)."""
+        """Acceptability indices (SMAA-2): share of weights and replicate noise for which each variant is the best."""
         return acceptability_frame(self._robustness)
 
     def to_dict(self) -> dict[str, Any]:
@@ -138,12 +138,12 @@ class Trade:
         return decision_to_json(self.decision)
 
     @cached_property
-    @SpeaksOfArguments()
+    @ErrorsNameArguments()
     def _sensitivity(self) -> Sensitivity:
         problem = trade_problem(self.project, self.measured)
         return analyse_sensitivity(self.project, self.measured, self.decision, self._robustness, problem=problem)
 
     @cached_property
-    @SpeaksOfArguments()
+    @ErrorsNameArguments()
     def _robustness(self) -> Robustness:
         return analyse_robustness(self.project, self.measured, self.decision)

@@ -8,15 +8,15 @@ from rgss.api.shared_columns import AS_UNIT, MEASURE, UNIT, VARIANT
 RANKING = FrameDescription(
     name="ranking",
     row="a feasible variant, best first",
-    index=(Column(name="place", meaning="its place, from 1; equals stand by ascending id", unit="1", kind=Kind.COUNT),),
+    index=(Column(name="place", meaning="its rank, from 1; equals are ordered by id", unit="1", kind=Kind.COUNT),),
     columns=(
         VARIANT,
         Column(name="value", meaning="weighted value, from 0 to 1", unit="1", kind=Kind.NUMBER),
-        Column(name="tied", meaning="whether it is as good as the best", kind=Kind.TRUTH),
-        Column(name="near_tie", meaning="whether it is not tied but within the practical margin", kind=Kind.TRUTH),
+        Column(name="tied", meaning="true if it is as good as the best", kind=Kind.TRUTH),
+        Column(name="near_tie", meaning="true if it is not tied but within the practical margin", kind=Kind.TRUTH),
         Column(
             name="objective_N",
-            meaning="what the program optimises in turn, N from 1",
+            meaning="objective N of the program, from 1",
             unit="the program's",
             kind=Kind.NUMBER,
         ),
@@ -34,7 +34,7 @@ PARETO = FrameDescription(
         ),
         Column(
             name="shortfall",
-            meaning="least by which the best is worth more, over all weights; missing if dominated",
+            meaning="least difference to the value of the best, over all weights; missing if dominated",
             unit="1",
             kind=Kind.NUMBER,
         ),
@@ -43,7 +43,7 @@ PARETO = FrameDescription(
         ),
         Column(
             name="value_MEASURE",
-            meaning="what it is worth in a weighted measure, from 0 to 1",
+            meaning="its value in a weighted measure, from 0 to 1",
             unit="1",
             kind=Kind.NUMBER,
         ),
@@ -56,15 +56,13 @@ EFFECTS = FrameDescription(
     row="a measure, one or two factors, and a level of each",
     index=(
         MEASURE,
-        Column(
-            name="factors", meaning="the factor, or two with a times sign between for what they do beyond each alone"
-        ),
-        Column(name="levels", meaning="its level, or the levels of both with a times sign between"),
+        Column(name="factors", meaning="the factor, or two joined by a times sign for their interaction"),
+        Column(name="levels", meaning="its level, or the levels of both joined by a times sign"),
     ),
     columns=(
         Column(
             name="effect",
-            meaning="how far the mean there is from what the terms above say",
+            meaning="difference of the mean there from the sum of the lower-order terms",
             unit=AS_UNIT,
             kind=Kind.NUMBER,
         ),
@@ -74,7 +72,10 @@ EFFECTS = FrameDescription(
         Column(name="high", meaning="upper end of its 95 % interval", unit=AS_UNIT, kind=Kind.NUMBER),
         UNIT,
         Column(
-            name="share", meaning="share of the differences between designs, of the term", unit="1", kind=Kind.NUMBER
+            name="share",
+            meaning="share of the variance between designs that the term explains",
+            unit="1",
+            kind=Kind.NUMBER,
         ),
         Column(name="share_low", meaning="lower end of the share's 95 % interval", unit="1", kind=Kind.NUMBER),
         Column(name="share_high", meaning="upper end of the share's 95 % interval", unit="1", kind=Kind.NUMBER),
@@ -92,8 +93,8 @@ WEIGHTS = FrameDescription(
             name="low", meaning="least weight at which the chosen variant is still best", unit="1", kind=Kind.NUMBER
         ),
         Column(name="high", meaning="greatest such weight", unit="1", kind=Kind.NUMBER),
-        Column(name="below", meaning="variants that win just below, with commas between; empty if none"),
-        Column(name="above", meaning="variants that win just above, with commas between; empty if none"),
+        Column(name="below", meaning="variants that win just below, separated by commas; empty if none"),
+        Column(name="above", meaning="variants that win just above, separated by commas; empty if none"),
     ),
 )
 
@@ -104,8 +105,8 @@ ACCEPTABILITY = FrameDescription(
     index=(VARIANT,),
     columns=(
         Column(name="first", meaning="share of weights and noise for which it is the best", unit="1", kind=Kind.NUMBER),
-        Column(name="first_error", meaning="standard error of that", unit="1", kind=Kind.NUMBER),
-        Column(name="unranked", meaning="share of noise in which it cannot be chosen", unit="1", kind=Kind.NUMBER),
+        Column(name="first_error", meaning="standard error of that share", unit="1", kind=Kind.NUMBER),
+        Column(name="unranked", meaning="share of the noise in which it cannot be chosen", unit="1", kind=Kind.NUMBER),
         Column(
             name="confidence",
             meaning="probability that it is best at its central weights; missing if it never is",
@@ -121,17 +122,18 @@ ACCEPTABILITY = FrameDescription(
 
 CHANGES = FrameDescription(
     name="changes",
-    row="what is supposed, or follows from it",
+    row="a supposition, or a consequence of one",
     index=(
         Column(
-            name="what", meaning="what is another, such as weight.t_e; a reading with its name, which has no numbers"
+            name="what",
+            meaning="name of the changed quantity, such as weight.t_e; an alternative reading has no numbers",
         ),
     ),
     columns=(
         Column(name="before", meaning="its value in the project", unit=AS_UNIT, kind=Kind.NUMBER),
-        Column(name="after", meaning="the value that is supposed", unit=AS_UNIT, kind=Kind.NUMBER),
+        Column(name="after", meaning="the supposed value", unit=AS_UNIT, kind=Kind.NUMBER),
         Column(name="unit", meaning="unit of both"),
-        Column(name="asked", meaning="whether it was asked for; otherwise it follows", kind=Kind.TRUTH),
+        Column(name="asked", meaning="true if it was supposed, false if it is a consequence", kind=Kind.TRUTH),
     ),
 )
 
@@ -144,7 +146,7 @@ PORTFOLIO = FrameDescription(
         Column(name="member", meaning="member of the portfolio that serves it: a component, or a variant"),
         Column(name="variant", meaning="id of the design variant that serves it", unit="1", kind=Kind.COUNT),
         Column(name="value", meaning="its weighted value in that study", unit="1", kind=Kind.NUMBER),
-        Column(name="status", meaning="of the portfolio: optimal, or best found where that is not proven"),
-        Column(name="gap", meaning="by how much another portfolio can be better at most", unit="1", kind=Kind.NUMBER),
+        Column(name="status", meaning="status of the portfolio: optimal, or best found where that is not proven"),
+        Column(name="gap", meaning="upper bound of the improvement by another portfolio", unit="1", kind=Kind.NUMBER),
     ),
 )

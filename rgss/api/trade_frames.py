@@ -125,7 +125,7 @@ def computed_effects(found: Robustness) -> StudyEffects:
 def effects_frame(effects: StudyEffects) -> pd.DataFrame:
     """One row for each measure, factor or pair of factors, and level of each.
 
-    Of designs that are a sample there are no effects of levels, and one row for each factor says its share.
+    For sampled designs there are no effects of levels; one row for each factor has its share.
     """
     rows: list[Row] = []
     for one in effects.measures:
@@ -158,7 +158,7 @@ def changes_frame(scenario: Scenario | None) -> pd.DataFrame:
 
 
 def portfolio_frame(portfolio: PortfolioDecision) -> pd.DataFrame:
-    """One row for each study that the portfolio serves; none if no portfolio serves all of them."""
+    """One row for each study that the portfolio serves; no row if no portfolio serves all of them."""
     rows = [
         {
             "study": one.task,
@@ -176,7 +176,7 @@ def portfolio_frame(portfolio: PortfolioDecision) -> pd.DataFrame:
 def _weighting(found: Robustness) -> WeightRobustness:
     if found.weighting is None:
         raise TradeoffError(
-            f"the weights were not analysed: {found.refused['weights']}", hint="robustness().refused says what was not"
+            f"the weights were not analysed: {found.refused['weights']}", hint="robustness().refused has the reasons"
         )
     return found.weighting
 
@@ -214,7 +214,7 @@ def _names(variants: Iterable[int]) -> str:
 
 
 def _filled(frame: str, part: str, names: Iterable[str]) -> tuple[Column, ...]:
-    """The columns of a frame with names in place of a part in capitals."""
+    """The columns of a frame with a placeholder in capitals replaced by names."""
     known = list(names)
     found: list[Column] = []
     for column in FRAMES[frame].columns:

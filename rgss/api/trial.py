@@ -1,4 +1,4 @@
-"""One trial for analysts: its record, its course over time, pictures of it."""
+"""Trial of the Python interface: record, course over time, pictures."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _LOWEST_HZ, _HIGHEST_HZ = 60.0, 10_000.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drawing:
-    """Callback that draws a trial; given by the caller, since this package draws nothing.
+    """Functions that draw a trial; passed by the caller, since this package draws nothing.
 
     Attributes:
         figure: Makes the plots of a record, its trace and the names of the joints.
@@ -45,10 +45,10 @@ class Drawing:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Trial:
-    """A variant tried once, now; the same inputs and seed give the same trial as in the evidence.
+    """A trial that was run now; the same inputs and seed give the same trial as in the evidence.
 
     Attributes:
-        record: What came out of it, as the evidence store keeps it.
+        record: Its record, as the evidence store keeps it.
     """
 
     record: TrialRecord
@@ -97,7 +97,7 @@ class Trial:
         """Arm, hand and object over time.
 
         Raises:
-            DefinitionError: Nothing is to be seen: the trial has no contact, or nothing moved.
+            DefinitionError: There is no course: the trial's fidelity is not contact, or nothing moved.
         """
         import numpy as np
 
@@ -153,7 +153,8 @@ class Trial:
 
         if not (0 < width <= _LARGEST and 0 < height <= _LARGEST):
             raise DefinitionError(
-                f"no picture is {width} by {height} pixels", hint=f"give from 1 to {_LARGEST} pixels each way"
+                f"width and height must be from 1 to {_LARGEST} pixels, got {width} and {height}",
+                hint="omit them for the defaults",
             )
         trace = self._seen()
         with Film(self._spec, trace, VIEWS["overview"], width=width, height=height, rate_hz=1.0) as film:
@@ -166,10 +167,10 @@ class Trial:
         if self.record.fidelity is not Fidelity.CONTACT:
             raise DefinitionError(
                 f"a trial of {self.record.fidelity.value} fidelity has no course and no pictures",
-                hint="ask for trial(..., fidelity='contact')",
+                hint="call trial(..., fidelity='contact')",
             )
         raise DefinitionError(
-            "the trial ended before anything moved, so there is nothing to see", hint=f"its failure was {self.failure}"
+            "the trial ended before anything moved, so that it has no course", hint=f"its failure was {self.failure}"
         )
 
 
@@ -199,12 +200,15 @@ def run_one(
 def payload_of(
     project: Project, variant: int, *, friction: float | None = None, finger_force_n: float | None = None
 ) -> PayloadResult:
-    """Put a gripper on the payload bench; see `rgss.api.study.Study.payload`."""
+    """Test a gripper on the payload bench; see `rgss.api.study.Study.payload`."""
     spec = _spec(project, variant, None, fidelity=Fidelity.CONTACT.value)
     gripper, robot = spec.gripper, spec.scene.robot
     if friction is not None:
         if not 0.0 <= friction < math.inf:
-            raise DefinitionError(f"no coefficient of friction is {friction:g}", hint="give a number from 0 on")
+            raise DefinitionError(
+                f"friction must be a finite number of at least 0, got {friction:g}",
+                hint="omit it for the friction of the gripper's file",
+            )
         gripper = replace(gripper, friction=float(friction))
     if finger_force_n is not None:
         gripper = replace(gripper, finger_force_n=float(finger_force_n))
@@ -231,7 +235,7 @@ def _spec(project: Project, variant: int, seed: int | None, *, fidelity: str | N
 
 
 def _whole(what: str, number: int) -> int:
-    """A whole number as Python has it: that of a frame is one of NumPy, which no digest knows."""
+    """Plain integer of a number: a frame has integers of NumPy, which cannot be digested."""
     try:
         return operator.index(number)
     except TypeError:

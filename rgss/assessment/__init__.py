@@ -1,4 +1,4 @@
-"""From trial records to estimates and verdicts, and what has become stale since."""
+"""Assessment of a study: estimates and verdicts from trial records, and their staleness."""
 
 from typing import TYPE_CHECKING
 

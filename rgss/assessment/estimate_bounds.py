@@ -1,16 +1,17 @@
-"""Bounds on estimates with more physics, proven by trials of the same designs at kinematic fidelity.
+"""Bounds on estimates at a higher fidelity, proven by trials of the same designs at kinematic fidelity.
 
-The two have their plans and timings in common: a move that finds no path, or cannot be timed, fails
-both. Everything else that the kinematic model takes for granted - that a grasp holds, that nothing
-slips, that the arm follows - may fail with more physics. From this follows, for a trial and its twin:
+A kinematic trial and its twin at the higher fidelity share plan and timing: a move that finds no path, or cannot be
+timed, fails both. All other assumptions of the kinematic model (the grasp holds, nothing slips, the arm follows)
+may fail at the higher fidelity. It follows:
 
-- the twin completes at most the phases before a failure that they have in common, and any number of
-  phases where the kinematic trial had none;
-- where the twin succeeds, its planning times, checks and path lengths are the kinematic ones;
-- of forces, contacts, slip and of the times of motion nothing is known.
+- the twin completes at most the phases before a shared failure, and any number of phases if the kinematic
+  trial succeeded;
+- if the twin succeeds, its planning times, checks and path lengths are the kinematic ones;
+- nothing is known of forces, contacts, slip and times of motion.
 
-So a mean over the successful twins lies between the least and the greatest value over the successful
-kinematic trials, of which the former are some; and a share of successes is at most the kinematic one.
+The successful twins belong to a subset of the successful kinematic trials. So a mean over them lies between the
+least and the greatest value over the successful kinematic trials, and a share of successes is at most the
+kinematic one.
 """
 
 from __future__ import annotations
@@ -40,17 +41,17 @@ IN_COMMON = frozenset(
         Failure.TRAJECTORY_IN_COLLISION,
     }
 )
-"""Failures that a trial has at every fidelity, for they come before any motion."""
+"""Failures that a trial has at every fidelity, since they occur before any motion."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EstimateBounds:
-    """Bounds on the estimate of a measure with more physics.
+    """Bounds on the estimate of a measure at a higher fidelity.
 
     Attributes:
-        bounded: Whether anything is known of it.
-        estimates: The estimates between which it lies, from the least; empty where it cannot have a
-            value, as the time of a task that no trial completes.
+        bounded: True if bounds are known.
+        estimates: The least and the greatest possible estimate; empty if it cannot have a
+            value, such as the time of a task that no trial completes.
     """
 
     bounded: bool
@@ -61,7 +62,7 @@ UNBOUNDED = EstimateBounds(bounded=False)
 
 
 def bounds_by_measure(project: Project, entry: VariantMeasures) -> Mapping[str, EstimateBounds]:
-    """Bounds on every measure of a variant with more physics, by its id.
+    """Bounds on every measure of a variant at a higher fidelity, by its id.
 
     Args:
         project: The project.
@@ -131,7 +132,7 @@ def _over_all(
 def _values_by_progress(project: Project, entry: VariantMeasures) -> list[Mapping[str, float | None]]:
     """The value of every measure after each number of completed phases, from none to all.
 
-    Only those of measures that take nothing but their progress from trials mean anything.
+    They are valid only for measures whose sole input from trials is the progress.
     """
     if not entry.records:
         return []

@@ -1,4 +1,4 @@
-"""The state of a project's evidence: the verdicts of its trials, and what its own tests say."""
+"""State of a project's evidence: verdicts from its trials, and results of its own tests."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ def evidence_state(
         project: The project with its study.
         measured: Every variant with its estimates; empty if there is no evidence from trials.
         recorded: The verdicts that were recorded.
-        junit: The result of the project's tests; the file that ``make test`` writes by default,
-            which need not be there.
+        junit: The result of the project's tests; by default the file that ``make test`` writes,
+            which need not exist.
 
     Raises:
         EvidenceError: Files of tests or their result cannot be read.
@@ -125,8 +125,8 @@ def project_tests(
         folder: The project's folder.
         requirements: Its requirements.
         marked: The marks on its tests.
-        requirement_folder: The set that they are of, relative to the project.
-        junit: The result of a run; the file that ``make test`` writes by default, which need not be there.
+        requirement_folder: The set of requirements, relative to the project.
+        junit: The result of a run; by default the file that ``make test`` writes, which need not exist.
 
     Raises:
         EvidenceError: The result cannot be read, or a file of the project cannot.

@@ -1,4 +1,4 @@
-"""Drivers of failures: which draws differ between the trials that fail in one way and the others."""
+"""Drivers of failures: draws that differ between the trials with one kind of failure and the others."""
 
 from __future__ import annotations
 
@@ -37,9 +37,9 @@ class Driver:
 
     Attributes:
         quantity: Name of the draw, or of the case of the workload.
-        aspect: Whether draws, their distances from the median draw, or trials of a case and others are compared.
-        auc: Probability that a trial with the failure has the greater value than one without; 0.5 for none.
-        p: Two-sided p of a permutation of the draws over the seeds.
+        aspect: The compared quantity: draws, their distances from the median draw, or trials of a case against others.
+        auc: Probability that a trial with the failure has a greater value than one without; 0.5 without effect.
+        p: Two-sided p-value of a permutation of the draws over the seeds.
         adjusted_p: The same, adjusted by Holm for all quantities and kinds of failure.
     """
 
@@ -56,10 +56,10 @@ class FailureDrivers:
 
     Attributes:
         failure: The kind.
-        stage: Where it ended them: ``carry`` for the moves with the object, else the phase; what drops an object in
-            the hand is another thing than what drops it at its place.
-        trials: Number of trials that ended so.
-        seeds: With how many seeds they did.
+        stage: Part of the task in which it occurred: ``carry`` for the moves with the object, else the phase, since a
+            drop during the carry has other causes than one at the place.
+        trials: Number of trials with it.
+        seeds: Number of their seeds.
         drivers: Each quantity at its stronger aspect, the least adjusted p first, then the AUC farthest from 0.5.
     """
 
@@ -71,7 +71,7 @@ class FailureDrivers:
 
     @property
     def significant(self) -> tuple[Driver, ...]:
-        """Those that chance hardly explains."""
+        """The drivers with an adjusted p below the limit."""
         return tuple(one for one in self.drivers if one.adjusted_p < SIGNIFICANT)
 
 
@@ -83,7 +83,7 @@ class DriversOfFailures:
         trials: Number of trials.
         seeds: Number of their seeds.
         failures: The kinds that a draw could drive, the most frequent first.
-        too_few: Kinds that occurred, at each stage, with fewer than three seeds or with all but so few.
+        too_few: Kinds that occurred, at each stage, with fewer than three seeds or with all but fewer than three.
     """
 
     trials: int
@@ -96,8 +96,8 @@ def drivers_of_failures(records: Sequence[TrialRecord], *, carried: Collection[s
     """Compare the draws of failed trials with those of the others, for each kind of failure.
 
     The AUC is that of Mann and Whitney (1947) over the trials. Designs share the draws of a seed, so that trials are
-    no independent observations: p is of a permutation of the draws over the seeds, of the rank sum that is weighted by
-    how many trials of a seed failed so. With one design that is the permutation test of Mann and Whitney.
+    not independent observations: p is that of a permutation of the draws over the seeds, for the rank sum weighted by
+    the number of trials of a seed with this failure. With one design this is the permutation test of Mann and Whitney.
 
     Args:
         records: The trials.
@@ -153,7 +153,7 @@ def _kind(record: TrialRecord, carried: Collection[str]) -> _Kind | None:
 
 
 class _Table:
-    """Trials by seed: how many there are, how many failed, and the values of each column."""
+    """Trials by seed: number of trials, number of failures, and the values of each column."""
 
     def __init__(self, records: Sequence[TrialRecord], carried: Collection[str]) -> None:
         self._carried = carried
@@ -164,7 +164,7 @@ class _Table:
         self.columns = _columns({record.seed: record for record in records}, self.seeds)
 
     def failures(self, kind: _Kind) -> Array:
-        """Number of trials of each seed that ended so."""
+        """Number of trials of each seed with this failure."""
         return self._counted(lambda record: _kind(record, self._carried) == kind)
 
     def compared(self, failed: Array) -> Iterator[tuple[str, Aspect, float, float]]:
@@ -205,7 +205,7 @@ class _Table:
 
 
 def _columns(by_seed: Mapping[int, TrialRecord], seeds: Sequence[int]) -> dict[tuple[str, Aspect], Array]:
-    """The values of each seed that are compared; those that are all alike are left out."""
+    """The compared values of each seed; constant ones are omitted."""
     columns: dict[tuple[str, Aspect], Array] = {}
     names = dict.fromkeys(name for seed in seeds for name in by_seed[seed].draws)
     for name in names:
@@ -233,7 +233,7 @@ def _holm(values: Sequence[float]) -> Iterator[float]:
 
 
 def _strongest(drivers: Sequence[Driver]) -> tuple[Driver, ...]:
-    """Each quantity once, at its stronger aspect; the clearest first."""
+    """Each quantity once, at its stronger aspect; the most significant first."""
     ordered = sorted(drivers, key=lambda one: (one.adjusted_p, one.p, -abs(one.auc - 0.5), one.quantity))
     kept: dict[str, Driver] = {}
     for one in ordered:

@@ -1,4 +1,4 @@
-"""From stored evidence to the estimates and verdicts of every variant."""
+"""Estimates and verdicts of every variant from stored evidence."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class VariantMeasures:
         estimates: The estimate of each measure by its id.
         verdicts: The verdict on each requirement with a criterion, by its id.
         outdated: Number of missing trials with evidence of an earlier model, code or engine.
-        causes: For each requirement whose verdict is stale, what changed since its evidence.
+        causes: For each requirement with a stale verdict, the changes since its evidence.
         bases: Inputs of each verdict, by the requirement's id.
     """
 
@@ -55,20 +55,19 @@ def measure_variants(
     recorded: VerdictRecord | None = None,
     among: Sequence[DesignVariant] | None = None,
 ) -> tuple[VariantMeasures, ...]:
-    """Estimate every measure of every variant from the evidence that is there, and judge the requirements.
+    """Estimates of every measure of every variant from the stored evidence, with verdicts on the requirements.
 
-    Which trials are read is a rule of `rgss.assessment.stored_replicates`: variants may have different numbers.
-    Only evidence of the project, the code and the engines as they are now is estimated from. A
-    verdict that needs a trial of which there is but older evidence is stale, and so is one whose
-    requirement, measure or design changed since it was recorded. Where no trial was run a verdict
-    on what is observed in trials is not run; where trials were run and none gives a value, it is
-    inconclusive.
+    `rgss.assessment.stored_replicates` determines the trials: variants may have different numbers.
+    Only evidence of the present project, code and engines is used. A verdict is stale if it needs a
+    trial with only older evidence, or if its requirement, measure or design changed since it was
+    recorded. A verdict on a measure that is observed in trials is not run if no trial was run, and
+    inconclusive if trials were run and none gives a value.
 
     Args:
         project: The project with its study.
         store: The evidence; None if there is none yet.
-        recorded: The verdicts that were recorded; None to leave changes of requirements and
-            measures out.
+        recorded: The recorded verdicts; None to ignore changes of requirements and
+            measures.
         among: The variants; all by default.
 
     Raises:
@@ -102,10 +101,10 @@ def record_of(
     *,
     variants: Collection[int] | None = None,
 ) -> VerdictRecord:
-    """The record with the verdicts of some variants as the evidence gives them now.
+    """The record with updated verdicts of some variants.
 
-    They are judged by the requirements and measures as they are now. A verdict for which evidence
-    is missing or outdated is left as it was recorded.
+    They are given by the present requirements, measures and evidence. A verdict whose evidence
+    is missing or outdated is kept as it was recorded.
 
     Args:
         project: The project with its study.
@@ -150,7 +149,7 @@ def require_complete(measured: Sequence[VariantMeasures]) -> None:
 
 
 def requirements_with_criteria(project: Project) -> tuple[Requirement, ...]:
-    """The system requirements that a measure decides."""
+    """The system requirements with a criterion."""
     return tuple(requirement for requirement, _ in _criteria(project))
 
 
@@ -213,6 +212,6 @@ def _judged(
 
 
 def _verdict(criterion: Criterion, entry: VariantMeasures, *, stale: bool) -> Verdict:
-    """The verdict by the evidence that holds now; trials that give no value leave it open."""
+    """The verdict by the valid evidence; trials without a value leave it inconclusive."""
     verdict = judge(criterion, entry.estimates[criterion.measure], stale=stale)
     return Verdict.INCONCLUSIVE if verdict is Verdict.NOT_RUN and entry.records else verdict

@@ -1,11 +1,10 @@
-"""The verdicts of a study as they were last recorded, with digests of what they were verdicts on.
+"""Recorded verdicts of a study, with digests of their inputs.
 
-A verdict is computed from stored evidence whenever it is needed, by the requirement and the
-measure as they are then. So that a change of either is not taken for what the evidence was made
-for, a verdict is recorded together with digests of the requirement, of its measure's definition
-down to the last constant, and of the design values behind it: by `rgss measure --record`, and by
-`record_after_sweep` for the variants that a sweep has run. Until it is recorded again, a verdict
-whose digests differ from the recorded ones is stale.
+A verdict is computed from stored evidence whenever it is needed, by the present requirement and measure. To detect
+a change of either after the evidence was made, a verdict is recorded together with digests of the requirement, of
+its measure's complete definition, and of the design values behind it: by `rgss measure --record`, and by
+`record_after_sweep` for the variants that a sweep has run. Until it is recorded again, a verdict whose digests
+differ from the recorded ones is stale.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ from rgss.evidence.store import error_of
 from rgss.measures import Verdict
 
 FILE = ".rgss/verdicts.json"
-"""The record, relative to the project; beside the evidence, for it is about that evidence alone."""
+"""The record, relative to the project; it is beside the evidence, to which it belongs."""
 
 SCHEMA_VERSION = 1
 LARGEST_FILE_BYTES = 256 * 1024 * 1024
@@ -114,7 +113,7 @@ def read_record(folder: Path) -> VerdictRecord:
 
 
 def write_record(folder: Path, record: VerdictRecord) -> Path:
-    """Write the record as a whole or not at all; the same record gives the same bytes.
+    """Write the record atomically; the same record gives the same bytes.
 
     Args:
         folder: The project's folder.

@@ -1,4 +1,4 @@
-"""Recording the verdicts of a study: after its trials were run, or on request."""
+"""Recording of the verdicts of a study, after its trials were run or on request."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rgss.studies import Project
 def record_verdicts(
     project: Project, store: EvidenceStore, *, variants: Collection[int] | None = None
 ) -> VerdictRecord:
-    """Record the verdicts on the requirements and measures as they are now.
+    """Record the verdicts by the present requirements and measures.
 
     Args:
         project: The project with its study.
@@ -21,7 +21,7 @@ def record_verdicts(
         variants: Ids of the variants; all by default.
 
     Returns:
-        Everything that is recorded now.
+        All recorded verdicts.
 
     Raises:
         DefinitionError: A measure is not defined for a design.
@@ -35,10 +35,10 @@ def record_verdicts(
 
 
 def record_after_sweep(project: Project, store: EvidenceStore, run: Collection[int]) -> VerdictRecord:
-    """Record the verdicts for which a sweep has made evidence, and those that were never recorded.
+    """Record the verdicts with evidence from a sweep, and those that were never recorded.
 
-    A verdict whose evidence was there before keeps what was recorded with it, so that a change of its
-    requirement or measure goes on to show.
+    A verdict with older evidence keeps its record, so that a change of its requirement or measure
+    remains visible.
 
     Args:
         project: The project with its study.
@@ -46,7 +46,7 @@ def record_after_sweep(project: Project, store: EvidenceStore, run: Collection[i
         run: Ids of the variants of which a trial was run.
 
     Returns:
-        Everything that is recorded now.
+        All recorded verdicts.
 
     Raises:
         DefinitionError: A measure is not defined for a design.

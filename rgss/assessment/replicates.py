@@ -25,7 +25,7 @@ from rgss.trials.pieces import TrialSpec
 
 
 def replicates_of(measures: MeasureSet, variant: VariantMeasures) -> dict[str, tuple[float | None, ...]]:
-    """The value of every measure that is observed in trials, in each trial of a variant.
+    """Value of every measure that is observed in trials, in each trial of a variant.
 
     Their mean is the estimate: a measure that is estimated over successful trials is unknown in the
     others, one that is a proportion is 1 or 0 in each, and one that is a ratio has its linearised values.
@@ -35,7 +35,7 @@ def replicates_of(measures: MeasureSet, variant: VariantMeasures) -> dict[str, t
         variant: The variant with its records, in the order of their seeds.
 
     Returns:
-        Values in the measure's unit, by measure; None where a trial gives none.
+        Values in the measure's unit, by measure; None if a trial gives none.
 
     Raises:
         DefinitionError: A measure is not defined for the design.
@@ -49,14 +49,14 @@ def replicates_of(measures: MeasureSet, variant: VariantMeasures) -> dict[str, t
 
 
 def common_seeds(project: Project, measured: Sequence[VariantMeasures]) -> tuple[VariantMeasures, ...]:
-    """Every variant with the estimates by those seeds alone that all variants have.
+    """Every variant with its estimates from only those seeds that all variants have.
 
     Args:
         project: The project with its study.
         measured: Every variant with its estimates and records, in the order of their seeds.
 
     Returns:
-        The same where all have equal numbers; verdicts are those of all seeds.
+        The same variants if all have equal numbers; verdicts are those of all seeds.
     """
     fewest = min((len(entry.records) for entry in measured), default=0)
     return tuple(
@@ -78,7 +78,7 @@ def common_seeds(project: Project, measured: Sequence[VariantMeasures]) -> tuple
 
 
 def specs_read(project: Project, measured: Sequence[VariantMeasures]) -> tuple[TrialSpec, ...]:
-    """The trials that the estimates come from, variants of equal seeds together.
+    """Trials of the estimates, with variants of equal seeds grouped.
 
     Args:
         project: The project with its study.

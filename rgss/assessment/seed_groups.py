@@ -1,4 +1,4 @@
-"""Seeds that were read of each variant, where replicates were added until decided."""
+"""Seeds that were read of each variant after replication until decided."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class SeedGroup:
 
     Attributes:
         first: The first seed.
-        last: The last; all between are read too.
+        last: The last seed; all between are read too.
         variants: Ids of the variants, ascending.
     """
 
@@ -30,14 +30,14 @@ class SeedGroup:
 
 
 def sequential_seeds(project: Project, measured: Sequence[VariantMeasures]) -> tuple[SeedGroup, ...]:
-    """The seeds that were read, variants of equal seeds together, the fewest seeds first.
+    """The seeds that were read, with variants of equal seeds grouped, the fewest seeds first.
 
     Args:
         project: The project with its study.
         measured: Every variant with its records, in the order of their seeds.
 
     Returns:
-        The groups; none where the study has a fixed number of replicates.
+        The groups; none if the study has a fixed number of replicates.
     """
     if not project.study.is_sequential:
         return ()

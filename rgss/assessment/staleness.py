@@ -1,4 +1,4 @@
-"""Changes since the evidence: of each trial that is missing, and of each verdict."""
+"""Changes since the evidence was made, of missing trials and of verdicts."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _CAUSES: Mapping[Reason, StaleCause] = MappingProxyType(
         Reason.INPUT: StaleCause.MODEL,
         Reason.ENGINE: StaleCause.ENGINES,
         Reason.CODE: StaleCause.CODE,
-        # There is evidence under another key, so an input differs, but which one was not recorded.
+        # There is evidence under another key, so that an input differs, but the record does not show which one.
         Reason.UNKNOWN: StaleCause.MODEL,
     }
 )
@@ -30,15 +30,14 @@ _CAUSES: Mapping[Reason, StaleCause] = MappingProxyType(
 def outdated_trials(
     missing: Sequence[TrialSpec], store: EvidenceStore
 ) -> Mapping[tuple[int, int], tuple[StaleCause, ...]]:
-    """The missing trials of which there is older evidence, and what changed since.
+    """Missing trials with older evidence, and the changes since then.
 
     Args:
         missing: Trials without evidence for the project as it is now.
         store: The evidence.
 
     Returns:
-        The causes by variant and seed. A trial that was never run is not among them, nor is one
-        that is missing because its run failed.
+        The causes by variant and seed, without trials that were never run and those whose run failed.
 
     Raises:
         EvidenceError: The store is damaged.
@@ -55,10 +54,10 @@ def outdated_trials(
 
 
 class BasisReader:
-    """Inputs of verdicts as the project is now; each digest is made once."""
+    """Digests of the present inputs of verdicts; each is computed once."""
 
     def __init__(self, project: Project) -> None:
-        """Digests of a project."""
+        """Create a reader of a project."""
         self._project = project
         self._measures: dict[str, str] = {}
         self._requirements: dict[str, str] = {}
@@ -86,11 +85,11 @@ class BasisReader:
 
 
 def causes_since(recorded: RecordedVerdict | None, now: Basis) -> tuple[StaleCause, ...]:
-    """Inputs that changed since a verdict was recorded; none if no verdict was.
+    """Inputs that changed since a verdict was recorded; none without a recorded verdict.
 
     Args:
         recorded: The recorded verdict.
-        now: Its inputs today.
+        now: Its present inputs.
     """
     if recorded is None:
         return ()

@@ -1,4 +1,4 @@
-"""Replicates that a study's assessment reads: its own, and those that replication until decided has added."""
+"""Replicates that the assessment of a study uses: its own, and those added by replication until decided."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from rgss.trials.pieces import TrialSpec
 def read_specs(
     project: Project, store: EvidenceStore | None, variants: Sequence[DesignVariant]
 ) -> Mapping[int, Mapping[str, TrialSpec]]:
-    """The trials that a study is assessed by: for each variant the study's seeds, and those stored after them.
+    """Trials of the assessment of a study: for each variant the study's seeds, and those stored after them.
 
-    Seeds beyond the study's replicates are read only where the study states ``until_decided``: so many as are
-    stored without a gap, at most the cap of its rule. A trial counts as stored only under the key of the project,
-    code and engines as they are now. So the trials depend on the inputs and on the evidence alone, not on the
+    Seeds beyond the study's replicates are read only if the study states ``until_decided``: as many as are
+    stored without a gap, at most the cap of its rule. A trial counts as stored only under the key of the present
+    project, code and engines. So the trials depend on the inputs and on the evidence alone, not on the
     order in which it was made.
 
     Args:
@@ -32,7 +32,7 @@ def read_specs(
 
     Raises:
         EvidenceError: The store cannot be read.
-        DefinitionError: A variant's parameters or components do not make a trial.
+        DefinitionError: A variant's parameters or components are incomplete.
     """
     found: dict[int, dict[str, TrialSpec]] = {variant.id: {} for variant in variants}
     for spec in trial_specs(project, variants=variants):
@@ -54,7 +54,7 @@ def read_specs(
 def _possible_specs(
     project: Project, store: EvidenceStore, variants: Sequence[DesignVariant]
 ) -> Mapping[int, Mapping[str, TrialSpec]]:
-    """The trials after the study's own of which the store has some version, without a gap, by variant."""
+    """Trials after the study's own that are stored in any version, without a gap, by variant."""
     study = project.study
     stored: dict[int, set[int]] = {}
     for name in trial_names(store.database):

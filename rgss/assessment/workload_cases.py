@@ -35,7 +35,7 @@ class CaseSuccess:
 
 
 def success_by_case(project: Project, measured: Sequence[VariantMeasures]) -> tuple[CaseSuccess, ...]:
-    """The success of each case of the workload, in the order of the file; none where there is no workload.
+    """The success of each case of the workload, in the order of the file; none without a workload.
 
     Args:
         project: The project with its study.
@@ -51,7 +51,7 @@ def success_by_case(project: Project, measured: Sequence[VariantMeasures]) -> tu
 
 
 def measured_in_case(project: Project, measured: Sequence[VariantMeasures], case: str) -> tuple[VariantMeasures, ...]:
-    """Every variant with the trials of one case alone: estimates and verdicts as if nothing else were carried.
+    """Every variant with estimates and verdicts from the trials of one case alone.
 
     Args:
         project: The project with its study.

@@ -1,4 +1,4 @@
-"""Trials that suppositions need: counted, or run where requested."""
+"""Missing trials of suppositions: counted, or run if the options say so."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def scenario_measures(
     measured: Sequence[VariantMeasures],
     store: EvidenceStore,
 ) -> tuple[VariantMeasures, ...]:
-    """Every variant under suppositions; trials that lack are run if the options say so.
+    """Every variant under suppositions; missing trials are run if the options say so.
 
     Args:
         options: The options of the verb.
@@ -32,8 +32,8 @@ def scenario_measures(
         store: The evidence.
 
     Raises:
-        EvidenceError: Trials lack, of the study or of the suppositions.
-        SimulationError: Trials could not be made.
+        EvidenceError: Trials of the study or of the suppositions are missing.
+        SimulationError: Trials could not be run.
     """
     from rgss.assessment import require_complete
     from rgss.decision.what_if import ScenarioEvidenceReader
@@ -50,7 +50,7 @@ def scenario_measures(
 def known_assumptions(
     options: argparse.Namespace, project: Project, measured: Sequence[VariantMeasures], store: EvidenceStore
 ) -> tuple[AssumptionOutcome, ...]:
-    """The choice under each assumption that is questioned; trials that lack are run if the options say so.
+    """The choice under each questioned assumption; missing trials are run if the options say so.
 
     Args:
         options: The options of the verb.
@@ -59,8 +59,8 @@ def known_assumptions(
         store: The evidence.
 
     Raises:
-        EvidenceError: Trials of the study lack.
-        SimulationError: Trials could not be made.
+        EvidenceError: Trials of the study are missing.
+        SimulationError: Trials could not be run.
     """
     from rgss.assessment import require_complete
     from rgss.decision.assumptions import assumption_outcomes, missing_trials
@@ -99,6 +99,6 @@ def _run(options: argparse.Namespace, project: Project, specs: Sequence[TrialSpe
         lost = sum(len(one.trials) for one in result.lost)
         first = result.lost[0].failure
         raise SimulationError(
-            f"{lost} trials could not be made; first, a {first.what}: {first.kind.value}: {first.detail}",
-            hint="the others are kept; run the command again to try these once more",
+            f"{lost} trials could not be run; first failure: {first.what}: {first.kind.value}: {first.detail}",
+            hint="the others are stored; run the command again to retry these",
         )

@@ -1,4 +1,4 @@
-"""The parser of the command line: what is wrong is said in one line, with what was probably meant."""
+"""Parser of the command line, with one-line errors and suggestions."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _NO_WHOLE_NUMBER = re.compile(r"invalid int value: ('.*')$", re.DOTALL)
 
 
 class CommandParser(argparse.ArgumentParser):
-    """A parser whose complaints are one line each, and which takes its words and options in any order."""
+    """Parser with one-line errors, which accepts arguments and options in any order."""
 
     def error(self, message: str) -> NoReturn:
-        """Say what is wrong and end the program with the status of bad input."""
+        """Print the error and exit with the status of bad input."""
         from rgss.findings import printable
 
         line = _NO_WHOLE_NUMBER.sub(r"must be a whole number, got \1", " ".join(message.split()))
@@ -32,7 +32,7 @@ class CommandParser(argparse.ArgumentParser):
     def parse_known_args(  # type: ignore[override]  # the stubs have overloads for the same two arguments
         self, args: Sequence[str] | None = None, namespace: Any = None
     ) -> tuple[Any, list[str]]:
-        """Parse words; those that are left over are an error of this parser, not of the one around it."""
+        """Parse arguments; unrecognized ones are an error of this parser, not of its parent."""
         found, left = super().parse_known_args(args, namespace)
         if left and not self._is_late(left, found):
             options = [option for option in self._option_string_actions if option.startswith("--")]
@@ -41,7 +41,7 @@ class CommandParser(argparse.ArgumentParser):
         return found, []
 
     def _is_late(self, left: Sequence[str], found: Any) -> bool:
-        """Take a word that stands after an option for the last argument, which may be left away.
+        """Assign an argument that follows an option to the last positional argument, which is optional.
 
         Python before 3.13 gives such an argument its default as soon as the words before it are read.
         """
@@ -60,17 +60,17 @@ class CommandParser(argparse.ArgumentParser):
         return True
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
-        """Refuse what is not a choice; name the one that was probably meant, or else all."""
+        """Refuse an invalid choice; name the nearest valid one, or all of them."""
         if action.choices is None or value in action.choices:
             return
         choices = [str(choice) for choice in action.choices]
-        # A few are all shown, since the nearest of a few need not be near.
+        # A short list is shown in full, since its nearest entry need not be what was meant.
         near = _nearest(str(value), choices) if len(choices) > _FEW else ""
         known = near or f" (choose from {', '.join(map(repr, choices))})"
         raise argparse.ArgumentError(action, f"invalid choice: {value!r}{known}")
 
     def _print_message(self, message: str, file: SupportsWrite[str] | None = None) -> None:
-        """Print help so that a full disk or a closed pipe is noticed, which argparse overlooks."""
+        """Print help; a full disk or a closed pipe raises an error, which argparse ignores."""
         to = sys.stderr if file is None else file
         if message and to is not None:
             to.write(message)

@@ -1,4 +1,4 @@
-"""The draws of a trial as it is shown: nominal value and drawn value of each quantity."""
+"""Draws of a trial for display: nominal value and drawn value of each quantity."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ _CONTEXT = 15
 
 
 def print_report(changes: Sequence[ElementChange], foreign: Content) -> None:
-    """Print each change by id, attribute by attribute, and what of the file is left aside."""
+    """Print each change by id, attribute by attribute, and what of the file is not imported."""
     for change in changes:
         print(f"{change.kind.value} {change.part.value} {_safe(change.id)}")
         for each in change.attributes:
@@ -71,5 +71,5 @@ def _excerpt(text: str, start: int) -> str:
 
 
 def _safe(text: str) -> str:
-    """Text that comes from a file must not steer the terminal; breaks of lines are shown as ⏎."""
+    """Text from a file with terminal control characters escaped; line breaks are shown as ⏎."""
     return "".join(each if each.isprintable() else "⏎" if each == "\n" else "�" for each in text)

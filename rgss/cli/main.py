@@ -1,4 +1,4 @@
-"""The command line: one verb, one module; the only place that prints."""
+"""Entry point of the command line; each verb is a module."""
 
 from __future__ import annotations
 
@@ -53,13 +53,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run one verb.
 
     Args:
-        arguments: The words after the program's name; the process's own by default.
+        arguments: The arguments after the program's name; the process's own by default.
 
     Returns:
-        0 clean, 1 findings or an unmet bar, 2 bad input, 3 a run failed, 130 interrupted.
+        0 clean, 1 findings or nothing feasible, 2 bad input, 3 a run failed, 130 interrupted.
     """
-    # Start-up makes some hundred thousand objects that all stay; looking through them again and again for
-    # circles takes a tenth of a short command's time.
+    # Start-up creates some hundred thousand long-lived objects; frequent garbage collections over them take a
+    # tenth of a short command's time.
     gc.set_threshold(_OBJECTS_BETWEEN_COLLECTIONS)
     with safe_output():
         return _run(arguments)
@@ -71,41 +71,41 @@ def _run(arguments: Sequence[str] | None) -> int:
         with _page(options):
             status = int(options.handler(options))
             if sys.stdout is not None:
-                # Here, where a failure can still be reported, and not when the interpreter ends.
+                # Flushed here, where a failure can still be reported, and not at the exit of the interpreter.
                 sys.stdout.flush()
         return status
     except DocumentError as error:
         for finding in error.findings:
-            _complain(str(finding))
+            _print_error(str(finding))
         return BAD_INPUT
     except (SimulationError, MotionError, DriverError, StorageError) as error:
-        _complain(f"rgss: {error}")
+        _print_error(f"rgss: {error}")
         return RUN_FAILED
     except RgssError as error:
-        _complain(f"rgss: {error}")
+        _print_error(f"rgss: {error}")
         return BAD_INPUT
     except KeyboardInterrupt:
-        _complain("rgss: interrupted; what was finished is kept")
+        _print_error("rgss: interrupted; finished trials are stored")
         return INTERRUPTED
     except BrokenPipeError:
-        # The reader of our output has gone, which is its right; nothing more can be said to it.
+        # The reader of the output has closed the pipe, which is no error.
         _discard_output()
         return CLEAN
     except OSError as error:
         _discard_output()
-        # A file says its name; what is printed has none.
+        # An error of a file has its name; an error of standard output has none.
         printed = error.filename is None and error.errno in _UNWRITABLE
-        _complain(f"rgss: the output cannot be written: {error.strerror}" if printed else f"rgss: {error}")
+        _print_error(f"rgss: the output cannot be written: {error.strerror}" if printed else f"rgss: {error}")
         return RUN_FAILED
 
 
 def _page(options: argparse.Namespace) -> AbstractContextManager[object]:
-    """The page of what a verb prints; what programs read is not a page."""
+    """Page of a verb's output on a terminal; JSON is not paged."""
     if options.json or not options.is_fitted or sys.stdout is None or not sys.stdout.isatty():
         return nullcontext()
     from rgss.cli.terminal import fitted_page
 
-    # Progress would be written over the pager.
+    # Progress bars would overwrite the pager's screen.
     is_paged = options.is_paged and not getattr(options, "run", False)
     return fitted_page(is_wide=options.wide, is_paged=is_paged)
 
@@ -115,7 +115,7 @@ def command_line() -> argparse.ArgumentParser:
     parser = CommandParser(
         prog="rgss",
         description="Choose a robot design by evidence: requirements, simulated trials, a certified trade-off. "
-        "Without a verb: how the project stands, and the next command.",
+        "Without a verb: the state of the project and the next command.",
         epilog="Begin with 'rgss init my_project'; every verb has examples under --help. "
         "Exit status: 0 clean, 1 findings or nothing feasible, 2 bad input, 3 a run failed, 130 interrupted.",
     )
@@ -135,7 +135,7 @@ def command_line() -> argparse.ArgumentParser:
             "--project", type=Path, metavar="DIR", help="the project's folder (default: the nearest one above)"
         )
         verb.add_argument("--json", action="store_true", help="print one JSON document and nothing else")
-        verb.add_argument("--wide", action="store_true", help="on a terminal: lines and tables wider than it")
+        verb.add_argument("--wide", action="store_true", help="on a terminal: do not fit lines and tables to its width")
         module.configure(verb)
         verb.set_defaults(
             handler=module.run, is_fitted=getattr(module, "FITTED", True), is_paged=getattr(module, "PAGED", False)
@@ -144,7 +144,7 @@ def command_line() -> argparse.ArgumentParser:
 
 
 def _show_state(options: argparse.Namespace) -> int:  # noqa: ARG001 - every handler takes the options
-    """Say how the project stands, and what to do next."""
+    """Print the state of the project and the next command."""
     from rgss.cli.output import print_lines
     from rgss.cli.project_state import state_lines
 
@@ -153,7 +153,7 @@ def _show_state(options: argparse.Namespace) -> int:  # noqa: ARG001 - every han
 
 
 def module_name(verb: str) -> str:
-    """The module of a verb, which has an underscore behind it where the verb is a word of Python."""
+    """Name of a verb's module; a verb that is a keyword of Python has a trailing underscore."""
     return f"{verb}_" if keyword.iskeyword(verb) else verb
 
 
@@ -165,7 +165,7 @@ class _HelpFormatter(argparse.HelpFormatter):
 
 
 def _examples(module: ModuleType) -> str:
-    """The examples of a verb: a command on each line, with what it is for where that is not plain."""
+    """Examples of a verb: a command on each line, with a comment where it needs one."""
     examples = [(module.EXAMPLE, ""), *getattr(module, "MORE_EXAMPLES", ())]
     lines = [f"  {command}" + (f"\n      {purpose}" if purpose else "") for command, purpose in examples]
     # The percent sign is argparse's own.
@@ -182,11 +182,11 @@ def _version() -> str:
 
 
 def _discard_output() -> None:
-    """Let what is still to be written go nowhere, so that it does not fail again at the end."""
+    """Redirect buffered output to the null device, so that the flush at exit does not fail again."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _complain(text: str) -> None:
+def _print_error(text: str) -> None:
     print(printable(text), file=sys.stderr)
 
 

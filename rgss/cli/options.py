@@ -30,7 +30,7 @@ def arm_mass_kg(text: str | None) -> float | None:
     """The mass that `--mass` gives, in kg; None without it.
 
     Raises:
-        DefinitionError: It is no mass.
+        DefinitionError: It is not a mass above zero.
     """
     from rgss.errors import DefinitionError, QuantityError
     from rgss.findings import shown
@@ -54,19 +54,19 @@ def add_replicates(parser: argparse.ArgumentParser) -> None:
 
 
 def add_fidelity(parser: argparse.ArgumentParser) -> None:
-    """Add how much physics a trial has."""
-    parser.add_argument("--fidelity", choices=FIDELITIES, help="how much physics a trial has (default: the study's)")
+    """Add the fidelity of the trials."""
+    parser.add_argument("--fidelity", choices=FIDELITIES, help="fidelity of the simulation (default: the study's)")
 
 
 def add_nominal(parser: argparse.ArgumentParser) -> None:
-    """Add the switch that takes everything as the files say."""
+    """Add the switch for nominal values."""
     parser.add_argument(
-        "--nominal", action="store_true", help="without uncertainty and workload: everything as the files say"
+        "--nominal", action="store_true", help="without uncertainty and workload: the nominal values of the files"
     )
 
 
 def add_evidence_choice(parser: argparse.ArgumentParser) -> None:
-    """Add what chooses the trials of a study: study, replicates, fidelity and nominal values."""
+    """Add the options that select the trials of a study: study, replicates, fidelity, nominal values."""
     add_study(parser)
     add_replicates(parser)
     add_fidelity(parser)
@@ -74,7 +74,7 @@ def add_evidence_choice(parser: argparse.ArgumentParser) -> None:
 
 
 def chosen_project(options: argparse.Namespace) -> Project:
-    """The project with the study, the replicates and the fidelity that the options name, nominal if they say so.
+    """The project with the study, replicates and fidelity of the options, and with nominal values if requested.
 
     Raises:
         DocumentError: Files of the project are wrong.

@@ -16,7 +16,7 @@ _PIECES_AT_ONCE = 100_000
 
 
 def print_json(value: Any) -> None:
-    """Print one JSON document, as it is written: a hundred megabytes need no second copy in memory."""
+    """Print one JSON document incrementally, so that a large one needs no second copy in memory."""
     pieces = json.JSONEncoder(indent=2, allow_nan=False, ensure_ascii=False).iterencode(value)
     while text := "".join(itertools.islice(pieces, _PIECES_AT_ONCE)):
         print(text, end="")
@@ -24,7 +24,7 @@ def print_json(value: Any) -> None:
 
 
 def print_lines(lines: Iterable[str]) -> None:
-    """Print lines of text as they are made; a table as it fits, where standard output is a terminal."""
+    """Print lines of text as they are made; on a terminal a table is fitted to its width."""
     from rgss.cli.terminal import TerminalPage
     from rgss.reports import TableLine
 
@@ -55,7 +55,7 @@ def announce(text: str, file: Path) -> None:
 
 
 def number(value: float | None, digits: int = 4) -> str:
-    """A number for people; a dash for what is not known."""
+    """Text of a number; a dash for an unknown one."""
     if value is None:
         return "–"
     if abs(value) >= 10.0**digits:

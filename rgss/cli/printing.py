@@ -1,4 +1,4 @@
-"""Pages as PDF, by the print of a browser that is installed."""
+"""PDF of a page, printed by an installed browser."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from pathlib import Path
 from rgss.errors import DefinitionError
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-"""Programs that print a page; the first that is found."""
+"""Names of browsers that print a page; the first one found is used."""
 
 _LIMIT_S = 180.0
 
 
 def printing_browser() -> str:
-    """The path of the browser that prints.
+    """Path of the browser that prints.
 
     Raises:
         DefinitionError: None is installed.
@@ -36,7 +36,7 @@ def print_page(page: Path, browser: str) -> bytes:
     """A page as PDF.
 
     Args:
-        page: The file of the HTML page, which carries all that it shows.
+        page: The file of the self-contained HTML page.
         browser: The browser, from `printing_browser`.
 
     Raises:

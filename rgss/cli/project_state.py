@@ -1,4 +1,4 @@
-"""State of a project: what there is, what the evidence says so far, and the next sensible command."""
+"""State of a project: its contents, its evidence, and the next command."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ BEGIN = (
     "There is no project here or above.",
     "",
     "Next: rgss init my_project        a project with a study that can be run",
-    "      rgss init --robot arm.urdf  one round a robot of your own",
+    "      rgss init --robot arm.urdf  one for a robot of your own",
     "      rgss --help                 every command",
 )
 
 
 def state_lines() -> Iterator[str]:
-    """What 'rgss' alone says.
+    """Output of ``rgss`` without a verb.
 
     Raises:
         DocumentError: Files of the project are wrong.
@@ -79,5 +79,5 @@ def _evidence_lines(project: Project) -> Iterator[str]:
     from rgss.reports.decision import headline
 
     yield headline(decide_study(project, measured, evidence=label, analysed=False, screened=screened))
-    yield "Next: rgss trade    why, how sure that is, and what would change it"
+    yield "Next: rgss trade    the reasons, how certain they are, and what would change the decision"
     yield "      rgss report   all of it on one page"

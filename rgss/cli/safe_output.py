@@ -1,4 +1,4 @@
-"""Standard output and error that nothing can steer: the one place through which all that a verb prints goes."""
+"""Standard output and error with terminal control characters escaped; all output of a verb passes through here."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from rgss.documents import escaped_for_json, steers
 
 
 class SafeStream:
-    """A stream that escapes what would steer a terminal; everything else of it is the stream's own."""
+    """Stream wrapper that escapes terminal control characters; other attributes are those of the stream."""
 
     def __init__(self, stream: TextIO) -> None:
         self.own = stream
 
     def write(self, text: str) -> int:
-        """Write text; what would steer a terminal is escaped."""
+        """Write text with terminal control characters escaped."""
         self.own.write(escaped_for_json(text) if steers(text) else text)
         return len(text)
 
     def writelines(self, lines: Iterator[str]) -> None:
-        """Write lines, which have their ends."""
+        """Write lines, which include their line ends."""
         for line in lines:
             self.write(line)
 
@@ -32,7 +32,7 @@ class SafeStream:
 
 @contextmanager
 def safe_output() -> Iterator[None]:
-    """Let what is printed in the block steer no terminal; JSON that is printed keeps its meaning."""
+    """Escape terminal control characters in all output of the block; printed JSON keeps its meaning."""
     before = sys.stdout, sys.stderr
     # Without a console there is no stream.
     sys.stdout, sys.stderr = (stream if stream is None else cast("TextIO", SafeStream(stream)) for stream in before)
@@ -43,7 +43,7 @@ def safe_output() -> Iterator[None]:
 
 
 def own_stream(stream: TextIO) -> TextIO:
-    """The stream itself, for what draws on a terminal by our will and has no text of a user's in it.
+    """The unwrapped stream, for output that controls the terminal and contains no text of a user.
 
     Args:
         stream: Standard output or error.

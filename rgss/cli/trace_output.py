@@ -1,4 +1,4 @@
-"""Output of ``rgss trace``: the order that its options place, and its delivery."""
+"""Output of ``rgss trace``: request by the options, and writing."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ TABLES = ("coverage", "gaps", "stakeholder-moe", "system-stakeholder", "system-a
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TraceOrder:
-    """The files to write, or the text to print.
+    """Requested output: files to write, or text to print.
 
     Attributes:
         file_format: The format.
         output: The file or the folder to write; None to print.
         into_folder: Whether the output is a folder.
-        table: The only table; empty for all.
-        gaps_only: Only what is open.
+        table: The only table to show; empty for all.
+        gaps_only: True to show gaps only.
         diagrams: The folder for the diagrams; None without them.
-        prints: Whether anything is printed but what was written.
+        prints: True if more is printed than the names of written files.
     """
 
     file_format: TraceFormat
@@ -43,10 +43,10 @@ class TraceOrder:
 
 
 def ordered(options: argparse.Namespace) -> TraceOrder:
-    """The order that the options place.
+    """The output that the options request.
 
     Raises:
-        DefinitionError: They contradict each other, or a file cannot be written.
+        DefinitionError: They exclude each other, or a file cannot be written.
     """
     _refuse_contradictions(options)
     into_folder = options.output is not None and (options.output.is_dir() or not options.output.suffix)
@@ -84,10 +84,10 @@ def ordered(options: argparse.Namespace) -> TraceOrder:
 
 
 def deliver(order: TraceOrder, report: TraceReport, found: Chain | Impact | None) -> None:
-    """Print or write what was ordered; files are made as a whole, and only when all of them can be.
+    """Print or write the requested output; files are written atomically, and only if all of them can be.
 
     Args:
-        order: What is wanted.
+        order: The requested output.
         report: The report of the project.
         found: The chain or the impact of an id; None for the report itself.
 
@@ -116,7 +116,7 @@ def _refuse_contradictions(options: argparse.Namespace) -> None:
         raise DefinitionError("--impact needs an id", hint="rgss trace SYS-004 --impact")
     for name in ("gaps", "table", "diagrams"):
         if options.id is not None and getattr(options, name):
-            raise DefinitionError(f"--{name} does not go with an id", hint="leave one of them away")
+            raise DefinitionError(f"--{name} does not go with an id", hint="omit one of them")
     if options.json and (options.output is not None or options.format not in (None, "json")):
         raise DefinitionError("--json prints JSON", hint="for a file use -o FILE.json, for another format --format")
 
@@ -139,7 +139,7 @@ def _format(options: argparse.Namespace, *, into_folder: bool) -> TraceFormat:
     if by_suffix is None or options.format not in (None, by_suffix.name):
         # A report must not replace a file that is not a report.
         wanted = ", ".join(one.suffix for one in TRACE_FORMATS if options.format in (None, one.name))
-        raise DefinitionError(f"{str(options.output)!r} does not end in {wanted}", hint="name the file so")
+        raise DefinitionError(f"{str(options.output)!r} does not end in {wanted}", hint="use that suffix")
     return by_suffix
 
 
@@ -148,7 +148,7 @@ def _check_file(path: Path) -> None:
 
     problem = why_not_writable(path)
     if problem:
-        raise DefinitionError(f"{str(path)!r} cannot be written: {problem}", hint="name a file that can be")
+        raise DefinitionError(f"{str(path)!r} cannot be written: {problem}", hint="name a writable file")
 
 
 def _contents(order: TraceOrder, report: TraceReport, found: Chain | Impact | None) -> Mapping[str, bytes]:

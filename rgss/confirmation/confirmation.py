@@ -1,4 +1,4 @@
-"""A confirmation: what each setting made of the same trials, and what differs."""
+"""Confirmation: results of the same trials under each setting, and their differences."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ COMPARED_METRICS = (
     "task_time_s",
     "bench_payload_kg",
 )
-"""Metrics of a trial that physics decides and that matter to requirements."""
+"""Metrics of a trial that depend on physics and that requirements use."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,7 +33,7 @@ class ConfirmedTrial:
     Attributes:
         variant: The design.
         seed: The seed.
-        is_sample: Whether it is one of the failures that were sampled, and so takes no part in the decision.
+        is_sample: True if it is one of the sampled failures, which take no part in the decision.
         records: Its record under each setting, in the order of the settings.
     """
 
@@ -43,7 +43,7 @@ class ConfirmedTrial:
     records: tuple[TrialRecord, ...]
 
     def outcome(self, setting: int) -> str:
-        """``success``, or what went wrong where, such as ``object_dropped at lift``.
+        """Outcome: ``success``, or failure and phase, such as ``object_dropped at lift``.
 
         Args:
             setting: Index of the setting.
@@ -76,7 +76,7 @@ class SettingResult:
 
     Attributes:
         setting: The setting.
-        status: Whether a design is chosen.
+        status: Status of the choice.
         ranking: The designs that meet every requirement, best first, each with its value.
         ties: The designs that are equally good as the first.
         verdicts: The verdict on each requirement, by design.
@@ -96,7 +96,7 @@ class SettingResult:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VerdictDifference:
-    """A verdict that is another one than under the study's setting.
+    """Verdict that differs from that under the study's setting.
 
     Attributes:
         variant: The design.
@@ -119,13 +119,13 @@ class Confirmation:
 
     Attributes:
         study: The study's id.
-        evidence: Name of the evidence, as people see it.
-        selection: What was confirmed.
+        evidence: Name of the evidence in messages.
+        selection: The confirmed designs and trials.
         seeds: The seeds of the confirmed designs.
         practical_margin: Differences in value below this are of no practical meaning.
         results: One for each setting, the study's own first.
         trials: Every trial under every setting.
-        made: How many trials were run now; the others came from evidence.
+        made: Number of trials that were run now; the others came from evidence.
     """
 
     study: str
@@ -144,7 +144,7 @@ class Confirmation:
 
     @property
     def differing_decisions(self) -> tuple[int, ...]:
-        """Indices of the settings under which a design is first that is not among the equally best of the study's."""
+        """Indices of the settings whose first design is not among those tied as best under the study's setting."""
         study = self.results[0]
         best = {study.first, *study.ties}
         return tuple(index for index, result in enumerate(self.results) if result.first not in best)

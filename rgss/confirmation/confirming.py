@@ -1,4 +1,4 @@
-"""Running the trials of a confirmation, and deciding by them under each setting."""
+"""Execution of the trials of a confirmation, and the decision under each setting."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rgss.sweep import key_of
 from rgss.trials.pieces import TrialSpec
 
 RunTrials = Callable[[Sequence[TrialSpec]], int]
-"""Makes the trials that the store has not, and returns how many were made."""
+"""Function that runs missing trials, and returns their number."""
 
 
 def confirm(
@@ -32,17 +32,17 @@ def confirm(
 ) -> Confirmation:
     """Run designs and failures under every setting, and decide among the designs by each.
 
-    Plans and timings are shared by all settings, for they do not depend on physics. A trial under another setting
-    has another key, so that the study's decision never sees it.
+    Plans and timings are shared by all settings, since they do not depend on physics. A trial under another setting
+    has another key, so that the study's decision never uses it.
 
     Args:
         project: The project with its study.
         store: The evidence.
         selection: The designs, and the failures.
         settings: The settings, the study's own first.
-        run: Runs trials.
-        seeds: How many seeds of each design, from the study's first.
-        evidence: Name of the evidence, as people see it.
+        run: Function that runs trials.
+        seeds: Number of seeds of each design, from the study's first.
+        evidence: Name of the evidence in messages.
 
     Raises:
         EvidenceError: Trials could not be run, or the store is damaged.
@@ -54,7 +54,7 @@ def confirm(
         replicates=seeds,
         is_sequential=False,
         screening=None,
-        # Of few designs there is no table of levels.
+        # A few designs make no full table of levels.
         trade_off=replace(project.study.trade_off, choose_levels=False),
     )
     base = replace(project, study=study)
@@ -77,7 +77,7 @@ def confirm(
 
 
 def _specs(project: Project, selection: Selection) -> tuple[TrialSpec, ...]:
-    """The trials of the designs, and after them those of the sample."""
+    """The trials of the designs, followed by those of the sample."""
     sample = [
         spec
         for variant, seed in selection.sample

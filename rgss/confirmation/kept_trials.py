@@ -1,4 +1,4 @@
-"""Trials of confirmations in the evidence: a study's own but for the physics settings."""
+"""Stored trials of confirmations, which differ from a study's trials only in the physics settings."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ _SETTINGS, _PHYSICS = "settings", "physics"
 
 
 def confirmation_trials(projects: Iterable[Project], store: EvidenceStore) -> frozenset[str]:
-    """Keys of the trials whose inputs are those of a study's trial but for the physics settings.
+    """Keys of the trials whose inputs differ from those of a study's trial only in the physics settings.
 
-    Trials of another state of the project or of the code are not among them.
+    Trials of another state of the project or of the code are excluded.
 
     Args:
         projects: The project with each of its studies.
@@ -23,7 +23,7 @@ def confirmation_trials(projects: Iterable[Project], store: EvidenceStore) -> fr
 
     Raises:
         EvidenceError: The store is damaged.
-        DefinitionError: A variant's parameters or components make no trial.
+        DefinitionError: A variant's parameters or components are incomplete.
     """
     expected = {
         (spec.variant, _without_physics(named_inputs(spec).values)): project.study.seed

@@ -13,7 +13,7 @@ from rgss.studies import Project
 from rgss.tradeoff import Decision
 
 MOST_RIVALS = 5
-"""So many rivals of the chosen design are confirmed."""
+"""Most rivals of the chosen design that are confirmed."""
 
 _PLANNED = frozenset(
     {
@@ -25,7 +25,7 @@ _PLANNED = frozenset(
         Failure.TRAJECTORY_IN_COLLISION,
     }
 )
-"""Failures that precede physics, so that no engine changes them."""
+"""Failures before physics, which do not depend on the engine."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,12 +33,12 @@ class Selection:
     """Designs and trials that are confirmed.
 
     Attributes:
-        variants: The designs, the chosen one first where there is one.
+        variants: The designs, the chosen one first if there is one.
         chosen: The chosen design; None if designs were named or nothing is chosen.
         left_out: Rivals beyond `MOST_RIVALS`.
         sample: Variant and seed of each failure that is run again.
-        physical_failures: How many trials of the study failed in physics, of which the sample is taken.
-        planned_failures: How many failed before physics; they are the same in every engine.
+        physical_failures: Number of trials of the study that failed in physics, from which the sample is taken.
+        planned_failures: Number that failed before physics; they are the same in every engine.
     """
 
     variants: tuple[DesignVariant, ...]
@@ -58,7 +58,7 @@ def select(project: Project, decision: Decision, measured: Sequence[VariantMeasu
     Args:
         project: The project with its study.
         decision: The decision.
-        measured: Every variant with the records that it was decided by.
+        measured: Every variant with the records of the decision.
         failures: Size of the sample.
 
     Raises:
@@ -66,7 +66,7 @@ def select(project: Project, decision: Decision, measured: Sequence[VariantMeasu
     """
     if decision.chosen is None:
         raise DefinitionError(
-            "no variant meets every requirement, so there is no choice to confirm",
+            "no variant meets every requirement, so that there is no choice to confirm",
             hint="name designs with --variants",
         )
     close = {*decision.ties, *decision.near_ties, *([] if decision.runner_up is None else [decision.runner_up])}
@@ -86,7 +86,7 @@ def select(project: Project, decision: Decision, measured: Sequence[VariantMeasu
 def selected_by_id(
     project: Project, variants: Sequence[int], measured: Sequence[VariantMeasures] = (), *, failures: int = 0
 ) -> Selection:
-    """Designs that are named, and a sample of the failures of the others.
+    """The named designs, and a sample of the failures of the others.
 
     Args:
         project: The project with its study.
@@ -107,7 +107,7 @@ def selected_by_id(
 
 
 def _with_sample(measured: Sequence[VariantMeasures], confirmed: Collection[int], size: int) -> Selection:
-    """A sample of the failures of designs that are not confirmed anyway, evenly over what went wrong and where."""
+    """Sample of the failures of designs that are not confirmed, evenly over kinds and phases of failure."""
     kinds: dict[tuple[int, str], list[tuple[int, int]]] = {}
     planned = physical = 0
     for entry in measured:
@@ -133,7 +133,7 @@ def _with_sample(measured: Sequence[VariantMeasures], confirmed: Collection[int]
 
 
 def _spread(trials: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Trials in an order whose beginning is spread over all: the first, the middle, the quarters, and so on."""
+    """Trials in an order whose prefixes are spread over all: the first, the middle, the quarters, and so on."""
     count = len(trials)
     bits = max(1, (count - 1).bit_length())
     order = (int(f"{index:0{bits}b}"[::-1], 2) for index in range(2**bits))

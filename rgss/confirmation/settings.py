@@ -13,7 +13,7 @@ from rgss.studies import Project, trial_settings
 from rgss.trials import mujoco_settings
 
 FINER_RATE_HZ = 1000.0
-"""Rate of the finer step by default."""
+"""Default rate of the finer step."""
 
 _HIGHEST_RATE_HZ = 20_000.0
 _MORE_ITERATIONS = 4
@@ -27,7 +27,7 @@ class Engine(str, Enum):
 
 
 class Aspect(str, Enum):
-    """The one thing in which a setting differs from the study's."""
+    """Aspect in which a setting differs from the study's."""
 
     STUDY = "study"
     STEP = "step"
@@ -37,10 +37,10 @@ class Aspect(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConfirmationSetting:
-    """One way in which the physics of a trial is computed.
+    """Physics setting of a trial.
 
     Attributes:
-        aspect: In what it differs from the study's own setting.
+        aspect: Aspect in which it differs from the study's own setting.
         physics: The settings.
     """
 
@@ -80,13 +80,13 @@ def confirmation_settings(
         iterations: The greater number of solver iterations; four times the study's by default.
 
     Raises:
-        DefinitionError: The study's trials have no contact, a number is impossible or that of the study, or MuJoCo is
-            asked for and not installed.
+        DefinitionError: The study's fidelity is not contact, a number is impossible or equal to that of the study, or
+            MuJoCo is requested and not installed.
     """
     if project.study.fidelity is not Fidelity.CONTACT:
         raise DefinitionError(
             f"a decision by {project.study.fidelity.value} trials has no contact physics to confirm",
-            hint="give a study with 'fidelity: contact'",
+            hint="choose a study with 'fidelity: contact'",
         )
     own = trial_settings(project).physics
     found = [ConfirmationSetting(aspect=Aspect.STUDY, physics=own)]
@@ -108,7 +108,9 @@ def confirmation_settings(
 
 def _check(own: PhysicsSettings, finer: PhysicsSettings, more: PhysicsSettings) -> None:
     if finer.rate_hz == own.rate_hz:
-        raise DefinitionError(f"a rate of {own.rate_hz:g} Hz is that of the study", hint="give another rate")
+        raise DefinitionError(
+            f"the finer rate must differ from that of the study, {own.rate_hz:g} Hz", hint="give another rate"
+        )
     if not LEAST_RATE_HZ <= finer.rate_hz <= _HIGHEST_RATE_HZ:
         raise DefinitionError(
             f"the rate must be from {LEAST_RATE_HZ:g} to {_HIGHEST_RATE_HZ:g} Hz, got {finer.rate_hz:g} Hz",
@@ -116,7 +118,8 @@ def _check(own: PhysicsSettings, finer: PhysicsSettings, more: PhysicsSettings) 
         )
     if more.solver_iterations == own.solver_iterations:
         raise DefinitionError(
-            f"{own.solver_iterations} solver iterations are those of the study", hint="give another number"
+            f"the number of solver iterations must differ from that of the study, {own.solver_iterations}",
+            hint="give another number",
         )
     if not 1 <= more.solver_iterations <= MOST_ITERATIONS:
         raise DefinitionError(

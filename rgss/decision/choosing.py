@@ -1,4 +1,4 @@
-"""Trade-off of a study, posed from its estimates and decided."""
+"""Trade-off of a study, formulated from its estimates and decided."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ def trade_problem(
     Args:
         project: The project with its study.
         measured: Every variant with its estimates.
-        tolerant: Whether thresholds on what trials observe have the study's tolerance; they are as required otherwise.
-        known: Alternatives of an earlier call for the same project, by variant, with the estimates that they are of:
-            those of the same estimates are taken, and the others put in.
+        tolerant: True to apply the study's tolerance to thresholds on measures that trials observe.
+        known: Cache of alternatives from earlier calls for the same project, by variant, with their estimates:
+            those of the same estimates are reused, and new ones are added.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.
         TradeoffError: The choice is ill posed, or there are too few replicates for it.
-        DefinitionError: A criterion has a comparison that a program cannot have, or levels are to
+        DefinitionError: A criterion has a comparison that a program does not support, or levels are to
             be chosen of designs that are not combinations of levels.
     """
     require_complete(measured)
@@ -66,7 +66,7 @@ def trade_problem(
     wanted = [*trade_off.weighting.weights, *(risk.measure for risk in risks)]
     wanted += program.aimed_measures
     wanted += [limit.measure for limit in program.limits]
-    # An end of an interval is drawn from where its measure is.
+    # The posterior of an interval's end is drawn around its measure.
     wanted += [criterion.measure for criterion in criteria.values()]
     columns = {measure: (measure, Statistic.VALUE) for measure in wanted}
     columns.update({_column(criterion): (criterion.measure, criterion.statistic) for criterion in criteria.values()})
@@ -90,7 +90,7 @@ def choose(
     independent: tuple[SolverRun, ...] = (),
     time_limit: float | None = None,
 ) -> Decision:
-    """Decide which variant is best.
+    """Choose the best variant.
 
     Args:
         project: The project with its study.
@@ -126,7 +126,7 @@ def proportion_measures(project: Project) -> frozenset[str]:
 
 
 def double_counting(project: Project) -> tuple[Overlap, ...]:
-    """Valued measures of which one contains the other, with what could be valued instead."""
+    """Valued measures of which one contains the other, with an alternative measure."""
     measures = project.measures
     weights = project.study.trade_off.weighting.weights
     contained = {measure.id: set(measures.dependencies(measure.id)) for measure in measures.measures}
@@ -141,13 +141,13 @@ def double_counting(project: Project) -> tuple[Overlap, ...]:
 
 
 def shared_measures(project: Project) -> tuple[SharedPart, ...]:
-    """Valued measures neither of which contains the other, but that depend on measures in common."""
+    """Valued measures that depend on measures in common, although neither contains the other."""
     weights = project.study.trade_off.weighting.weights
     return shared_parts(weights, project.measures.dependencies)
 
 
 def _demanded(project: Project, criterion: Criterion) -> Criterion:
-    """The criterion of a choice: on the end of the interval that a verdict needs, if the study decides by verdicts."""
+    """Criterion of a choice; if the study decides by verdicts, on the end of the interval that a verdict needs."""
     from_trials = project.measures.measure(criterion.measure).from_trials
     if not project.study.trade_off.shown_feasible or criterion.statistic is not Statistic.VALUE or not from_trials:
         return criterion
@@ -188,7 +188,7 @@ def _alternative(
 
 
 def _shifted(row: tuple[float | None, ...], estimate: Estimate, statistic: Statistic) -> tuple[float | None, ...]:
-    """The replicates of an end of an interval: those of the estimate, as far away as the end is from it."""
+    """Replicates of an end of an interval: those of the estimate, shifted by the distance of the end."""
     end = _statistic(estimate, statistic)
     if statistic is Statistic.VALUE or end is None or estimate.value is None:
         return row

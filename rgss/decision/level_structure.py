@@ -1,4 +1,4 @@
-"""The levels that make each variant of a design space, for a choice of levels instead of variants."""
+"""Levels of each variant of a design space, for a choice of levels instead of variants."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 def level_structure(designs: DesignSpace, variants: Sequence[DesignVariant]) -> LevelStructure:
     """The factors, the combinations that each rule excludes, and the levels of each variant.
 
-    A rule is put over as few factors as determine what it excludes; so one on the number of fingers and
-    the gripper's mass is a condition on these two, whatever else varies.
+    A rule is formulated over the fewest factors that determine what it excludes: one on the number of fingers
+    and the gripper's mass is a condition on these two, independent of other factors.
 
     Args:
         designs: The design space.
@@ -69,7 +69,7 @@ def level_numbers(designs: DesignSpace, variants: Sequence[int]) -> NDArray[np.i
         variants: Ids of variants.
 
     Returns:
-        The numbers; None where designs are a sample of ranges, or a variant is none of the design space.
+        The numbers; None if designs are a sample of ranges, or a variant is not in the design space.
     """
     import numpy as np
 

@@ -1,4 +1,4 @@
-"""Trials in the evidence that a project's studies name, with the present project and code."""
+"""Stored trials that the studies of a project name, with the present project and code."""
 
 from __future__ import annotations
 
@@ -38,10 +38,9 @@ class NamingStudy:
     Attributes:
         file: Its file, relative to the project.
         project: The project with this study.
-        own: The trials that it needs, at its fidelity and with its number of replicates; of a study that
-            replicates until decided also all up to its cap as far as the evidence has the seeds.
-        all: These, and what ``--fidelity`` and ``--replicates`` make of them as far as the
-            evidence has the seeds.
+        own: The trials that it needs, at its fidelity and with its number of replicates; for a study that
+            replicates until decided also all up to its cap, as far as the evidence has the seeds.
+        all: These, and those of ``--fidelity`` and ``--replicates`` as far as the evidence has the seeds.
     """
 
     file: str
@@ -51,15 +50,15 @@ class NamingStudy:
 
 
 def naming_studies(folder: Path, seeds: Mapping[str, Iterable[int]]) -> tuple[NamingStudy, ...]:
-    """Every study of a project, in the order of the files, with what it names.
+    """Every study of a project, in the order of the files, with the trials that it names.
 
     Args:
         folder: The project's folder.
         seeds: The seeds that the evidence has of each fidelity.
 
     Raises:
-        DocumentError: Files are wrong, with the problems of all studies: what cannot be read may
-            name anything.
+        DocumentError: Files are wrong, with the problems of all studies, since an unreadable study may
+            name any trial.
         DefinitionError: There is no study.
     """
     names = sorted(path.relative_to(folder).as_posix() for path in (folder / "studies").glob("*.yaml"))
@@ -78,7 +77,7 @@ def naming_studies(folder: Path, seeds: Mapping[str, Iterable[int]]) -> tuple[Na
 
 
 def asked_trials(study: NamingStudy, store: EvidenceStore | None) -> frozenset[str]:
-    """Keys of the trials that a sweep would run or reuse; a design that is screened out has no deciding ones.
+    """Keys of the trials that a sweep would run or reuse; for a screened-out design only the screening trials.
 
     Args:
         study: The study.
@@ -94,7 +93,7 @@ def asked_trials(study: NamingStudy, store: EvidenceStore | None) -> frozenset[s
 
 
 def asked_of(project: Project, store: EvidenceStore) -> frozenset[str]:
-    """Keys of the trials that a sweep of a project would run or reuse, whatever its other studies need.
+    """Keys of the trials that a sweep of a project would run or reuse, independent of its other studies.
 
     Args:
         project: The project with its study, its number of replicates and its fidelity.
@@ -113,7 +112,7 @@ def asked_of(project: Project, store: EvidenceStore) -> frozenset[str]:
 
 
 def _keys_read(project: Project, store: EvidenceStore | None) -> Iterator[str]:
-    """The keys of the trials that an assessment reads, those that are missing of the study's own included."""
+    """Keys of the trials that an assessment reads, including missing trials of the study."""
     for keys in read_specs(project, store, project.designs.expand()).values():
         yield from keys
 

@@ -1,4 +1,4 @@
-"""A portfolio of designs for several studies, each of which is a task or a scene."""
+"""Portfolio of designs for several studies, each of which is a task or a scene."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def choose_portfolio(
 
     Args:
         project: The project with the study of the portfolio.
-        measured: For each of its studies the project with it and every variant with its estimates.
+        measured: Project and variants with their estimates, for each of its studies.
         time_limit: Seconds to prove the portfolio best, in place of a count of operations.
         independent: Runs of other solvers than HiGHS, as further checks.
 
@@ -52,7 +52,7 @@ def choose_portfolio(
         for one in variants:
             if designs.setdefault(one.variant.id, one.variant.digest) != one.variant.digest:
                 raise DefinitionError(
-                    f"variant {one.variant.id} of {study} is another design than that of the other studies",
+                    f"variant {one.variant.id} of {study} must be the same design as in the other studies",
                     hint="give the studies of a portfolio the same design space and catalogue",
                 )
     variants = next(iter(measured.values()))[1]

@@ -1,4 +1,4 @@
-"""Preferences of a study, with the thresholds of the requirements as they are now."""
+"""Preferences of a study, with the present thresholds of the requirements."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ def value_function_of(project: Project, valued: AnchoredValue) -> ValueFunction:
     """The value function of a measure.
 
     Raises:
-        TradeoffError: Its anchors make no value function.
-        DefinitionError: A requirement's threshold has moved beyond the other end, so that what is
-            worse would be worth more; or it is anchored on one that does not bound the measure.
+        TradeoffError: Its anchors do not define a value function.
+        DefinitionError: A requirement's threshold has moved beyond the other end, so that a worse quantity
+            would have a greater value; or it is anchored on one that does not bound the measure.
     """
     measure = project.measures.measure(valued.measure)
     function = valued.function(lambda anchor: quantity_of(project, anchor, valued.measure))
@@ -60,7 +60,7 @@ def threshold_of(project: Project, requirement: str, criterion: Criterion, *, co
         column: The column that is compared; None for the measure itself.
 
     Raises:
-        DefinitionError: The comparison is strict, which no program can have.
+        DefinitionError: The comparison is strict, which programs do not support.
     """
     if criterion.comparison.is_strict:
         raise DefinitionError(
@@ -104,7 +104,7 @@ def program_of(project: Project, functions: Sequence[ValueFunction]) -> Program:
 
     Args:
         project: The project with its study.
-        functions: The study's value functions, through which the quantities of a reference point go.
+        functions: The study's value functions, which convert the quantities of a reference point.
 
     Raises:
         TradeoffError: The program contradicts itself.

@@ -1,10 +1,10 @@
-"""Screening: designs that need no contact trial, and why.
+"""Screening of designs by kinematic trials, before contact trials.
 
-A design is screened out if what kinematic trials prove (see `rgss.assessment.estimate_bounds`) leaves it no way
-to meet a requirement, or if the study's promotion rule bounds how many go on and others are better.
-For that comparison every measure has the best value that is possible for it, and what kinematic
-fidelity cannot know (success in contact, slip, forces, times of motion) is taken at its best for every
-design alike; so a design is never excluded by what is unknown.
+A design is screened out if the bounds from kinematic trials (see `rgss.assessment.estimate_bounds`) prove that it
+cannot meet a requirement, or if the study's promotion rule limits the number of promoted designs and others are
+better. In that comparison every measure has its best possible value, and quantities that kinematic fidelity does
+not determine (success in contact, slip, forces, times of motion) have their best value for every design; so a
+design is never excluded by unknown quantities.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from rgss.trials import TrialSpec
 def promoted(project: Project, measured: Sequence[VariantMeasures]) -> ScreeningResult:
     """Outcome of screening for each design, with the reason.
 
-    Ties at the bound of `keep` go on together, so that no id decides.
+    Ties at the bound of `keep` are promoted together, so that ids do not decide.
 
     Args:
         project: The project with its study, which has a screening.
@@ -76,7 +76,7 @@ def screening_specs(project: Project, *, variants: Iterable[DesignVariant] | Non
 
 
 def screen(project: Project, store: EvidenceStore | None) -> ScreeningResult | None:
-    """Screen by the evidence that is there; None if the study has no screening.
+    """Screen by the stored evidence; None if the study has no screening.
 
     Raises:
         EvidenceError: The store is damaged.
@@ -90,12 +90,12 @@ def screen(project: Project, store: EvidenceStore | None) -> ScreeningResult | N
 def surviving_specs(
     project: Project, result: ScreeningResult, *, variants: Iterable[DesignVariant] | None = None
 ) -> tuple[TrialSpec, ...]:
-    """The trials that decide, of the designs that go on.
+    """The deciding trials of the promoted designs.
 
     Args:
         project: The project with its study.
-        result: What became of the designs.
-        variants: The designs among which they are taken; all by default.
+        result: The outcome of screening.
+        variants: The designs to select from; all by default.
     """
     among = project.designs.expand() if variants is None else variants
     survivors = set(result.survivors)
@@ -105,7 +105,7 @@ def surviving_specs(
 def measure_survivors(
     project: Project, store: EvidenceStore | None, *, recorded: VerdictRecord | None = None
 ) -> tuple[tuple[VariantMeasures, ...], ScreeningResult | None]:
-    """Every variant that a decision is between, and what became of the others in screening.
+    """Every promoted variant, and the outcome of screening.
 
     Args:
         project: The project with its study.
@@ -125,15 +125,15 @@ def measure_survivors(
 
 
 def reopened(result: ScreeningResult, project: Project, measured: Sequence[VariantMeasures]) -> tuple[int, ...]:
-    """The designs that were screened out and would go on under suppositions.
+    """The screened-out designs that would be promoted under suppositions.
 
     Args:
-        result: What became of the designs without them.
-        project: The project as it is supposed to be.
-        measured: Every variant with its estimates at the screening fidelity, as supposed.
+        result: The outcome of screening without them.
+        project: The project under the suppositions.
+        measured: Every variant with its estimates at the screening fidelity under them.
 
     Returns:
-        Their ids; nothing but the evidence of screening is known of them.
+        Their ids; they have only evidence of screening.
     """
     there = set(result.survivors)
     return tuple(variant for variant in promoted(project, measured).survivors if variant not in there)
@@ -165,7 +165,7 @@ def _first_look(
 def _possible(criterion: Criterion, bounds: Mapping[str, EstimateBounds]) -> bool:
     """True if a verdict other than not met is possible.
 
-    A criterion compares with one threshold, so if neither end of the bounds meets it, nothing between them does.
+    A criterion has one threshold: if neither end of the bounds meets it, no value between them does.
     """
     found = bounds[criterion.measure]
     if not found.bounded or not found.estimates:
@@ -192,7 +192,7 @@ def _value_functions(project: Project) -> dict[str, tuple[float, ValueFunction]]
 
 
 def _best(function: ValueFunction, bounds: EstimateBounds) -> float:
-    """The greatest value of a quantity within bounds; 1 where nothing is known, 0 where there is no quantity."""
+    """Greatest value of a quantity within bounds; 1 if it is unbounded, 0 if there is no quantity."""
     if not bounds.bounded:
         return 1.0
     quantities = [one.value for one in bounds.estimates if one.value is not None]

@@ -9,22 +9,22 @@ from enum import Enum
 from rgss.studies import Screening
 
 _MOST_SHOWN = 72
-"""Ids of a sentence."""
+"""Most ids in a sentence."""
 
 
 class ScreeningOutcome(str, Enum):
     """Outcome of screening for a design."""
 
     PROMOTED = "promoted"
-    """It goes on."""
+    """It is promoted."""
     UNSCREENED = "unscreened"
-    """It goes on, for it lacks trials of the screening fidelity."""
+    """It is promoted, since it lacks trials at the screening fidelity."""
     SPARED = "spared"
-    """It misses a requirement, but so does every design; it goes on so that the decision can say what conflicts."""
+    """It misses a requirement, as every design does; it is promoted so that the decision can report the conflicts."""
     IMPOSSIBLE = "impossible"
-    """It misses a requirement whatever contact trials would show."""
+    """It misses a requirement for any result of contact trials."""
     OUTRANKED = "outranked"
-    """Others are better, even if all that is unknown of it is at its best."""
+    """Others are better, even with all its unknown quantities at their best."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,7 +47,7 @@ class ScreenedVariant:
 
     @property
     def goes_on(self) -> bool:
-        """True if it is tried with more physics."""
+        """True if it is tried at the deciding fidelity."""
         return self.outcome in (ScreeningOutcome.PROMOTED, ScreeningOutcome.UNSCREENED, ScreeningOutcome.SPARED)
 
 
@@ -65,12 +65,12 @@ class ScreeningResult:
 
     @property
     def survivors(self) -> tuple[int, ...]:
-        """The ids of the designs that go on."""
+        """The ids of the promoted designs."""
         return tuple(one.variant for one in self.variants if one.goes_on)
 
     @property
     def screened_out(self) -> tuple[ScreenedVariant, ...]:
-        """The designs that do not."""
+        """The designs that are screened out."""
         return tuple(one for one in self.variants if not one.goes_on)
 
 

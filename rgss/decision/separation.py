@@ -1,9 +1,9 @@
-"""Separation of two designs by the evidence, so that one in place of the other is a change of the choice.
+"""Separation of two designs by the evidence, the condition for a change of the choice.
 
 Replicates are added where the choice is open, so that two designs seldom have the same seeds. They are compared on
-those that both have, by the posterior that names ties in the study itself; but a seed in which one of them alone
-succeeded does not prove that it is the better one. Whether they meet every requirement is judged by all seeds of each:
-four seeds in which the one succeeds each time do not outweigh a hundred in which the other succeeds nine times of ten.
+common seeds, by the same posterior that determines ties in the study; but a seed in which only one of them
+succeeded does not prove that it is better. The probability of meeting every requirement uses all seeds of each:
+four successes in four seeds do not outweigh ninety in a hundred.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ from rgss.tradeoff.programs import AdditiveValue, enumerate_alternatives, single
 from rgss.tradeoff.robustness import PosteriorOutcomes, choice_uncertainty
 
 FEWEST_REPLICATES = 2
-"""With fewer common seeds nothing is known of noise, and the estimates alone are compared."""
+"""Least number of common seeds that determine the noise; with fewer, only the estimates are compared."""
 
 FEASIBILITY_DOUBT = 0.2
-"""They are not separated if with this probability the former choice meets every requirement and the new one not."""
+"""Probability of "former choice feasible, new one not" from which the two are not separated."""
 
 
 def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: int, former: int) -> bool:
-    """True if a choice is better than a former one by what the seeds that both have show.
+    """True if a choice is better than a former one by their common seeds.
 
-    It is not where the former one meets every requirement and is within the practical margin by the estimates, nor
-    where both are feasible and it is worth as much with a probability of at least 5 %
-    (`rgss.tradeoff.robustness.choice_uncertainty`), nor where it is feasible and the choice is not with a probability
-    of at least 20 %, by all seeds of each.
+    It is false if the former one meets every requirement and is within the practical margin by the estimates; if
+    both are feasible and the former one has at least the same value with a probability of at least 5 %
+    (`rgss.tradeoff.robustness.choice_uncertainty`); or if the former one is feasible and the choice is not with a
+    probability of at least 20 %, by all seeds of each.
 
     Args:
         project: The project, under the suppositions that lead to the choice.
@@ -44,8 +44,8 @@ def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: 
         former: Choice without them.
 
     Returns:
-        True too where the former is not among the variants, or the program is not the weighted value, which knows
-        no probability of a tie.
+        True too if the former one is not among the variants, or if the program is not the weighted value, the only one
+        with a probability of a tie.
 
     Raises:
         TradeoffError: As for `trade_problem`.
@@ -75,12 +75,12 @@ def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: 
         estimated=enumerate_alternatives(problem).feasible,
         single=single_values(problem, table),
     ).rivals
-    # A lead only where the choice is not feasible does not keep it: by value it is behind.
+    # A lead only in draws in which the choice is infeasible does not count: by value the former one is behind.
     return all(rival.by_feasibility for rival in rivals)
 
 
 def _may_miss_alone(project: Project, measured: Sequence[VariantMeasures], chosen: int, former: int) -> bool:
-    """Whether the choice may well be infeasible where the former one is not, by all seeds of all variants."""
+    """True if the choice may be infeasible while the former one is not, by all seeds of all variants."""
     if min(len(entry.records) for entry in measured) < FEWEST_REPLICATES:
         return False
     problem = trade_problem(project, measured)

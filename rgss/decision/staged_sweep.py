@@ -1,4 +1,4 @@
-"""The stages of a sweep: screening where the study has one, what decides of the designs that go on, the verdicts."""
+"""Stages of a sweep: screening if the study has one, deciding trials of the promoted designs, verdicts."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from rgss.studies import Project, trial_specs
 from rgss.trials.pieces import TrialSpec
 
 RunStage = Callable[[Sequence[TrialSpec]], Collection[int]]
-"""Makes the trials that the store has not, and returns the variants of which one was run."""
+"""Function that runs missing trials, and returns the variants of which one was run."""
 
 
 def sweep_in_stages(
     project: Project, variants: Sequence[DesignVariant], store: EvidenceStore, run: RunStage
 ) -> ScreeningResult | None:
-    """Run one stage after the other, and record the verdicts of what was run.
+    """Run the stages in sequence, and record the verdicts of the variants that were run.
 
     Args:
         project: The project with its study.
         variants: The variants whose trials are run.
         store: The evidence.
-        run: Runs a stage: first the trials that screen, if there are any, then those that decide.
+        run: Function that runs a stage: first the screening trials, if there are any, then the deciding ones.
 
     Returns:
-        What became of every design in screening; None if the study has none.
+        The outcome of screening; None if the study has none.
 
     Raises:
         DefinitionError: A measure is not defined for a design.

@@ -1,4 +1,4 @@
-"""The evidence of a study as traceability shows it: one variant's trials, and the verdicts on all."""
+"""Evidence of a study for its traceability: one variant's trials, and the verdicts on all."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def trace_evidence(
     Args:
         project: The project with its study.
         measured: Every variant with its estimates.
-        state: The verdicts of all variants, and what the tests say.
+        state: The verdicts of all variants, and the results of the tests.
         variant: The variant to show; the one that the trade-off chooses by default.
         decision: Decision of the trade-off, if it was computed already.
 
@@ -83,7 +83,7 @@ def _chosen(
     except RgssError as error:
         return None, f"no variant is chosen: {error}"
     if decision.chosen is None:
-        return None, "no variant is chosen, for none meets every requirement"
+        return None, "no variant is chosen, since none meets every requirement"
     return decision.chosen, f"variant {decision.chosen}, which the trade-off chooses"
 
 

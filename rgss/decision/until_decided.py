@@ -34,16 +34,16 @@ class UntilDecided:
 
     Attributes:
         reason: Reason for the end.
-        variant: The variant that is chosen; None if none meets every requirement.
+        variant: The chosen variant; None if none meets every requirement.
         contenders: The variants that may be the best one; if it is decided, by less than the margin.
-        verdicts: By variant, the verdict on each requirement, valid in spite of the looks.
+        verdicts: By variant, the verdict on each requirement, with the error rate over all looks.
         trials: Number of trials of each variant.
         probability: Posterior probability that the choice is good; see
             `rgss.tradeoff.sequential.probability.probability_of_good_selection`.
         looks: Number of looks.
         rule: The stopping rule.
         unsettled: The variants that may be worth more than the choice by the margin.
-        forecast: The replicates that would settle what is open; None if the decision is settled, or nothing chosen.
+        forecast: The replicates that would settle it; None if the decision is settled, or nothing chosen.
     """
 
     reason: Reason
@@ -65,12 +65,12 @@ class UntilDecided:
 
     @property
     def total(self) -> int:
-        """All trials."""
+        """Number of all trials."""
         return sum(self.trials.values())
 
     @property
     def reserve_spent(self) -> int:
-        """Trials beyond the budget."""
+        """Number of trials beyond the budget."""
         return 0 if self.rule.budget is None else max(0, self.total - self.rule.budget)
 
 
@@ -91,13 +91,13 @@ def replicate_until_decided(
     Args:
         project: The project; its study's number of replicates is ignored.
         store: The evidence.
-        run: Runs the trials that the store has not, and returns when their records are in it.
+        run: Function that runs missing trials, and returns when their records are stored.
         rule: The stopping rule; the study's if None.
-        on_look: Callback after each look, with its number and that of the trials so far.
+        on_look: Callback after each look, with its number and the number of trials so far.
 
     Raises:
         EvidenceError: The store is damaged, or trials were not run.
-        TradeoffError: The trade-off is none that can be decided so.
+        TradeoffError: The program of the trade-off has no sequential rule.
     """
     from rgss.tradeoff.sequential import probability_of_good_selection
 
@@ -151,14 +151,14 @@ def replicate_until_decided(
 
 
 def trial_twins(project: Project, variants: Sequence[DesignVariant]) -> Mapping[int, int]:
-    """The variants with the same trials whatever the seed, which differ in what no trial sees.
+    """Variants with the same trials for every seed, which differ only in properties that trials do not use.
 
     Args:
         project: The project.
         variants: The variants.
 
     Returns:
-        By variant, the first one that has its trials.
+        By variant, the first variant with the same trials.
     """
     first: dict[str, int] = {}
     found = {}

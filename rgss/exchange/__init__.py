@@ -7,7 +7,7 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.exchange.applying import FileChange, planned, rehearsed, written
     from rgss.exchange.attributes import ATTRIBUTES, Part
-    from rgss.exchange.comparison import ChangeKind, ElementChange, Wishes, compare, not_as_planned
+    from rgss.exchange.comparison import ChangeKind, ElementChange, ImportDefaults, compare, not_as_planned
     from rgss.exchange.content import Content, content_of, part_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -1,4 +1,4 @@
-"""Transactional changes of the YAML files of a project: all of them, checked, or none."""
+"""Transactional changes of the YAML files of a project: checked, and all or none."""
 
 from __future__ import annotations
 
@@ -39,8 +39,8 @@ class FileChange:
 
     Attributes:
         name: Its name, relative to the project.
-        old: What it holds.
-        new: What it is to hold; None if it is to be removed, since nothing is left in it.
+        old: Its present content.
+        new: Its new content; None if the file is to be removed because it would be empty.
     """
 
     name: str
@@ -57,13 +57,13 @@ def planned(
 
     Args:
         folder: The project.
-        requirements: What its files say.
-        changes: What is to become of it.
-        remove: Also remove what is to be removed.
+        requirements: Its present requirements.
+        changes: The changes.
+        remove: True to apply removals too.
 
     Raises:
-        DefinitionError: There is no file that an element could stand in.
-        DocumentError: A file cannot be read any more.
+        DefinitionError: There is no file for a new element.
+        DocumentError: A file can no longer be read.
     """
     edits: dict[str, list[Edit]] = {}
     homes = _homes(requirements)
@@ -92,13 +92,13 @@ def planned(
 def rehearsed(
     folder: Path, files: Sequence[FileChange], check: Callable[[Path], object], *, folders: Sequence[str]
 ) -> None:
-    """Check what the changes would make of a project, in a copy of it.
+    """Check the changes in a copy of the project.
 
     Args:
         folder: The project.
         files: The changes.
-        check: Loads the project in a folder, and raises what is wrong with it.
-        folders: What of the project it takes to load it.
+        check: Function that loads the project in a folder, and raises its errors.
+        folders: The folders of the project that loading needs.
     """
     with tempfile.TemporaryDirectory(prefix="rgss-import-") as name:
         copy = Path(name)
@@ -120,7 +120,7 @@ def written(folder: Path, files: Sequence[FileChange]) -> None:
         files: The changes.
 
     Raises:
-        DefinitionError: A file cannot be written, or somebody has changed it in the meantime.
+        DefinitionError: A file cannot be written, or has changed in the meantime.
     """
     for file in files:
         if read_bytes(folder / file.name) != file.old:
@@ -147,7 +147,7 @@ def _removed(path: Path) -> None:
 
 
 def _emptied(requirements: RequirementSet, edits: Mapping[str, Sequence[Edit]]) -> set[str]:
-    """Files of a folder of which the changes leave nothing, and which are not the last of their folder."""
+    """Files that the changes leave empty, except the last one of a folder."""
     held = Counter(place.document.label for place in requirements.places.values())
     gone = {
         name
@@ -159,7 +159,7 @@ def _emptied(requirements: RequirementSet, edits: Mapping[str, Sequence[Edit]]) 
 
 
 def _folder_of(name: str) -> str:
-    """The folder of a part that a file lies in, as ``requirements/system``; the file itself if it is the whole part.
+    """Folder of a file's part, such as ``requirements/system``; the file itself if it is the whole part.
 
     Of a set of its own this is ``requirements/NAME/system``.
     """
@@ -217,5 +217,5 @@ def _home(homes: Mapping[tuple[Part, str], str], change: ElementChange) -> str:
     """The file in which a new element is inserted."""
     home = homes.get((change.part, change.entry[_GROUPS[change.part]]), homes.get((change.part, "")))
     if home is None:
-        raise DefinitionError(f"there is no file for {change.id!r}", hint="begin one with one such element by hand")
+        raise DefinitionError(f"there is no file for {change.id!r}", hint="create one by hand with one such element")
     return home

@@ -1,4 +1,4 @@
-"""Attributes of needs, requirements, blocks and behaviours: one list for every format of exchange."""
+"""Attributes of needs, requirements, blocks and behaviours, for all exchange formats."""
 
 from __future__ import annotations
 
@@ -45,13 +45,13 @@ class Form(str, Enum):
     PROSE = "prose"
     """A text of any length."""
     CHOICE = "choice"
-    """One of a closed list."""
+    """One value of an enumeration."""
     FLAG = "flag"
     """``true``, or nothing."""
     LINKS = "links"
-    """Ids, set apart by semicolons, in no order."""
+    """Ids, separated by semicolons, unordered."""
     EXEMPTIONS = "exemptions"
-    """``rule: reason``, set apart by semicolons."""
+    """``rule: reason``, separated by semicolons."""
     DETAIL = "detail"
     """A flow, an interaction or a state machine, as JSON."""
 
@@ -61,10 +61,10 @@ class Attribute:
     """One attribute of an element.
 
     Attributes:
-        name: Its name in files of exchange.
+        name: Its name in exchange files.
         path: The keys that lead to it in an entry of a YAML file.
-        form: How it is written as one text.
-        choices: What it chooses from; empty unless it is a choice.
+        form: The form of its text.
+        choices: The values of an enumeration; otherwise empty.
         link: The relation that it states; None if it states none, or one that is not a link.
     """
 

@@ -1,4 +1,4 @@
-"""Conversion between entries of YAML files and one text for each attribute."""
+"""Conversion between entries of YAML files and text cells, one for each attribute."""
 
 from __future__ import annotations
 
@@ -13,32 +13,32 @@ from rgss.exchange.attributes import ATTRIBUTES, Attribute, Form, Part
 _DIVIDER = re.compile(r"(?<!\\)((?:\\\\)*);")
 
 Cells = Mapping[str, str]
-"""The attributes of an element by name, each as one text; empty where it is open."""
+"""The attributes of an element by name, each as one text; empty if it is open."""
 
 
 class CellError(ValueError):
-    """A text is not what its attribute is written as."""
+    """A text does not have the form of its attribute."""
 
 
 def cells_of(part: Part, entry: Mapping[str, Any]) -> dict[str, str]:
     """Every attribute of an entry as one text.
 
     Args:
-        part: What the entry is.
-        entry: The entry, as a YAML file has it.
+        part: Part of the entry.
+        entry: The entry of a YAML file.
     """
     return {attribute.name: _cell(attribute, _at(entry, attribute.path)) for attribute in ATTRIBUTES[part]}
 
 
 def entry_of(part: Part, cells: Cells) -> dict[str, Any]:
-    """Entry from the texts of its attributes; empty ones are left out.
+    """Entry from the texts of its attributes; empty ones are omitted.
 
     Args:
-        part: What the entry is.
+        part: Part of the entry.
         cells: Its attributes as texts.
 
     Raises:
-        CellError: A text is not what its attribute is written as.
+        CellError: A text does not have the form of its attribute.
     """
     entry: dict[str, Any] = {}
     for attribute in ATTRIBUTES[part]:
@@ -96,7 +96,7 @@ def _value(attribute: Attribute, cell: str) -> Any:
             raise CellError("true or false is expected")
         return True if text.lower() == "true" else None
     if attribute.form is Form.CHOICE:
-        # Other tools begin such words with a capital letter, or write all of them in capitals.
+        # Other tools capitalise such words, or write them in capitals.
         folded = text.lower()
         return folded if folded in attribute.choices else text
     return text
@@ -124,7 +124,7 @@ def _escaped(text: str) -> str:
 
 
 def _divided(text: str) -> list[str]:
-    """The parts between semicolons that no backslash stands before."""
+    """The parts between semicolons without a preceding backslash."""
     parts = _DIVIDER.sub("\\1\x00", text).split("\x00")
     plain = [re.sub(r"\\([\\;])", r"\1", part).strip() for part in parts]
     return [part for part in plain if part]

@@ -31,8 +31,8 @@ class AttributeChange:
 
     Attributes:
         attribute: The attribute.
-        old: What it is, as one text; empty if it is open.
-        new: What it becomes.
+        old: Its present value as one text; empty if it is open.
+        new: Its new value.
     """
 
     attribute: Attribute
@@ -45,11 +45,11 @@ class ElementChange:
     """One element before and after.
 
     Attributes:
-        kind: What happens to it.
-        part: What it is.
+        kind: Kind of the change.
+        part: Its part.
         id: Its id.
-        attributes: What differs; of an element that is added, all that it has.
-        entry: What stands in a YAML file afterwards; empty if it is removed.
+        attributes: The attributes that differ; all attributes of an added element.
+        entry: The resulting entry of the YAML file; empty if it is removed.
     """
 
     kind: ChangeKind
@@ -60,32 +60,31 @@ class ElementChange:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Wishes:
-    """Options of the user about elements that a file leaves open.
+class ImportDefaults:
+    """Defaults for elements whose part or attributes a file does not state.
 
     Attributes:
-        part: What an element is where the file does not say.
-        defaults: Attributes of elements that are new, where the file has none, by name.
+        part: The part of such elements.
+        defaults: Attributes of new elements, by name.
     """
 
     part: Part | None
     defaults: Mapping[str, str]
 
 
-def compare(own: Content, foreign: Content, wishes: Wishes) -> tuple[ElementChange, ...]:
-    """Changes by a file: changed and added elements in its own order, then removed ones.
+def compare(own: Content, foreign: Content, assumed: ImportDefaults) -> tuple[ElementChange, ...]:
+    """Changes by a file: changed and added elements in the file's order, then removed ones.
 
-    Ids under one attribute have no order, so another order is not a change.
+    Ids of one attribute are unordered: another order is not a change.
 
     Args:
         own: The project.
         foreign: The file.
-        wishes: What the user says of what the file leaves open.
+        assumed: The defaults.
 
     Raises:
-        DocumentError: The file has an id twice or none, an attribute that is not what it should
-            be, lacks one that must be there, or names an element that neither has; with every
-            such problem.
+        DocumentError: The file has a duplicate or a missing id, an invalid or a missing attribute, or
+            names an unknown element; with every such problem.
     """
     known = {row.id: row for row in own.rows}
     findings: list[Finding] = []
@@ -98,7 +97,7 @@ def compare(own: Content, foreign: Content, wishes: Wishes) -> tuple[ElementChan
             findings.append(_at(foreign, row, "id", "duplicate", f"{row.id!r} is already in line {seen[row.id]}"))
         else:
             seen[row.id] = row.line
-            found = _change(known.get(row.id), foreign, row, wishes)
+            found = _change(known.get(row.id), foreign, row, assumed)
             if isinstance(found, ElementChange):
                 changes.append(found)
             else:
@@ -114,13 +113,13 @@ def compare(own: Content, foreign: Content, wishes: Wishes) -> tuple[ElementChan
 def not_as_planned(
     changes: Sequence[ElementChange], before: Content, after: Content, *, remove: bool
 ) -> tuple[str, ...]:
-    """Ids of elements that are not what changes were to make of them, once these have been written.
+    """Ids of elements that differ from the planned changes after these have been written.
 
     Args:
-        changes: What was to become of the elements; any other is to stay as it was.
+        changes: The planned changes; other elements must be unchanged.
         before: The project before.
         after: The project afterwards.
-        remove: Whether elements were to be removed.
+        remove: True if elements were to be removed.
     """
     cells = {row.id: row.cells for row in after.rows}
     planned = {change.id for change in changes}
@@ -138,16 +137,16 @@ def _is_done(change: ElementChange, cells: Mapping[str, str] | None, *, remove: 
     return not any(_differs(each.attribute, each.new, cells[each.attribute.name]) for each in change.attributes)
 
 
-def _change(own: Row | None, foreign: Content, row: Row, wishes: Wishes) -> ElementChange | list[Finding]:
-    part = row.part or (own.part if own is not None else wishes.part)
+def _change(own: Row | None, foreign: Content, row: Row, assumed: ImportDefaults) -> ElementChange | list[Finding]:
+    part = row.part or (own.part if own is not None else assumed.part)
     if part is None:
         hint = "give --as stakeholder or --as system"
-        return [_at(foreign, row, "id", "part", f"it is not said what the new element {row.id!r} is", hint)]
+        return [_at(foreign, row, "id", "part", f"the new element {row.id!r} has no part", hint)]
     if own is not None and own.part is not part:
         here = own.part.value if own.part is not None else ""
         return [_at(foreign, row, "id", "part", f"{row.id!r} is of part {here!r} in the project, not {part.value!r}")]
     names = {attribute.name for attribute in ATTRIBUTES[part]}
-    base: Mapping[str, str] = own.cells if own is not None else _for_new(wishes, names)
+    base: Mapping[str, str] = own.cells if own is not None else _for_new(assumed, names)
     stated = {name: cell for name, cell in row.cells.items() if name in names}
     if own is None:
         stated = {name: cell for name, cell in stated.items() if cell.strip() or name not in base}
@@ -175,8 +174,8 @@ def _change(own: Row | None, foreign: Content, row: Row, wishes: Wishes) -> Elem
     )
 
 
-def _for_new(wishes: Wishes, names: set[str]) -> dict[str, str]:
-    return {name: value for name, value in wishes.defaults.items() if name in names}
+def _for_new(assumed: ImportDefaults, names: set[str]) -> dict[str, str]:
+    return {name: value for name, value in assumed.defaults.items() if name in names}
 
 
 def _entry(part: Part, cells: Mapping[str, str], foreign: Content, row: Row) -> tuple[dict[str, Any], list[Finding]]:
@@ -205,14 +204,14 @@ def _differs(attribute: Attribute, old: str, new: str) -> bool:
 
 
 def _dangling(known: set[str], foreign: Content) -> Iterator[Finding]:
-    """Ids that a file names and nobody has; measures are checked when the result is loaded."""
+    """Unknown ids that a file names; measures are checked when the result is loaded."""
     named = [each for attributes in ATTRIBUTES.values() for each in attributes if each.holds_ids]
     names = {each.name for each in named if each.name != "measure"}
     for row in foreign.rows:
         for name in sorted(names & row.cells.keys()):
             for other in ids_in(row.cells[name]):
                 if other not in known:
-                    message = f"{row.id}: {name}: there is no element {shown(other)}"
+                    message = f"{row.id}: {name}: unknown element {shown(other)}"
                     yield _at(foreign, row, name, "unknown-id", message, "correct the id, or add the element")
 
 

@@ -1,4 +1,4 @@
-"""Content of a project or of a file of another tool, in one shape, so that they can be compared."""
+"""Content of a project or of a file of another tool, in a common form for comparison."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ class Row:
     """One element of a file.
 
     Attributes:
-        part: What it is; None where the file does not say.
-        cells: Its attributes as texts. What the file does not speak of is not among them.
-        line: The line, or the row of a sheet, that it begins in.
-        columns: The column of each attribute, where there are columns.
-        file: The file that it stands in, where the content is of several.
+        part: Its part; None if the file does not state it.
+        cells: Its attributes as texts; attributes that the file does not state are absent.
+        line: Its first line, or its row of a sheet.
+        columns: The column of each attribute, in a table.
+        file: Its file, if the content is of several.
     """
 
     part: Part | None
@@ -45,13 +45,13 @@ class Row:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Content:
-    """Elements as a file says them.
+    """Elements of a file.
 
     Attributes: rows: The elements, in the file's order.
         measures: Id and definition of each measure.
-        whole: Parts of which the file has every element, so that one that it lacks is gone.
-        notes: What of the file is not taken over, since there is no place for it here.
-        losses: What of the elements is not taken over, though it may change what they mean.
+        whole: Parts of which the file has every element, so that a missing one was removed.
+        notes: Content of the file that is not imported, since it has no counterpart here.
+        losses: Content of elements that is not imported, though it may change their meaning.
         file: The file's name.
     """
 
@@ -83,18 +83,18 @@ def content_of(requirements: RequirementSet, measures: Mapping[str, str] | None 
 
 
 def full_entry(part: Part, entry: Mapping[str, Any]) -> dict[str, Any]:
-    """A sound entry of a YAML file with every key, also those that it leaves open."""
+    """A valid entry of a YAML file completed with all keys."""
     element, _ = validated(entry, MODELS[part])
     return {} if element is None else as_written(element, entry)
 
 
 def as_written(element: Element, entry: Mapping[str, Any], *, exclude_defaults: bool = False) -> dict[str, Any]:
-    """The entry of a YAML file for an element that was read from another form of it.
+    """The entry of a YAML file for an element that was read from another form.
 
     Args:
         element: The element.
-        entry: The entry that it was read from; a threshold is written as it is there.
-        exclude_defaults: Leave out the keys that have their default.
+        entry: The entry that it was read from, which determines the notation of a threshold.
+        exclude_defaults: True to omit keys that have their default.
     """
     keys: dict[str, Any] = TypeAdapter(type(element)).dump_python(
         element, mode="json", exclude_defaults=exclude_defaults

@@ -1,4 +1,4 @@
-"""Files of other tools, read within a bound."""
+"""Reading of files of other tools, with a bound of their size."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rgss.findings import Finding, Severity
 
 LARGEST_FILE_BYTES = 64 * 1024 * 1024
 LARGEST_REQIF_BYTES = 128 * 1024 * 1024
-"""Thirty thousand of our requirements of 4.3 KiB each; the reader takes some 13 bytes of memory a byte."""
+"""Bytes: thirty thousand requirements of 4.3 KiB each; the reader needs some 13 bytes of memory for each byte."""
 
 
 def problem(
@@ -29,7 +29,7 @@ def problem(
     Args:
         file: Its name.
         rule: The broken rule, without ``exchange.``.
-        message: What is wrong.
+        message: The problem.
         line: The line, or the row of a sheet.
         column: The column.
         hint: How to resolve it.
@@ -41,14 +41,14 @@ def problem(
         column=column,
         rule=f"exchange.{rule}",
         severity=severity,
-        # It may show what the file holds, which must not steer a terminal.
+        # It may quote content of the file, whose control characters are escaped.
         message="".join(each if each.isprintable() else "\ufffd" for each in " ".join(message.split())),
         hint=hint,
     )
 
 
 def refusal_of(findings: Sequence[Finding]) -> DocumentError:
-    """Error with the findings of a file in the order of their positions; of very many only the first."""
+    """Error with the findings of a file in the order of their positions, limited in number."""
     first = sorted(findings)[:MOST_PROBLEMS]
     if len(findings) > MOST_PROBLEMS:
         message = f"more than {MOST_PROBLEMS} problems; the first {MOST_PROBLEMS} are shown"
@@ -61,10 +61,10 @@ def read_bytes(path: Path, *, limit: int = LARGEST_FILE_BYTES) -> bytes:
 
     Args:
         path: The file.
-        limit: The most bytes that it may have.
+        limit: The greatest size in bytes.
 
     Raises:
-        DocumentError: It is not there, cannot be read, or is too large.
+        DocumentError: It does not exist, cannot be read, or is too large.
     """
     try:
         if path.is_dir():

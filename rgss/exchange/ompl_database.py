@@ -1,9 +1,9 @@
-"""Planning runs as a database of OMPL's own benchmarking, for its tools that compare planners.
+"""Planning runs as a benchmark database of OMPL, for its tools that compare planners.
 
 The tables are those that ``ompl_benchmark_statistics`` makes from the logs of OMPL's
 ``Benchmark`` class: an experiment is a problem, a planner configuration is a planner with its
-settings, a run is one search. Properties that we know and OMPL does not name are columns of
-their own, which the tools plot like any other.
+settings, a run is one search. Properties that OMPL does not define are additional columns,
+which the tools plot like any other.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ STATUSES = (
     "Abort",
     "Infeasible",
 )
-"""The statuses of a planner in OMPL's order and words."""
+"""Names of the planner statuses of OMPL, in its order."""
 
 _STATUS_OF: Mapping[PlanOutcome, int] = MappingProxyType(
     {
@@ -66,7 +66,7 @@ _TABLES = (
 def write_ompl_database(
     path: Path, runs: Sequence[PlanningRun], *, name: str, seed: int, version: str, setup: Mapping[str, str]
 ) -> None:
-    """Write planning runs as a benchmark database; a file that is there is replaced as a whole.
+    """Write planning runs as a benchmark database; an existing file is replaced atomically.
 
     The same runs give the same bytes. No date and no host are written: planning time is that of
     the planning clock, which does not depend on either.
@@ -74,10 +74,10 @@ def write_ompl_database(
     Args:
         path: The file to write.
         runs: The runs, in the order of seeds for each problem and planner.
-        name: Name of the study, put before the name of each problem.
+        name: Name of the study, a prefix of the name of each problem.
         seed: The study's first seed.
         version: Version of OMPL that planned.
-        setup: What was the same for all runs, by name.
+        setup: Settings that all runs share, by name.
 
     Raises:
         EvidenceError: There are no runs, or the file cannot be written.

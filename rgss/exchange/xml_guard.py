@@ -13,20 +13,20 @@ MOST_ELEMENTS = 4_000_000
 
 
 class _RefusedError(Exception):
-    """The XML has what is refused."""
+    """The XML has a refused construct."""
 
 
 def require_plain_xml(content: bytes, file: str) -> None:
     """Require well-formed XML in UTF-8 without document type, entities and deep nesting.
 
-    Nothing is expanded, fetched or built on the way.
+    Nothing is expanded, fetched or built.
 
     Args:
         content: The whole file.
         file: Its name in messages.
 
     Raises:
-        DocumentError: It is not.
+        DocumentError: It violates one of these conditions.
     """
     parser = expat.ParserCreate()
     depth = count = 0

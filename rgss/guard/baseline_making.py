@@ -26,31 +26,31 @@ from rgss.trials import PHASE_METRICS
 
 
 def baseline_name(label: str) -> str:
-    """The baseline's file of a study, beside it."""
+    """File name of the baseline of a study, in the same folder."""
     return Path(label).with_suffix(BASELINE_SUFFIX).as_posix()
 
 
 def make_baseline(
     project: Project, store: EvidenceStore, run_trials: RunTrials, *, before: Baseline | None, reason: str
 ) -> Baseline:
-    """Make a baseline of what there is now: every run at its cap, so that any look has its pairs.
+    """Make a baseline of the present state: every run at its cap, so that each look has its pairs.
 
     Args:
         project: The project with its study.
         store: The evidence.
-        run_trials: Runs the trials that the store has not.
-        before: The baseline that is replaced, whose history goes on; None if it is the first.
-        reason: Why, in one line.
+        run_trials: Function that runs missing trials.
+        before: The replaced baseline, whose history is continued; None if it is the first.
+        reason: The reason, in one line.
 
     Raises:
-        DefinitionError: The study guards nothing, there is no reason, or a phase that is named
-            observes nothing.
+        DefinitionError: The study guards nothing, there is no reason, or a named phase observes
+            nothing.
         EvidenceError: A trial could not be run.
     """
     guard = guard_of(project)
     words = one_line_reason(reason)
     if not words:
-        raise DefinitionError("--update needs a reason", hint="say with --reason why the numbers may move")
+        raise DefinitionError("--update needs a reason", hint="state with --reason why the numbers change")
     watched = watched_trials(project, guard)
     records = Records(store, run_trials)
     records.fetch([(trials, trials.run.cap) for trials in watched])

@@ -56,16 +56,16 @@ def compare_with_baseline(
     on_look: Callable[[int, int], None] | None = None,
     accepted: str = "",
 ) -> RegressionReport:
-    """Compare what there is now with the baseline, with more seeds while something is inconclusive.
+    """Compare the present state with the baseline, with more seeds while a comparison is inconclusive.
 
     Args:
         project: The project with its study.
         store: The evidence.
-        run_trials: Runs the trials that the store has not.
+        run_trials: Function that runs missing trials.
         baseline: The baseline.
         label: The name of its file.
-        on_look: Callback before each look, with its number and how many comparisons are open.
-        accepted: Why changed behaviour is accepted in this run; empty if it is not.
+        on_look: Callback before each look, with its number and the number of open comparisons.
+        accepted: Reason why changed behaviour is accepted in this run; empty if it is not.
 
     Raises:
         DefinitionError: The study guards nothing, the baseline is of another study, or the reason is too long.
@@ -83,7 +83,7 @@ def compare_with_baseline(
 
 
 class _Comparing:
-    """One comparison while it runs."""
+    """State of a running comparison."""
 
     def __init__(
         self, project: Project, guard: RegressionGuard, records: Records, baseline: Baseline, label: str
@@ -178,7 +178,7 @@ class _Comparing:
         return {int(variant): dict(zip(before.seeds, row, strict=True)) for variant, row in rows.items()}
 
     def _powers(self) -> dict[Subject, Power]:
-        """The power of each comparison, were all seeds of the baseline compared."""
+        """Power of each comparison with all seeds of the baseline."""
         candidates = []
         for trials in self._watched:
             if trials.run.id not in self._baseline.runs:
@@ -201,7 +201,7 @@ class _Comparing:
         return powers(candidates, seeds_at, error_rate=self._guard.error_rate)
 
     def _unguarded(self) -> list[Failing]:
-        """Metrics of one side alone: named by the study, or kept by the baseline."""
+        """Metrics that only the study or only the baseline has."""
         failing = []
         for trials in self._watched:
             before = self._baseline.runs.get(trials.run.id)
@@ -232,7 +232,7 @@ class _Comparing:
         if self._baseline.has_values:
             return []
         text = "the baseline was written by an earlier rgss and lacks the values of inputs, so that changes of them "
-        return [f"{text}are not named; write it anew with 'rgss regress --update --reason TEXT'"]
+        return [f"{text}are not named; rewrite it with 'rgss regress --update --reason TEXT'"]
 
     def _behaviour(self, inputs: Sequence[InputChange]) -> Behaviour:
         changed: list[ChangedTrial] = []
@@ -246,7 +246,7 @@ class _Comparing:
                     trials.run.id, before, fingerprints_of(records, self._baseline), trials.seeds(count), self._phases
                 )
                 compared += sum(len(set(row) & set(before.seeds)) for row in records.values())
-        # A file may have changed where no trial reads it. A baseline without values cannot show that.
+        # A file may have changed in parts that no trial reads, which a baseline without values cannot show.
         harmless = {InputKind.MACHINE, *((InputKind.FILE,) if self._baseline.has_values else ())}
         machines = [f"{one.then} → {one.now}" for one in inputs if one.kind is InputKind.MACHINE]
         only_machine = bool(machines) and all(one.kind in harmless for one in inputs)

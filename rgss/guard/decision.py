@@ -21,10 +21,10 @@ from rgss.tradeoff.programs import enumerate_alternatives, single_values
 from rgss.tradeoff.robustness import common_replicates, noisy_outcomes, pareto_front
 
 RESAMPLES = 1_000
-"""So often the seeds are drawn anew, where there are too many distinct draws to look at each."""
+"""Number of resamples of the seeds, if there are too many distinct ones to enumerate."""
 
 VERDICT_RESAMPLES = 300
-"""The same for verdicts, each of which needs the intervals of all measures."""
+"""Number of resamples for verdicts, each of which needs the intervals of all measures."""
 
 _TIE = 1e-9
 
@@ -45,7 +45,7 @@ def measured_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialR
     for variant in sorted(trials.variants, key=lambda one: one.id):
         rows = [record for _, record in sorted(records[variant.id].items())]
         if len(rows) < number:
-            raise EvidenceError(f"trials of variant {variant.id} have no record", hint="see what failed")
+            raise EvidenceError(f"trials of variant {variant.id} have no record", hint="see which trials failed")
         estimates, verdicts = _judged(project, variant, rows)
         measured.append(
             VariantMeasures(
@@ -92,19 +92,19 @@ def decision_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialR
 
 
 def p_values(project: Project, before: DecisionState, now: DecisionState) -> dict[str, float]:
-    """Probability that what moved in the decision moved by the luck of the seeds.
+    """P-values of the changes in the decision under the noise of the seeds.
 
-    A verdict rests on its measure of its variant, a choice and a place on the front on every measure
-    of every variant. Measures are compared with those of the baseline, paired by seed.
+    A verdict depends on its measure of its variant, the choice and the front on every measure of
+    every variant. Measures are compared with those of the baseline, paired by seed.
 
     Args:
         project: The study.
-        before: The decision as it was.
-        now: The decision as it is.
+        before: The former decision.
+        now: The present decision.
 
     Returns:
-        P-values, adjusted for there being many, by ``chosen``, ``pareto`` and ``verdict N REQUIREMENT``; none if
-        there are too few seeds to tell.
+        P-values, adjusted for multiplicity, by ``chosen``, ``pareto`` and ``verdict N REQUIREMENT``; none if
+        there are too few seeds.
     """
     differences: dict[str, list[float]] = {}
     for variant in before.measures.keys() & now.measures.keys():
@@ -138,21 +138,21 @@ def explained_by_noise(
     before: DecisionState,
     now: DecisionState,
 ) -> dict[str, float]:
-    """Probability of the former state of each part of the decision that moved, over the noise of the seeds.
+    """Probability of the former state of each changed part of the decision, over the noise of the seeds.
 
-    The seeds are drawn anew with replacement, the same for all variants, and it is decided and
-    judged again. A former choice also counts where it comes within the study's practical margin of
+    The seeds are resampled with replacement, the same for all variants, and the decision and the
+    verdicts are made again. A former choice also counts if it is within the study's practical margin of
     the best.
 
     Args:
         trials: The run.
         records: The record of each of its trials, by variant and seed.
-        before: The decision as it was.
-        now: The decision as it is.
+        before: The former decision.
+        now: The present decision.
 
     Returns:
-        Probabilities by ``chosen`` and ``pareto N``, without them where the study does not choose
-        by a weighted value; by ``verdict N REQUIREMENT``; none where there is no noise to draw from.
+        Probabilities by ``chosen`` and ``pareto N``, which are absent if the study does not choose by a
+        weighted value, and by ``verdict N REQUIREMENT``; none if there is no noise.
     """
     return {
         **_choice_explained(trials, records, before, now),
@@ -236,7 +236,7 @@ def _verdicts_explained(
 def _judged(
     project: Project, variant: DesignVariant, records: Sequence[TrialRecord]
 ) -> tuple[dict[str, Estimate], dict[str, Verdict]]:
-    """The estimates of a variant's measures by some trials, and the verdict on each criterion."""
+    """Estimates of a variant's measures from some trials, and the verdict on each criterion."""
     estimates = evaluate(
         project.measures,
         fixed=sources(variant),
@@ -247,6 +247,6 @@ def _judged(
     for requirement in requirements_with_criteria(project):
         if requirement.criterion is not None:
             verdict = judge(requirement.criterion, estimates[requirement.criterion.measure])
-            # A measure that no trial knows a value of leaves the question open.
+            # A measure without a value in any trial gives no verdict.
             verdicts[requirement.id] = Verdict.INCONCLUSIVE if verdict is Verdict.NOT_RUN else verdict
     return estimates, verdicts

@@ -1,4 +1,4 @@
-"""The designs that a guard watches, and what is wrong with how the study names them."""
+"""Designs that a guard watches, with findings on their names in the study."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ def watched_designs(project: Project, run: WatchedRun) -> tuple[DesignVariant, .
         run: One of the runs that its study guards.
 
     Raises:
-        DefinitionError: It names none.
+        DefinitionError: It names no design.
     """
     return picked(project.designs, [run.variants], option=f"variants of run {run.id}")
 
 
 def guard_findings(project: Project) -> tuple[Finding, ...]:
-    """Find runs that name no design, at their place in the study.
+    """Findings on runs that name no design.
 
-    They stop the guard alone: who tries other designs need not mend what is guarded first.
+    They stop only the guard, so that other designs can be tried without correcting its runs first.
 
     Args:
         project: The project, whose study may guard nothing.

@@ -1,4 +1,4 @@
-"""Inputs of the watched trials: their values, what made them, and the numbers in the code."""
+"""Inputs of the watched trials: values, provenance, and numeric constants of the code."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from rgss.sweep import values_by_name
 from rgss.trials.code import code_of_trials, versions
 
 BASELINE_SUFFIX = ".baseline.json"
-"""What a study's file has in place of its own ending in the name of its baseline."""
+"""Suffix of a baseline, which replaces that of the study's file."""
 
 _CODE = "rgss-"
 _COMPARED_ELSEWHERE = frozenset({"inputs", "versions", "inputs_digest", "files", "revision", "machine"})
 
 
 def inputs_of_trials(watched: Iterable[WatchedTrials]) -> Inputs:
-    """The values of every input of every watched trial but its code, by run, variant and dotted name."""
+    """Values of all inputs of the watched trials except code, by run, variant and dotted name."""
     return {
         trials.run.id: {
             spec.variant: values_by_name(
@@ -37,7 +37,7 @@ def inputs_of_trials(watched: Iterable[WatchedTrials]) -> Inputs:
 
 
 def shared_inputs(inputs: Inputs) -> dict[str, str]:
-    """The inputs that have one value in all trials."""
+    """The inputs with the same value in all trials."""
     every = [values for variants in inputs.values() for values in variants.values()]
     if not every:
         return {}
@@ -49,14 +49,14 @@ def shared_inputs(inputs: Inputs) -> dict[str, str]:
 
 
 def origin_of_trials(project: Project, provenances: Sequence[Provenance]) -> BaselineOrigin:
-    """Origin of the watched trials: by their provenance, or by what is installed where it says nothing.
+    """Origin of the watched trials: from their provenance, or from the installed versions where that has none.
 
-    Every field of a provenance counts that is not compared in another way, so that what is added to it later
-    is guarded, too.
+    Every field of a provenance counts that is not compared in another way, so that later additions are
+    guarded too.
 
     Args:
         project: The project.
-        provenances: Those of the trials.
+        provenances: The provenances of the trials.
     """
     installed = versions()
     engines = {name: version for name, version in installed.items() if not name.startswith(_CODE)}
@@ -75,12 +75,12 @@ def origin_of_trials(project: Project, provenances: Sequence[Provenance]) -> Bas
 
 
 def constants_of(modules: Iterable[str]) -> dict[str, str]:
-    """Every number that is given a name in a module or in a class of it, as text, by its dotted name.
+    """Named numeric constants of modules and their classes, as text, by dotted name.
 
-    The digest of a module says that it changed; these say which gain or threshold in it.
+    The digest of a module shows that it changed; these show which gain or threshold in it.
 
     Args:
-        modules: Names of modules; those whose source is not there are left out.
+        modules: Names of modules; those without source are omitted.
     """
     found: dict[str, str] = {}
     for module in sorted(modules):
@@ -113,7 +113,7 @@ _ARITHMETIC = (ast.Tuple, ast.List, ast.BinOp, ast.UnaryOp, ast.operator, ast.un
 
 
 def _engines_of(provenances: Sequence[Provenance]) -> dict[str, str]:
-    """Versions and every further field of the provenances; several values of one are joined."""
+    """Versions and further fields of the provenances; several values of a field are joined."""
     said: dict[str, list[str]] = {}
     for provenance in provenances:
         named = {name: value for name, value in provenance.versions.items() if not name.startswith(_CODE)}

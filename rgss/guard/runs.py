@@ -1,4 +1,4 @@
-"""The trials that a guard watches: which they are, their records, and what those say."""
+"""Trials that a guard watches, with their records and metrics."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rgss.sweep import key_of
 from rgss.trials.pieces import TrialSpec
 
 RunTrials = Callable[[Sequence[TrialSpec]], None]
-"""Runs the trials that the store has not, and returns when their records are in it."""
+"""Function that runs missing trials, and returns when their records are stored."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,7 +23,7 @@ class WatchedTrials:
     """A run with its project and variants.
 
     Attributes:
-        run: What the study says of it.
+        run: Its definition in the study.
         project: The project at the run's fidelity.
         variants: Its variants.
     """
@@ -51,11 +51,11 @@ class Records:
     """The records of watched trials, each read once."""
 
     def __init__(self, store: EvidenceStore, run_trials: RunTrials) -> None:
-        """Begin with none.
+        """Create an empty collection.
 
         Args:
             store: The evidence.
-            run_trials: Runs what the store has not.
+            run_trials: Function that runs missing trials.
         """
         self._store = store
         self._run_trials = run_trials
@@ -66,7 +66,7 @@ class Records:
         """Run and read the trials of some runs.
 
         Args:
-            wanted: Runs, and how many of their seeds.
+            wanted: Runs, each with the number of seeds.
 
         Raises:
             EvidenceError: The store is damaged.
@@ -77,7 +77,7 @@ class Records:
             for spec in trials.specs(count)
             if (spec.variant, spec.seed) not in self._found.get(trials.run.id, {})
         }
-        # Two runs of one fidelity may share trials, which are then run once and read for both.
+        # Runs of the same fidelity may share trials, which are run once and read for both.
         shared = [(trials.run.id, spec, key_of(spec)) for trials, count in wanted for spec in trials.specs(count)]
         self._run_trials([spec for _, spec in specs.values()])
         records = self._store.records(list(specs))
@@ -119,7 +119,7 @@ def guard_of(project: Project) -> RegressionGuard:
     if project.study.regression is None:
         raise DefinitionError(
             f"{project.study.label} has no section 'regression'",
-            hint="say in it which metrics are guarded; see docs/regression.md",
+            hint="name the guarded metrics in it; see docs/regression.md",
         )
     return project.study.regression
 
@@ -160,8 +160,8 @@ def fingerprints_of(
 
     Args:
         records: The records.
-        baseline: The baseline with whose fingerprints they are compared: metrics that records have only since
-            then do not count. None if all count.
+        baseline: The baseline whose fingerprints they are compared with: metrics that records have only since
+            then are excluded. None to include all.
     """
     metrics = None if baseline is None else baseline.record
     phase_metrics = None if baseline is None or not baseline.phase_record else baseline.phase_record
@@ -174,7 +174,7 @@ def fingerprints_of(
 
 
 def subjects_of(guard: RegressionGuard, run: str) -> Iterable[tuple[GuardedMetric, str]]:
-    """The metrics of a run with each phase in which they may be compared."""
+    """The metrics of a run with the phases in which they may be compared."""
     for metric in guard.metrics:
         if run in metric.runs:
             for phase in metric.phases:

@@ -10,14 +10,14 @@ LONGEST_REASON = 500
 
 
 def one_line_reason(text: str) -> str:
-    """A reason in one line.
+    """A reason as one line, validated.
 
     Raises:
         DefinitionError: It is too long.
     """
     words = " ".join(text.split())
     if len(words) > LONGEST_REASON:
-        raise DefinitionError(f"the reason has {len(words)} characters", hint=f"say it in {LONGEST_REASON}")
+        raise DefinitionError(f"the reason has {len(words)} characters", hint=f"use at most {LONGEST_REASON}")
     return words
 
 
@@ -27,7 +27,7 @@ def units_of(guard: RegressionGuard) -> dict[str, str]:
 
 
 def record_schema(project: Project) -> dict[str, str]:
-    """Unit, and length of a row, of each metric that a record of a project's study may have.
+    """Unit and row length of each metric that a record of a project's study may have.
 
     Args:
         project: The project with its study.

@@ -11,7 +11,7 @@ from rgss.reports.study import comparison_rows, data_address, entry_at, entry_te
 from rgss.reports.study_page import TrialPictures, chosen_picture
 
 MOST_PAGES = 5
-"""Printed pages at most, A4 in landscape."""
+"""Most printed pages, A4 in landscape."""
 
 _MOST_LINES = 5
 _MOST_ROWS = 10
@@ -29,9 +29,9 @@ def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictur
     Lists are cut to what a page holds and say so; the whole report has the rest.
 
     Args:
-        document: What the report shows, as `rgss.reports.study.document.report_document` gives it.
-        pictures: Pictures of the trials that are worth looking at.
-        tornado: The picture of the sensitivity, as `rgss.reports.decision.tornado_svg` draws it.
+        document: The report's document, from `rgss.reports.study.document.report_document`.
+        pictures: Pictures of the notable trials.
+        tornado: The picture of the sensitivity, from `rgss.reports.decision.tornado_svg`.
 
     Raises:
         DefinitionError: The package ``jinja2`` is not installed.
@@ -96,7 +96,7 @@ def _open_lines(glance: Mapping[str, Any]) -> list[str]:
 
 
 def _cut(lines: Sequence[str], longest: int = _LONGEST) -> list[str]:
-    """As many lines as a page holds, each of a length that it holds, and how many more there are."""
+    """The lines that fit a page, each shortened to its width, and the number of the others."""
     # A single line more takes no more room than the words that there is one.
     fitting = len(lines) if len(lines) == _MOST_LINES + 1 else _MOST_LINES
     shown = [_short(line, longest) for line in lines[:fitting]]
@@ -110,7 +110,7 @@ def _by_effect(rows: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
 
 
 def _more(whole: Sequence[Any], shown: int, what: str) -> str:
-    """How many were left out, in words; empty if none was."""
+    """Sentence on the number of omitted rows; empty if there are none."""
     left = len(whole) - shown
     return f"{left} more {what} in the whole report." if left > 0 else ""
 
@@ -149,7 +149,7 @@ def _figure(column: Any, place: int, unit: str) -> str:
 
 
 def _failures(trials: Mapping[str, Any], ids: Sequence[int]) -> list[list[str]]:
-    """What ended trials, the most frequent first: failure, phase, trials, where it was first."""
+    """Failures of trials, the most frequent first: failure, phase, number of trials, first trial."""
 
     def at(name: str, trial: int) -> Any:
         return entry_at(trials[name], trial)

@@ -13,7 +13,7 @@ _LEAST_P = 0.001
 
 
 def driver_lines(found: DriversOfFailures) -> Iterator[str]:
-    """A sentence for each kind of failure, and the table behind it.
+    """Lines with a sentence for each kind of failure, and the table behind it.
 
     Args:
         found: The drivers.
@@ -52,7 +52,7 @@ def driver_sentence(one: FailureDrivers) -> str:
 
 
 def driver_name(one: Driver) -> str:
-    """The draw and what of it counts, such as ``large perception.x`` or ``low workpiece.friction``.
+    """Name of a driver with its direction, such as ``large perception.x`` or ``low workpiece.friction``.
 
     Args:
         one: The driver.
@@ -99,7 +99,7 @@ def drivers_to_json(found: DriversOfFailures) -> dict[str, Any]:
 
 
 def case_lines(cases: Sequence[CaseSuccess]) -> Iterator[str]:
-    """The success of each case of the workload; nothing where there is none.
+    """Lines on the success of each case of the workload; empty if there is none.
 
     Args:
         cases: The cases.
@@ -120,7 +120,7 @@ def cases_to_json(cases: Sequence[CaseSuccess]) -> list[dict[str, Any]]:
 
 
 def _place(one: FailureDrivers) -> str:
-    """The failure and where it ended the trials, such as ``object dropped at carry``."""
+    """Failure with the phase of the task, such as ``object dropped at carry``."""
     return _words(one.failure.value) + (f" at {_words(one.stage)}" if one.stage else "")
 
 

@@ -1,4 +1,4 @@
-"""Self-contained HTML pages: templates that escape everything, own style, own script, no network."""
+"""Self-contained HTML pages: escaping templates, inline styles and scripts, no network."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ def render_page(
 ) -> str:
     """Fill a template of this package.
 
-    Whatever the context holds is escaped, except `markupsafe.Markup`. The page allows no script
-    but its own, by its digest, and no request at all unless it connects.
+    The context is escaped, except `markupsafe.Markup`. The content security policy allows only the
+    page's own scripts, by their digests, and no request unless `connects` is set.
 
     Args:
         template: Path of the template below ``templates``, such as ``trace/trace.html.j2``.
         styles: More style sheets, after that of every page.
         scripts: More scripts, which run in their order after that of every page.
-        held_scripts: Scripts that the page carries and runs when one of its scripts wants them.
-        images: Whether the page shows pictures, which it then carries itself.
-        connects: Whether the page asks the server that it came from for data; else it makes no request.
-        context: What it shows.
+        held_scripts: Scripts that the page contains and that its other scripts run on demand.
+        images: True if the page shows pictures, which it contains as data.
+        connects: True if the page requests data from its own server; otherwise it makes no request.
+        context: The variables of the template.
 
     Raises:
         DefinitionError: The package ``jinja2`` is not installed.
@@ -52,7 +52,7 @@ def render_page(
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
-        # Markup is a str too, and its methods keep it one; what reaches it is made visible where it is made.
+        # Markup is a str too, and its methods return Markup; invisible characters are escaped where it is made.
         finalize=lambda value: visible(value) if type(value) is str else value,
     )
     own = [_text("page/page.js"), *([_text("page/diagram_pages.js")] if context.get("drawings") else []), *scripts]
@@ -68,7 +68,7 @@ def render_page(
 
 
 def script_hash(script: str) -> str:
-    """A script's digest as a content security policy names it."""
+    """Digest of a script in the notation of a content security policy."""
     return "sha256-" + base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
 
 

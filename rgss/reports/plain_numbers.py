@@ -1,4 +1,4 @@
-"""Numbers of a report's JSON document: finite, and no longer than they are known."""
+"""Numbers of a report's JSON document: finite, and rounded to their significant digits."""
 
 from __future__ import annotations
 
@@ -7,20 +7,20 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 Plain = dict[str, Any]
-"""A part of a report's document: what `json.dumps` takes as it is, even with ``allow_nan=False``."""
+"""Part of a report's document, which `json.dumps` accepts even with ``allow_nan=False``."""
 
 SHOWN_DIGITS = 7
 """Digits of a quantity; a page shows four of them."""
 
 FEWER_DIGITS = 5
-"""Digits of measures that neither stakeholders nor weights look at, of which there are many."""
+"""Digits of the many measures that are neither weighted nor used by stakeholders."""
 
 WORTH_DIGITS = 12
-"""Digits of what a measure is worth, with which a page ranks."""
+"""Digits of the values of measures, by which a page ranks."""
 
 
 def plain_number(value: float | None, digits: int = SHOWN_DIGITS) -> float | int | None:
-    """A number with so many digits; None for what is unknown or has no end.
+    """Number with so many digits; None if it is unknown or infinite.
 
     Args:
         value: The number.
@@ -29,7 +29,7 @@ def plain_number(value: float | None, digits: int = SHOWN_DIGITS) -> float | int
     if value is None or not math.isfinite(value):
         return None
     rounded = float(f"{value:.{digits}g}")
-    # Without the ".0", which a table of 10,000 designs is full of.
+    # Integers are written without ".0", which saves space in a table of 10,000 designs.
     return int(rounded) if rounded.is_integer() and abs(rounded) < 1e15 else rounded
 
 
@@ -39,6 +39,6 @@ def plain_numbers(values: Iterable[float | None], digits: int = SHOWN_DIGITS) ->
 
 
 def condensed(values: Sequence[Any]) -> Any:
-    """A column whose values are all the same as this one value; the column otherwise."""
+    """The single value of a constant column; otherwise the column."""
     first = values[0] if len(values) else None
     return first if all(value == first for value in values) else list(values)

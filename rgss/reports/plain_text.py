@@ -10,7 +10,7 @@ from rgss.findings import printable
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TextTable:
-    """A table of texts without anything that steers a terminal.
+    """Table of texts without terminal control characters.
 
     Attributes:
         titles: The head of each column.
@@ -24,7 +24,7 @@ class TextTable:
 
 
 class TableLine(str):
-    """A line of an aligned table, which knows the table: whoever can do better may show that instead."""
+    """Line of an aligned table with a reference to the table, so that a terminal can lay it out itself."""
 
     __slots__ = ("is_first", "table")
 
@@ -38,7 +38,7 @@ class TableLine(str):
         Args:
             text: The line.
             table: The table.
-            is_first: Whether it is the table's first line.
+            is_first: True for the table's first line.
         """
         line = cls(text)
         line.table, line.is_first = table, is_first

@@ -22,7 +22,7 @@ _DOTS_PER_INCH = 110
 
 
 def write_response_plot(path: Path, recording: Recording, joint: str, servo: JointServo | None) -> None:
-    """Write the responses of a joint as a PNG or an SVG, by the name's ending.
+    """Write the responses of a joint as a PNG or an SVG, by the suffix of the name.
 
     Args:
         path: The file.

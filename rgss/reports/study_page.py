@@ -38,10 +38,10 @@ SCRIPTS = (
     "study/trials.js",
     "study/start.js",
 )
-"""The parts of the page's script, in their order; together they are one function of the document."""
+"""Parts of the page's script, in order; together they form one function of the document."""
 
 LARGEST_PLAIN = 2_000_000
-"""A longer document is packed."""
+"""Length in characters above which the document is compressed."""
 
 _SECTIONS = (
     ("glance", "At a glance"),
@@ -70,15 +70,15 @@ class TrialPictures:
     """Pictures of one trial.
 
     Attributes:
-        title: Which trial, and why it is looked at.
-        note: How it ended.
+        title: The trial, and why it is notable.
+        note: Its outcome.
         replay: The command that runs it again.
         filmstrip: A PNG of the ends of its states; empty if nothing moved.
         film: A WebM video; empty if nothing moved.
         player: Its replay in three dimensions; None if nothing moved.
-        variant: Which variant it is of; None if that does not matter.
+        variant: Id of its variant; None if it is irrelevant.
         still: A PNG of the carried object; empty without one.
-        failed: Whether the trial failed.
+        failed: True if the trial failed.
     """
 
     title: str
@@ -102,18 +102,18 @@ def study_report_to_html(
     pictures_notice: str = "",
     tornado: str = "",
 ) -> str:
-    """Write a study's report as one page, which makes no request and runs only what it carries.
+    """Write a study's report as one page, which makes no request and runs only its own scripts.
 
     The same arguments give the same bytes.
 
     Args:
-        document: What the report shows, as `rgss.reports.study.document.report_document` gives it.
+        document: The report's document, from `rgss.reports.study.document.report_document`.
         trace: The traceability of the same project.
-        drawings: Its diagrams, as `rgss.reports.diagrams.diagrams.drawings_for_page` gives them.
-        drawings_notice: What there is to say of the diagrams.
-        pictures: Pictures of the trials that are worth looking at.
-        pictures_notice: What there is to say of the pictures, such as why there are none.
-        tornado: The picture of the sensitivity, as `rgss.reports.decision.tornado_svg` draws it.
+        drawings: Its diagrams, from `rgss.reports.diagrams.diagrams.drawings_for_page`.
+        drawings_notice: A note on the diagrams; may be empty.
+        pictures: Pictures of the notable trials.
+        pictures_notice: A note on the pictures, such as why there are none.
+        tornado: The picture of the sensitivity, from `rgss.reports.decision.tornado_svg`.
 
     Raises:
         DefinitionError: The package ``jinja2`` or ``plotly`` is not installed.
@@ -137,7 +137,7 @@ def study_report_to_html(
             script + template_text("study/data.js"),
             *(map(template_text, REPLAY_SCRIPTS) if has_replays else ()),
         ],
-        # It takes a browser longer than all the rest, and is not needed until a plot comes into sight.
+        # Parsing it takes a browser longer than all the rest, and it is not needed before a plot is visible.
         held_scripts=[plotting_library(), *([rendering_library()] if has_replays else [])],
         images=True,
         title=f"Report of the study {document['study']}",
@@ -162,7 +162,7 @@ def study_report_to_html(
 
 
 def plotting_library() -> str:
-    """The script of Plotly, as its Python package carries it.
+    """The script of Plotly, from its Python package.
 
     Raises:
         DefinitionError: The package is not installed.
@@ -173,18 +173,18 @@ def plotting_library() -> str:
         raise DefinitionError(
             "a report needs the package plotly, which is not installed", hint="pip install plotly"
         ) from (error)
-    # Nothing in a script element may look like its end, not even a text in it.
+    # Nothing in a script element may look like its end tag, not even a string.
     return str(get_plotlyjs()).replace("</script", "<\\/script").replace("<!--", "<\\!--")
 
 
 def find_and_sort_library() -> str:
-    """MiniSearch and fast-sort as a page carries them; their licences are beside them in this package."""
+    """Script of MiniSearch and fast-sort; their licences are beside it in this package."""
     place = resources.files("rgss.reports").joinpath("bundles/find_and_sort/find_and_sort.min.js")
     return place.read_text(encoding="utf-8")
 
 
 def _refused(reasons: Mapping[str, str]) -> dict[str, list[str]]:
-    """Names of the analyses that do not apply, by the reason."""
+    """Names of the analyses that do not apply, grouped by reason."""
     names: dict[str, list[str]] = {}
     for name, reason in reasons.items():
         names.setdefault(reason, []).append(name)
@@ -192,7 +192,7 @@ def _refused(reasons: Mapping[str, str]) -> dict[str, list[str]]:
 
 
 def chosen_picture(chosen: int | None, pictures: Sequence[TrialPictures]) -> str:
-    """The address of the first picture of the chosen variant; empty without one.
+    """Data URL of the first picture of the chosen variant; empty without one.
 
     Args:
         chosen: The chosen variant.

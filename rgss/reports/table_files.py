@@ -18,7 +18,7 @@ _WIDE, _NARROW, _MARK, _LONG_HEAD = 60.0, 18.0, 5.0, 12
 
 
 def to_markdown(tables: Sequence[Table], *, title: str) -> str:
-    """Write tables as one Markdown document; what they hold is text, and never markup.
+    """Write tables as one Markdown document with escaped cells.
 
     Args:
         tables: The tables.
@@ -37,7 +37,7 @@ def to_markdown(tables: Sequence[Table], *, title: str) -> str:
 
 
 def to_csv(table: Table) -> str:
-    """Write a table as CSV (RFC 4180); a text that a spreadsheet might compute gets an apostrophe before it."""
+    """Write a table as CSV (RFC 4180); text that looks like a formula gets a leading apostrophe."""
     out = io.StringIO(newline="")
     writer = csv.writer(out, lineterminator="\r\n")
     writer.writerow([neutralised(printable(head)) for head in table.heads])
@@ -48,7 +48,7 @@ def to_csv(table: Table) -> str:
 def to_excel(tables: Sequence[Table]) -> bytes:
     """Write tables as an Excel file, one sheet each; the same tables give the same bytes.
 
-    Texts are cells of texts, also where they look like formulas; heads stay in view.
+    Texts are text cells, also if they look like formulas; the header row is frozen.
 
     Raises:
         DefinitionError: The package ``openpyxl`` is not installed.

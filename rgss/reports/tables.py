@@ -1,4 +1,4 @@
-"""Tables of plain cells, which every format of a report writes in its own way."""
+"""Tables of plain cells, independent of the output format."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ class Table:
         title: Its title.
         heads: The head of each column.
         rows: The cells of each row, as many as there are heads.
-        note: What a reader has to know of it; may be empty.
-        marks_from: Index of the first column of those that hold nothing but marks; None without any.
+        note: A note on it; may be empty.
+        marks_from: Index of the first of the columns that contain only marks; None without any.
     """
 
     name: str
@@ -33,7 +33,7 @@ class Table:
 
 
 def cell_text(cell: Cell) -> str:
-    """A cell as text; nothing for nothing, and every digit of a number."""
+    """Text of a cell with every digit of a number; empty for None."""
     return "" if cell is None else cell if isinstance(cell, str) else repr(cell)
 
 

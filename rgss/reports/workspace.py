@@ -1,4 +1,4 @@
-"""Picture of an arm's workspace: where its flange comes, from the side and from above."""
+"""Picture of an arm's workspace: positions of its flange, from the side and from above."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def draw_workspace(positions_m: NDArray[np.float64], path: Path, *, title: str) 
     Args:
         positions_m: Positions from the base, shape (k, 3).
         path: The picture, a .png or .svg file.
-        title: What is written above it.
+        title: The title of the picture.
 
     Raises:
         DefinitionError: The file is of another kind.

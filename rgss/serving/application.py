@@ -11,7 +11,7 @@ from rgss.serving.observer import StudyObserver
 from rgss.serving.replays import TrialReplays
 
 HOSTS = ("127.0.0.1", "localhost")
-"""Names by which a browser on this machine calls it; another name is that of a page that has been rebound to it."""
+"""Host names that a browser on this machine sends; another one indicates DNS rebinding."""
 
 _HEADERS = {
     "Cache-Control": "no-store",
@@ -31,9 +31,9 @@ def study_application(observer: StudyObserver, page: str, replays: TrialReplays)
     """The ASGI application.
 
     Args:
-        observer: Observes the study.
+        observer: The observer of the study.
         replays: Replays its trials.
-        page: The page, which names the digests of its scripts.
+        page: The page with the digests of its scripts.
     """
     from starlette.applications import Starlette
     from starlette.middleware import Middleware

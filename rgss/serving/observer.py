@@ -1,4 +1,4 @@
-"""Observation of a study in a thread of its own: read again only after a change, and only while somebody asks."""
+"""Observer of a study in its own thread, which reads again only after a change and only while a page polls."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from rgss.serving.replays import can_replay
 from rgss.studies import FOLDERS, Project
 
 _PAUSE_PER_WORK = 3.0
-"""Seconds of rest for each second of work, so that a sweep beside it keeps its cores."""
+"""Seconds of rest for each second of work, so that a concurrent sweep keeps its cores."""
 
 
 class StudyObserver:
@@ -28,7 +28,7 @@ class StudyObserver:
 
     Args:
         folder: The project's folder.
-        load: Reads the project; called again after a change of its files.
+        load: Function that reads the project; called again after a change of its files.
         evidence: The file of its evidence.
         label: Name of the evidence in messages.
     """
@@ -61,10 +61,10 @@ class StudyObserver:
         return self._load() if found is None else found
 
     def state(self, *, seen: int = -1) -> dict[str, Any]:
-        """The last state that was read; another look is ordered, and not waited for.
+        """The last state that was read; requests an update without waiting for it.
 
         Args:
-            seen: The version that the caller has; of that one the study is left out.
+            seen: The version that the caller has; for the same version the study is omitted.
         """
         self._wanted.set()
         with self._lock:
@@ -93,7 +93,7 @@ class StudyObserver:
         except RgssError as error:
             problem = str(error)
         except (OSError, ValueError) as error:
-            # What is replaced while it is read; the next look reads it anew.
+            # A file was replaced while it was read; the next look reads it again.
             problem = f"The project cannot be read: {error}"
         clock = time.strftime("%H:%M:%S")
         with self._lock:

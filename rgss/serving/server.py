@@ -1,4 +1,4 @@
-"""Server on the loopback: its socket, and its end at a signal."""
+"""HTTP server on the loopback interface, which ends at a signal."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def require_server() -> None:
     """Make sure that the packages of the extra ``serve`` are installed.
 
     Raises:
-        DefinitionError: One is not.
+        DefinitionError: One is missing.
     """
     missing = [name for name in ("starlette", "uvicorn") if importlib.util.find_spec(name) is None]
     if missing:
@@ -60,7 +60,7 @@ def serve(application: Any, listening: socket.socket, *, ready: Callable[[], Non
     Args:
         application: The ASGI application.
         listening: A socket that takes connections, which is closed in the end.
-        ready: Called once a signal would end the server in good order.
+        ready: Called as soon as a signal would end the server cleanly.
     """
     import uvicorn
 

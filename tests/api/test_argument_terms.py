@@ -8,7 +8,7 @@ import re
 import pytest
 
 import rgss
-from rgss.api.argument_terms import TERMS, SpeaksOfArguments
+from rgss.api.argument_terms import TERMS, ErrorsNameArguments
 from rgss.errors import DefinitionError, DocumentError, EvidenceError
 from tests.fixtures.shipped_project import REPOSITORY
 
@@ -57,10 +57,10 @@ def test_a_study_that_is_not_there(swept):
 
 
 def test_an_error_keeps_its_type_and_its_data():
-    with pytest.raises(KeyError, match="sweep"), SpeaksOfArguments():
+    with pytest.raises(KeyError, match="sweep"), ErrorsNameArguments():
         raise KeyError("run 'rgss sweep' first")
     error = EvidenceError("one", hint="run 'rgss sweep' first")
-    with pytest.raises(EvidenceError) as caught, SpeaksOfArguments():
+    with pytest.raises(EvidenceError) as caught, ErrorsNameArguments():
         raise error
     assert caught.value is error
     assert error.hint == "call sweep() first"

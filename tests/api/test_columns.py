@@ -113,7 +113,7 @@ def test_pictures_of_a_trial_with_contact(gripped):
     width, height = gripped.filmstrip(width=200, height=150).size
     assert 800 < width < 1000 < 2 * width
     assert 300 < height < 600
-    with pytest.raises(DefinitionError, match="no picture is 0 by 300 pixels"):
+    with pytest.raises(DefinitionError, match="width and height must be from 1 to 2000 pixels, got 0 and 300"):
         gripped.filmstrip(width=0)
 
 
@@ -123,7 +123,7 @@ def test_there_is_nothing_to_see_without_contact(study):
         with pytest.raises(DefinitionError) as caught:
             ask()
         assert str(caught.value) == (
-            "a trial of kinematic fidelity has no course and no pictures (ask for trial(..., fidelity='contact'))"
+            "a trial of kinematic fidelity has no course and no pictures (call trial(..., fidelity='contact'))"
         )
 
 
@@ -214,4 +214,4 @@ def test_a_program_without_weights_says_so(changeable):
         with pytest.raises(TradeoffError, match="the weights were not analysed: ") as caught:
             ask()
         assert isinstance(caught.value, RgssError)
-        assert caught.value.hint == "robustness().refused says what was not"
+        assert caught.value.hint == "robustness().refused has the reasons"

@@ -174,7 +174,7 @@ def test_suppositions_are_drawn(study):
             lambda plot: plot.measure("t_p", by="colour"),
             r"by: 'colour' is not a factor \(factors: gripper_mass, fingers",
         ),
-        (lambda plot: plot.timeline(99), r"variant: there is no variant 99 \(name a variant of the study\)"),
+        (lambda plot: plot.timeline(99), r"variant: unknown variant 99 \(name a variant of the study\)"),
     ],
 )
 def test_what_is_not_there(plot, ask, message):

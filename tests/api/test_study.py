@@ -83,9 +83,7 @@ def test_a_study_file_that_cannot_be_meant(empty, tmp_path, monkeypatch):
     assert caught.value.hint == "a project has requirements/, designs/, scenes/, studies/"
     with pytest.raises(DefinitionError) as caught:
         rgss.load_study(empty / "studies/pick_place.yaml", "studies/other.yaml")
-    assert caught.value.message == (
-        f"'{empty}/studies/pick_place.yaml' is a study already, and 'studies/other.yaml' another"
-    )
+    assert caught.value.message == (f"'{empty}/studies/pick_place.yaml' and 'studies/other.yaml' are both studies")
     with pytest.raises(DocumentError, match=r"studies/none\.yaml:1:1: error: no such file"):
         rgss.load_study(empty / "studies/none.yaml")
     with pytest.raises(DefinitionError, match="lies in no project"):
@@ -230,13 +228,13 @@ def test_lost_trials_are_an_error(empty, monkeypatch):
     with pytest.raises(SimulationError) as caught:
         rgss.load_study(empty, **ASKED).sweep(jobs=0)
     assert str(caught.value) == (
-        f"2 trials could not be made; first, a plan: {failure.kind.value}: killed by signal 9 "
-        "(the others are kept; sweep again to try these once more)"
+        f"2 trials could not be run; first failure: plan: {failure.kind.value}: killed by signal 9 "
+        "(the others are stored; sweep again to retry these)"
     )
 
 
 @pytest.mark.parametrize(
-    ("guarded", "said"), [(False, "needs 'if __name__ == \"__main__\":'; or give jobs=0"), (True, "")]
+    ("guarded", "said"), [(False, "needs 'if __name__ == \"__main__\":'; or pass jobs=0"), (True, "")]
 )
 def test_a_script_that_sweeps_with_processes(empty, guarded, said):
     sweep = "rgss.load_study(fidelity='kinematic', replicates=1).sweep(4, jobs=1)"
@@ -266,7 +264,10 @@ def test_a_script_that_sweeps_with_processes(empty, guarded, said):
         (lambda study: study.trial(1, "2"), "seed must be a whole number, got '2'"),
         (lambda study: study.trial(1, fidelity="real"), "unknown fidelity 'real'"),
         (lambda study: study.trial(1, rate_hz=1), "1 steps a second are out of range (give from 60 to 10000)"),
-        (lambda study: study.payload(1, friction=-0.1), "no coefficient of friction is -0.1 (give a number from 0 on)"),
+        (
+            lambda study: study.payload(1, friction=-0.1),
+            "friction must be a finite number of at least 0, got -0.1 (omit it for the friction of the gripper's file)",
+        ),
         (lambda study: study.payload(1, finger_force_n=-1.0), "the force of a finger"),
     ],
 )

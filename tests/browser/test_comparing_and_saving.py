@@ -52,7 +52,7 @@ def test_any_variants_are_compared_side_by_side(reader, page, study):
     reader.driver.find_element(By.ID, "compare-differing").click()
     assert len(reader.rows("#compare-table")) > len(rows)
     name(reader, "31, 999")
-    reader.until("return document.getElementById('compare-note').textContent === 'There is no variant 999 here.'")
+    reader.until("return document.getElementById('compare-note').textContent === 'Unknown variant 999.'")
     assert columns(reader) == ["31"]
     assert reader.complaints() == []
 

@@ -71,4 +71,4 @@ def test_an_interrupt_before_the_work_begins_is_one_line():
     os.kill(process.pid, signal.SIGINT)
     output, errors = process.communicate()
 
-    assert (process.returncode, output, errors) == (130, "", "rgss: interrupted; what was finished is kept\n")
+    assert (process.returncode, output, errors) == (130, "", "rgss: interrupted; finished trials are stored\n")

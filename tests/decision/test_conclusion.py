@@ -124,9 +124,9 @@ def with_rivals(made, *rivals: Rival):
 @pytest.mark.parametrize(
     ("replicates", "measure", "words"),
     [
-        (None, None, "no estimate differs, so that only a measure that tells them apart breaks the tie."),
-        (None, "t_e", "they differ most in t_e, and no number of replicates worth running parts them."),
-        (65, "t_e", "they differ most in t_e; about 65 replicates would part them."),
+        (None, None, "no estimate differs, so that only a measure in which they differ breaks the tie."),
+        (None, "t_e", "they differ most in t_e, and no affordable number of replicates separates them."),
+        (65, "t_e", "they differ most in t_e; about 65 replicates would separate them."),
     ],
 )
 def test_a_tie_says_what_could_break_it(made, replicates, measure, words):
@@ -147,7 +147,7 @@ def test_a_tie_by_feasibility_names_no_number_of_replicates(made):
         "it is ahead only where the choice misses a requirement: replicates that settle the open verdicts break the "
         "tie, and no difference of value does."
     )
-    assert "would part them" not in tie
+    assert "would separate them" not in tie
 
 
 def test_a_choice_without_ties_says_so(made):

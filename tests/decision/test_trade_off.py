@@ -312,5 +312,5 @@ class TestPortfolios:
             second,
             *rest,
         )
-        with pytest.raises(DefinitionError, match="variant 1 of b is another design than that of the other studies"):
+        with pytest.raises(DefinitionError, match="variant 1 of b must be the same design as in the other studies"):
             choose_portfolio(project, {"a": (project, measured), "b": (project, exchanged)})

@@ -9,7 +9,7 @@ import pytest
 
 from rgss.errors import DocumentError
 from rgss.exchange.applying import planned, written
-from rgss.exchange.comparison import Wishes, compare
+from rgss.exchange.comparison import ImportDefaults, compare
 from rgss.exchange.content import Content, content_of
 from rgss.requirements import load_requirements
 
@@ -145,14 +145,14 @@ class Project:
     def file(self, name: str) -> Path:
         return self.folder / "requirements" / name
 
-    def compare(self, foreign: Content, **wishes):
-        return compare(self.content, foreign, Wishes(**{"part": None, "defaults": {}, **wishes}))
+    def compare(self, foreign: Content, **assumed):
+        return compare(self.content, foreign, ImportDefaults(**{"part": None, "defaults": {}, **assumed}))
 
-    def plan(self, foreign: Content, *, remove: bool = True, **wishes):
-        return planned(self.folder, self.requirements, self.compare(foreign, **wishes), remove=remove)
+    def plan(self, foreign: Content, *, remove: bool = True, **assumed):
+        return planned(self.folder, self.requirements, self.compare(foreign, **assumed), remove=remove)
 
-    def apply(self, foreign: Content, *, remove: bool = True, **wishes) -> None:
-        written(self.folder, self.plan(foreign, remove=remove, **wishes))
+    def apply(self, foreign: Content, *, remove: bool = True, **assumed) -> None:
+        written(self.folder, self.plan(foreign, remove=remove, **assumed))
 
 
 @pytest.fixture

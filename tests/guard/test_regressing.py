@@ -281,13 +281,13 @@ def test_a_baseline_of_another_study(compared):
 
 def test_a_study_without_the_section(project_of, stores, runner):
     project, store = project_of(""), stores()
-    with pytest.raises(DefinitionError, match=r"studies/pick_place.yaml has no section 'regression' \(say in it which"):
+    with pytest.raises(DefinitionError, match=r"has no section 'regression' \(name the guarded metrics"):
         make_baseline(project, store, runner(store), before=None, reason=REASON)
 
 
 @pytest.mark.parametrize(
     ("reason", "said"),
-    [(" \n ", "--update needs a reason"), ("x" * 501, "the reason has 501 characters (say it in 500)")],
+    [(" \n ", "--update needs a reason"), ("x" * 501, "the reason has 501 characters (use at most 500)")],
 )
 def test_a_reason_that_is_none(project_of, stores, runner, reason, said):
     project, store = project_of(), stores()

@@ -93,7 +93,7 @@ def test_an_interrupted_sweep_stops_at_once_and_goes_on_later(folder, held_sweep
     output, errors = sweeping.process.communicate(timeout=PATIENCE_S)
 
     assert (sweeping.process.returncode, output) == (130, "")
-    assert errors == "rgss: interrupted; what was finished is kept\n"
+    assert errors == "rgss: interrupted; finished trials are stored\n"
     assert not any(is_running(pid) for pid in sweeping.held())
     kept = stored(evidence)
     assert kept < 6

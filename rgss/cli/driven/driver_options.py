@@ -12,7 +12,7 @@ _ONLY_WITH_DRIVER = ("address", "speed", "go", "recording", "gripper_output")
 
 
 def add_driver(parser: argparse.ArgumentParser) -> None:
-    """Add the driver and what only it needs."""
+    """Add the driver and its options."""
     group = parser.add_argument_group("run the planned motion on a robot (docs/hardware.md)")
     group.add_argument("--driver", choices=DRIVERS, help="the robot; a real one is only rehearsed without --go")
     group.add_argument("--address", metavar="HOST", help="name or IP address of a real robot's controller")
@@ -28,14 +28,14 @@ def add_driver(parser: argparse.ArgumentParser) -> None:
 
 
 def check_driver(options: argparse.Namespace, *, has_pictures: bool) -> None:
-    """Refuse options that do not belong together.
+    """Refuse options that exclude each other.
 
     Args:
         options: The options of the verb.
-        has_pictures: True if films or plots are ordered.
+        has_pictures: True if films or plots are requested.
 
     Raises:
-        DefinitionError: They do not.
+        DefinitionError: Options exclude each other, or one that is needed is missing.
     """
     if options.driver is None:
         for name in _ONLY_WITH_DRIVER:
@@ -43,9 +43,7 @@ def check_driver(options: argparse.Namespace, *, has_pictures: bool) -> None:
                 raise DefinitionError(f"--{name.replace('_', '-')} needs --driver", hint=f"one of {', '.join(DRIVERS)}")
         return
     if has_pictures:
-        raise DefinitionError(
-            "a run on a driver draws no pictures", hint="leave --driver away, or the options of pictures"
-        )
+        raise DefinitionError("a run on a driver draws no pictures", hint="omit --driver, or the options of pictures")
     if options.driver == "simulated":
         for name in ("address", "go"):
             if getattr(options, name) is not None:

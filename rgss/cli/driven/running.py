@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 
 def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
-    """Rehearse the task of a trial and, if that is meant, run it.
+    """Rehearse the task of a trial; run it on the simulated robot, or on a real one with ``--go``.
 
     Args:
         options: The options of the verb.
         spec: The trial.
 
     Returns:
-        0 if what was meant is complete, 130 if it was interrupted, 3 if it ended otherwise.
+        0 if the rehearsal or the run is complete, 130 if it was interrupted, 3 if it ended otherwise.
 
     Raises:
         DriverError: The task was refused, or the robot cannot be connected.
@@ -75,7 +75,7 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
 def _driver(
     options: argparse.Namespace, spec: TrialSpec, task: TimedTask, limits: RobotLimits
 ) -> tuple[Driver, StreamClock]:
-    """The driver that the options name, not connected, and the clock that it runs on."""
+    """The driver that the options name, not yet connected, and its clock."""
     from rgss.drivers import MonotonicClock, SimulatedDriver, UrDriver, UrSettings, XarmDriver
     from rgss.trials import cell_of, conditions_of, with_grasp_of
 

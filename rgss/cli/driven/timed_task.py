@@ -29,7 +29,7 @@ def timed_task(spec: TrialSpec, plan: TaskPlan, timing: TaskTiming) -> TimedTask
             state = GripperState.CLOSED
         elif isinstance(step, ReleaseStep):
             state = GripperState.OPEN
-        # What a check needs to see, a driver does not report.
+        # A driver does not report the quantities that a check observes.
         if not isinstance(step, CheckStep):
             segments.append(_segment(step, state, spec, plan, timing))
     return TimedTask(segments=tuple(segments))

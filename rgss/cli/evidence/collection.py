@@ -1,4 +1,4 @@
-"""Removal of what no study names from the evidence store."""
+"""Garbage collection of the evidence store: trials and pieces that no study names."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def collect(options: argparse.Namespace, store: EvidencePlace) -> int:
-    """Show what no study names, and remove it if `--apply` is given."""
+    """Show the trials and pieces that no study names; remove them if `--apply` is given."""
     from rgss.cli.main import CLEAN
     from rgss.cli.output import print_json
     from rgss.confirmation import confirmation_trials
@@ -52,9 +52,9 @@ def collect(options: argparse.Namespace, store: EvidencePlace) -> int:
         )
         return CLEAN
     if not garbage:
-        print("The studies name everything that is in the evidence; there is nothing to remove.")
+        print("The studies name everything that is stored; there is nothing to remove.")
         return CLEAN
-    print("No study of the project, as it and the code are now, names:")
+    print("With the present inputs and code, no study of the project names:")
     for line in _garbage_lines(garbage):
         print(f"  {line}")
     if not options.apply:
@@ -62,7 +62,7 @@ def collect(options: argparse.Namespace, store: EvidencePlace) -> int:
     elif shrunk:
         print(f"Removed; the file is {size_text(freed or 0)} smaller.")
     else:
-        print("Removed; the file keeps its size, for there is no space to write it anew, and uses it for what comes.")
+        print("Removed; the file keeps its size, since there is no space to rewrite it; later trials reuse the space.")
     return CLEAN
 
 

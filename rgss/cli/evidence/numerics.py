@@ -8,7 +8,7 @@ from typing import Any
 
 
 def computed_with(path: Path, label: str) -> list[dict[str, Any]]:
-    """The numerics of a store's trials, with their number and whether this machine computes so.
+    """Numeric environments of a store's trials, with the number of trials and whether this machine has the same.
 
     Args:
         path: The store, which is sound.
@@ -16,7 +16,7 @@ def computed_with(path: Path, label: str) -> list[dict[str, Any]]:
 
     Raises:
         EvidenceError: It cannot be read.
-        SimulationError: No process can be started to look at this machine's numerics.
+        SimulationError: No process can be started to determine this machine's numerics.
     """
     from rgss.evidence import EvidenceStore
     from rgss.evidence.records import numerics_difference

@@ -19,7 +19,7 @@ class EvidencePlace:
     Attributes:
         folder: The project's folder.
         path: The file of the store.
-        label: Its name as people see it.
+        label: Its name in messages.
     """
 
     folder: Path
@@ -55,5 +55,5 @@ def contents_and_studies(store: EvidencePlace) -> tuple[Contents, tuple[NamingSt
 
 
 def named_trials(studies: Iterable[NamingStudy], *, strict: bool) -> set[str]:
-    """Keys of the trials that studies name; with `strict`, only as their files say."""
+    """Keys of the trials that studies name; with `strict`, without those of other replicates or fidelities."""
     return {key for study in studies for key in (study.own if strict else study.all).trials}

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from rgss.evidence.store import Contents, TrialName
 
 _SHOWN = 12
-"""So many failures are printed."""
+"""Number of failures that are printed."""
 
 
 def summarise(options: argparse.Namespace, store: EvidencePlace) -> int:
@@ -99,11 +99,11 @@ def _print_summary(
     print_table(titles, [[str(cell) for cell in row.values()] for row in rows], right=(2, 3, 4, 5))
     if contents.failures:
         print()
-        print("Failures of the run, which the next sweep tries again:")
+        print("Failures of the run, which the next sweep retries:")
         for one in contents.failures[:_SHOWN]:
             print(f"  {printable_text(one.what)} {one.key[:12]}: {one.kind.value}, {printable_text(one.detail)}")
         if len(contents.failures) > _SHOWN:
             print(f"  … and {len(contents.failures) - _SHOWN} more (--json shows them)")
     if stale:
         print()
-        print("Stale trials are of other inputs or other code than now; 'rgss evidence gc' shows them.")
+        print("Stale trials were made with other inputs or code than the present ones; 'rgss evidence gc' shows them.")

@@ -57,7 +57,7 @@ def verify_evidence(options: argparse.Namespace, store: EvidencePlace) -> int:
 
 
 def _mend(found: Verification, store: EvidencePlace) -> str:
-    """Take the damage away; returns what was done."""
+    """Repair the damage; returns a description of the repair."""
     from rgss.evidence.store import salvage, take_away
 
     if found.pages_are_damaged:
@@ -69,15 +69,13 @@ def _mend(found: Verification, store: EvidencePlace) -> str:
         )
     removed = take_away(store.path, found, label=store.label)
     if not removed:
-        return (
-            "The ledger is written anew for the rows that are there; 'rgss sweep' makes anew what it needs of others."
-        )
-    return f"{removed} damaged {plural('row', removed)} taken away; 'rgss sweep' makes anew what was in them."
+        return "The ledger is rewritten for the rows that exist; 'rgss sweep' makes the others again as needed."
+    return f"{removed} damaged {plural('row', removed)} removed; 'rgss sweep' makes their contents again."
 
 
 def _how_to_mend(found: Verification) -> str:
     if found.pages_are_damaged:
-        return "To mend it: 'rgss evidence verify --mend' saves the sound rows in a new file."
+        return "To repair it: 'rgss evidence verify --mend' saves the sound rows in a new file."
     if all(damage.row is None for damage in found.damages):
-        return "To mend it: 'rgss evidence verify --mend' goes on with the rows that are there."
-    return "To mend it: 'rgss evidence verify --mend' takes these rows away, and 'rgss sweep' makes them anew."
+        return "To repair it: 'rgss evidence verify --mend' keeps the rows that exist."
+    return "To repair it: 'rgss evidence verify --mend' removes these rows, and 'rgss sweep' makes them again."

@@ -1,4 +1,4 @@
-"""Words for trials, counts and sizes of the evidence."""
+"""Text of counts and sizes of the evidence."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def divided(trials: Iterable[TrialName], named: set[str]) -> tuple[list[TrialName], list[TrialName]]:
-    """The trials that are named, and the others."""
+    """Split of the trials into named ones and others."""
     current: list[TrialName] = []
     stale: list[TrialName] = []
     for trial in trials:
@@ -44,5 +44,5 @@ def size_text(size_bytes: int) -> str:
 
 
 def printable_text(text: str) -> str:
-    """Text of a file without signs that steer a terminal."""
+    """Text of a file with terminal control characters escaped."""
     return "".join(character if character.isprintable() else "�" for character in text)

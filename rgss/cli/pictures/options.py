@@ -1,4 +1,4 @@
-"""Options of ``rgss run`` for looking at the trial: film, filmstrip, plots."""
+"""Picture options of ``rgss run``: film, filmstrip, plots."""
 
 from __future__ import annotations
 
@@ -40,12 +40,12 @@ _NEAREST_M, _FARTHEST_M = 0.3, 10.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureOrder:
-    """The pictures that are wanted.
+    """Requested pictures.
 
     Attributes:
         files: The file of each kind: ``film``, ``gif``, ``filmstrip``, ``plots``, ``replay``.
-        view: Where the camera stands.
-        inset: Where the camera of a smaller picture within each picture stands; None without one.
+        view: Camera of the pictures.
+        inset: Camera of the inset picture; None without one.
         width: Width of each picture in pixels.
         height: Height of each picture in pixels.
         rate_hz: Frames a second of the film.
@@ -61,10 +61,10 @@ class PictureOrder:
 
 def add_pictures(parser: argparse.ArgumentParser) -> None:
     """Add the options for pictures."""
-    group = parser.add_argument_group("looking at it", "of a trial with contact; what is shown changes no result")
+    group = parser.add_argument_group("pictures", "of a trial at contact fidelity; they do not change its result")
     group.add_argument("--film", type=Path, metavar="FILE", help="write a film with pause and seek, .webm or .mp4")
     group.add_argument("--gif", type=Path, metavar="FILE", help="write a film as a GIF, for a README")
-    group.add_argument("--filmstrip", type=Path, metavar="FILE", help="write a PNG of the ends of the eight states")
+    group.add_argument("--filmstrip", type=Path, metavar="FILE", help="write a PNG with the last frame of each phase")
     group.add_argument("--plots", type=Path, metavar="FILE", help="write a PNG of joints, speed and forces over time")
     add_replay(group)
     group.add_argument(
@@ -78,7 +78,7 @@ def add_pictures(parser: argparse.ArgumentParser) -> None:
 
 
 def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
-    """Pictures that the options request, each file checked to be writable; None if they request none.
+    """Requested pictures, each file checked to be writable; None if there are none.
 
     Raises:
         DefinitionError: An option is wrong, a file cannot be written, or a package is missing.
@@ -88,7 +88,7 @@ def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
         needed = _PLAYED if option == "fps" else _DRAWN
         if getattr(options, option) is not None and not any(kind in files for kind in needed):
             named = " or ".join(f"--{kind}" for kind in needed)
-            raise DefinitionError(f"--{option} is given, but no picture that it is for", hint=f"add {named}")
+            raise DefinitionError(f"--{option} needs a picture", hint=f"add {named}")
     check_replay(options)
     if not files:
         return None
@@ -107,12 +107,12 @@ def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
 
 
 def seen_trial(order: PictureOrder, spec: TrialSpec) -> ReplayedTrial:
-    """Run a trial so that the pictures ordered can be made; there is no trace if nothing moved.
+    """Run a trial with the trace that the requested pictures need; there is no trace if nothing moved.
 
-    Without a replay in the order there is no scene either.
+    The scene is added only for a replay.
 
     Raises:
-        DefinitionError: The trial's fidelity has nothing to show.
+        DefinitionError: The trial's fidelity is not contact.
         SimulationError: The physics engine cannot build the world.
     """
     from rgss.evidence import Fidelity
@@ -122,7 +122,7 @@ def seen_trial(order: PictureOrder, spec: TrialSpec) -> ReplayedTrial:
 
     if spec.fidelity is not Fidelity.CONTACT:
         raise DefinitionError(
-            f"there are no pictures of a trial of {spec.fidelity.value} fidelity", hint="add --fidelity contact"
+            f"pictures need contact fidelity, got {spec.fidelity.value}", hint="add --fidelity contact"
         )
     if "replay" in order.files:
         return compute(run_replayed_trial, spec)
@@ -133,19 +133,19 @@ def seen_trial(order: PictureOrder, spec: TrialSpec) -> ReplayedTrial:
 def made_pictures(
     order: PictureOrder, spec: TrialSpec, seen: ReplayedTrial, *, beside: TrialSpec | None = None
 ) -> tuple[str, ...]:
-    """Draw what was ordered and write the files.
+    """Draw the requested pictures and write the files.
 
     Args:
-        order: What was ordered.
+        order: The requested pictures.
         spec: The inputs of the trial.
         seen: The trial.
         beside: The inputs of a trial that is replayed beside it; None without one.
 
     Returns:
-        What was made, a line for each.
+        A line of text for each file.
 
     Raises:
-        DefinitionError: A file cannot be written after all.
+        DefinitionError: A file cannot be written.
         SimulationError: The engine cannot draw the scene.
     """
     if seen.trace is None:
@@ -198,7 +198,7 @@ def _make(order: PictureOrder, spec: TrialSpec, record: TrialRecord, trace: Tria
 
 
 def captioned(film: Film, index: int, record: TrialRecord) -> CaptionedPicture:
-    """A frame of a film with its time and phase written into it, and in the last how the trial ended."""
+    """Frame of a film with its time and phase as caption, the last one with the outcome of the trial."""
     from rgss.reports.trials import CaptionedPicture, words
 
     phases = [one.phase for one in record.phases]
@@ -274,10 +274,10 @@ def picture_size(text: str, option: str = "--size") -> tuple[int, int]:
 
 
 def film_rate(rate_hz: float, option: str = "--fps") -> float:
-    """Frames a second, if a film can have so many.
+    """Frame rate of a film in Hz, validated.
 
     Raises:
-        DefinitionError: It cannot.
+        DefinitionError: It is out of range.
     """
     from rgss.reports.trials import HIGHEST_RATE_HZ
 

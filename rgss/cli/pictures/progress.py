@@ -1,4 +1,4 @@
-"""Progress of the films, with an estimate of the time that is left."""
+"""Progress bar of the films, with an estimate of the remaining time."""
 
 from __future__ import annotations
 

@@ -26,15 +26,15 @@ def add_replay(parser: argparse._ArgumentGroup) -> None:
 
 
 def check_replay(options: argparse.Namespace) -> None:
-    """Check that what is to be beside the trial is another variant, and that there is a replay.
+    """Check that ``--beside`` names another variant and comes with ``--replay``.
 
     Raises:
-        DefinitionError: It is not.
+        DefinitionError: It does not.
     """
     if options.beside is None:
         return
     if options.replay is None:
-        raise DefinitionError("--beside is given, but no replay that it is for", hint="add --replay FILE.html")
+        raise DefinitionError("--beside needs a replay", hint="add --replay FILE.html")
     if options.beside == options.variant:
         raise DefinitionError(f"--beside must be another variant than {options.variant}", hint="give its id")
 
@@ -59,7 +59,7 @@ def other_trial(options: argparse.Namespace, project: Project, *, seed: int) -> 
 
 
 def packed_trial(replayed: ReplayedTrial, spec: TrialSpec) -> PackedReplay | None:
-    """A trial as a page carries it; None if nothing moved.
+    """Trial as embedded in a page; None if nothing moved.
 
     Args:
         replayed: The trial.

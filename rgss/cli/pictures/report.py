@@ -1,4 +1,4 @@
-"""Pictures for a report: the few trials that are worth looking at, run once more and filmed."""
+"""Films of a report: its notable trials, run again."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from rgss.trials.pieces import TrialSpec
 
 MOST_LARGE_FILMS = 4
-"""Of more trials the films are small, so that a dozen of them stay within a few megabytes."""
+"""With more trials, films are smaller by default, so that a dozen of them stay within a few megabytes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,7 +42,7 @@ SMALL = FilmLook(width=400, height=300, rate_hz=5.0)
 
 
 def ordered_look(size: str | None, rate_hz: float | None, *, films: int) -> FilmLook:
-    """Appearance of films by the options; where these are silent, as fits the number of films.
+    """Appearance of films by the options, with defaults that depend on the number of films.
 
     Args:
         size: Width and height, such as ``640x480``; None if not given.
@@ -66,7 +66,7 @@ def ordered_look(size: str | None, rate_hz: float | None, *, films: int) -> Film
 def trial_pictures(
     project: Project, notable: Sequence[NotableTrial], *, look: FilmLook | None
 ) -> tuple[tuple[TrialPictures, ...], str]:
-    """Film trials, or say why not.
+    """Film trials, or state why there are no films.
 
     Args:
         project: The project with its study.
@@ -74,7 +74,7 @@ def trial_pictures(
         look: How films look; None if no pictures are wanted.
 
     Returns:
-        The pictures, and what there is to say of them; empty if nothing.
+        The pictures, and a note on them; empty if there is none.
 
     Raises:
         DefinitionError: A package for pictures is missing.
@@ -85,13 +85,13 @@ def trial_pictures(
     from rgss.studies import trial_specs
 
     if not notable:
-        return (), "There are no trials to look at."
+        return (), "There are no trials to film."
     if look is None:
         return (), "The report was made without films; each trial can be filmed by “rgss run ID --seed N --film FILE”."
     if missing_engines(pictures=True):
         return (), f"The report was made without films, which need the simulation engines ({INSTALL})."
     if project.study.fidelity is not Fidelity.CONTACT:
-        return (), f"Trials of {project.study.fidelity.value} fidelity have nothing to film; those with contact have."
+        return (), f"Films need trials at contact fidelity; those of this study are {project.study.fidelity.value}."
     made = []
     with film_progress(len(notable), "Trials filmed") as advance:
         for one in notable:
@@ -153,6 +153,6 @@ def _drawn(spec: TrialSpec, one: NotableTrial, trace: TrialTrace, look: FilmLook
         ends = {frame.span.phase: frame.picture for frame in film.ends_of_phases()}
         write_filmstrip(strip, one.record, ends)
         write_video(video, lambda index: captioned(film, index, one.record), count=len(film), rate_hz=look.rate_hz)
-        # Where the object is carried, as far as the trial came.
+        # The still shows the object being carried, if the trial reached such a phase.
         shown = next((ends[phase] for phase in spec.task.carried if phase in ends), next(iter(ends.values())))
         return strip.read_bytes(), video.read_bytes(), still_png(shown)

@@ -20,25 +20,25 @@ class ExecutionBackend:
     """Execution back end of a verb's sweeps.
 
     Attributes:
-        jobs: Number of processes, if this machine does.
-        staff: The processes of this machine, or the cluster, that give each sweep its workers.
-        machine: The machines of the cluster; None if this machine does.
+        jobs: Number of processes of this machine.
+        pool: The processes of this machine, or the cluster, which provide the workers of each sweep.
+        machine: Description of the cluster's machines; None for this machine.
     """
 
     jobs: int
-    staff: PersistentWorkerPool | DaskCluster
+    pool: PersistentWorkerPool | DaskCluster
     machine: str | None = None
 
     def workers(self, maker: Maker) -> Workers:
         """Workers for one sweep; engines that they load are kept for the next.
 
         Args:
-            maker: What carries out a task.
+            maker: The function that carries out a task.
 
         Raises:
-            SimulationError: The cluster has gone.
+            SimulationError: The cluster is lost.
         """
-        return self.staff.workers(maker)
+        return self.pool.workers(maker)
 
     def origin(self, folder: Path) -> Origin:
         """Origin of the trials that this back end runs.
@@ -62,7 +62,7 @@ def jobs_of(options: argparse.Namespace) -> int:
         options: The verb's options.
 
     Raises:
-        DefinitionError: It is none, or a cluster is named too.
+        DefinitionError: It is below 1, or a cluster is named too.
     """
     from rgss.errors import DefinitionError
 
@@ -78,14 +78,14 @@ def jobs_of(options: argparse.Namespace) -> int:
 
 @contextmanager
 def execution_backend(options: argparse.Namespace, limits: WorkerLimits) -> Iterator[ExecutionBackend]:
-    """Execution back end that the options name, for as long as the block lasts.
+    """Execution back end that the options name, closed at the end of the block.
 
     Args:
         options: The verb's options.
         limits: What a worker may use for one task.
 
     Raises:
-        DefinitionError: The number of processes is none, or the cluster cannot be used.
+        DefinitionError: The number of processes is below 1, or the cluster cannot be used.
     """
     from rgss.sweep import PersistentWorkerPool
 
@@ -94,9 +94,9 @@ def execution_backend(options: argparse.Namespace, limits: WorkerLimits) -> Iter
         with PersistentWorkerPool(
             size=jobs, time_limit_s=limits.time_s, memory_limit_bytes=limits.memory_bytes
         ) as pool:
-            yield ExecutionBackend(jobs=jobs, staff=pool)
+            yield ExecutionBackend(jobs=jobs, pool=pool)
         return
     from rgss.sweep.dask import dask_cluster
 
     with dask_cluster(options.dask, time_limit_s=limits.time_s, memory_limit_bytes=limits.memory_bytes) as cluster:
-        yield ExecutionBackend(jobs=jobs, staff=cluster, machine=cluster.machine)
+        yield ExecutionBackend(jobs=jobs, pool=cluster, machine=cluster.machine)

@@ -16,13 +16,13 @@ _TRIALS_SHOWN = 6
 def result_lines(
     trials: int, tally: Mapping[str, int], failures: Mapping[str, int], result: SweepResult, label: str
 ) -> list[str]:
-    """Lines on the result of a sweep.
+    """Result of a sweep as lines of text.
 
     Args:
         trials: How many trials the study has.
         tally: How many were ``run`` and ``kept``, ``succeeded`` and ``failed``.
         failures: How many trials failed in which way.
-        result: What else is known of the sweep.
+        result: The pieces and the failures of the run.
         label: The evidence file's name.
     """
     lost = len({trial for lost in result.lost for trial in lost.trials})
@@ -93,10 +93,10 @@ _FAILED = {
 
 
 def dry_run_lines(found: DryRun, label: str) -> list[str]:
-    """Lines on what a dry run found.
+    """Result of a dry run as lines of text.
 
     Args:
-        found: What it would do.
+        found: The trials and pieces that a sweep would make.
         label: The evidence file's name.
     """
     lines = [f"{_counted_trials(found.trials)}: {found.run} to run, {found.kept} from evidence."]

@@ -39,7 +39,7 @@ class SweepProgress:
             BarColumn(bar_width=12),
             MofNCompleteColumn(table_column=Column(no_wrap=True)),
             TextColumn("{task.fields[outcomes]}"),
-            # In a narrow terminal the end of these words gives way, not the numbers before them.
+            # In a narrow terminal the end of this text is cut, not the numbers before it.
             TextColumn("{task.fields[course]}", table_column=Column(no_wrap=True, ratio=1)),
             expand=True,
             console=Console(file=own_stream(sys.stderr)),
@@ -55,7 +55,7 @@ class SweepProgress:
             self._progress.stop()
 
     def finished(self, tally: Counter[str]) -> None:
-        """Take note that another trial has a record.
+        """Update the counts after another trial has its record.
 
         Args:
             tally: How many were ``run`` and ``kept``, ``succeeded`` and ``failed``.
@@ -66,21 +66,21 @@ class SweepProgress:
             self._progress.update(self._task, completed=tally["run"] + tally["kept"], outcomes=outcomes)
 
     def state(self, state: SweepState) -> None:
-        """Take note of how far the work is.
+        """Update rate, remaining time and pieces.
 
         Args:
-            state: How far it is.
+            state: State of the sweep.
         """
         if self._progress is not None:
             self._progress.update(self._task, course=course_of(state, fresh=self._fresh))
 
 
 def course_of(state: SweepState, *, fresh: int) -> str:
-    """Rate, remaining time and pieces in one line.
+    """Rate, remaining time and pieces as one line.
 
     Args:
-        state: How far the sweep is.
-        fresh: How many trials have got a record in it.
+        state: State of the sweep.
+        fresh: Number of trials that were run in it.
     """
     parts = []
     if fresh and state.elapsed_s > 0.0:

@@ -25,8 +25,8 @@ class TrialTally:
     """Counts of the trials of a sweep, filled while it runs.
 
     Attributes:
-        counts: How many were ``run`` and ``kept``, ``succeeded`` and ``failed``.
-        failures: How many failed in each way.
+        counts: Numbers that were ``run`` and ``kept``, ``succeeded`` and ``failed``.
+        failures: Number of trials by kind and phase of failure.
         run_now: The variants of the trials that were run.
     """
 
@@ -72,7 +72,7 @@ class SweepRunner:
         project: The project with its study.
         store: The evidence.
         backend: The processes or the cluster that carry out the tasks.
-        share: Whether trials share pieces.
+        share: True if trials share pieces.
     """
 
     project: Project

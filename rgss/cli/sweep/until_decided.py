@@ -47,7 +47,7 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
     if options.cap is not None:
         rule = replace(rule, cap=options.cap)
     if options.budget is not None:
-        # So many trials and no more: the study's reserve is beside the study's budget.
+        # The option is a hard limit: the study's reserve belongs to the study's budget.
         rule = replace(rule, budget=_budget(options.budget), reserve=None)
     lost: list[LostTrials] = []
     label = shown_path(project.evidence)
@@ -66,7 +66,7 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
         except EvidenceError as error:
             if not lost:
                 raise
-            # What could not be run is why its evidence is missing.
+            # The evidence is missing because these trials could not be run.
             report_lost(lost)
             print(f"rgss: {error}", file=sys.stderr)
             return RUN_FAILED
@@ -119,7 +119,7 @@ def _refuse_contradictions(options: argparse.Namespace, project: Project) -> Non
         (options.dry_run, "--dry-run"),
     ):
         if given:
-            raise DefinitionError(f"--until decided and {option} exclude each other", hint=f"leave {option} away")
+            raise DefinitionError(f"--until decided and {option} exclude each other", hint=f"omit {option}")
     if project.study.screening is not None:
         raise DefinitionError(
             "--until decided and screening exclude each other", hint="name one fidelity with --fidelity"

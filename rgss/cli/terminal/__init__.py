@@ -1,4 +1,4 @@
-"""What people see on a terminal: pages that fit it, colours, a pager."""
+"""Output on a terminal: fitted pages, colours, a pager."""
 
 from typing import TYPE_CHECKING
 

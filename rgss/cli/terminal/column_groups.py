@@ -1,4 +1,4 @@
-"""Division of a table that is wider than the terminal: columns that stand beside each other."""
+"""Division of a table that is wider than the terminal into groups of columns."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ GAP = 2
 def column_groups(
     cells: Sequence[Sequence[str]], width: int, *, keys: int = 1
 ) -> tuple[tuple[tuple[int, ...], tuple[int, ...]], ...]:
-    """The columns of each part of a table, and how wide each is.
+    """Columns of each part of a table, with their widths.
 
-    Either all columns stand beside each other, with cells that go over several lines at spaces, or they
-    stand in parts below each other, each of which begins with the first columns. Of the two ways it is the one
-    that takes fewer lines. A column that is too wide by itself goes over several lines in any case.
+    Either all columns are printed side by side, with cells wrapped at spaces, or the table is divided into
+    parts below each other, each of which repeats the key columns. The layout with fewer lines is taken. A
+    column that is too wide by itself is wrapped in any case.
 
     Args:
         cells: The rows, the heads first; all have the same number of cells.
         width: The characters of a line.
-        keys: The number of first columns that every part begins with.
+        keys: Number of key columns, the first ones, which every part repeats.
     """
     natural = [max(len(row[column]) for row in cells) for column in range(len(cells[0]))]
     every = tuple(range(len(natural)))
@@ -35,7 +35,7 @@ def column_groups(
 
 
 def _parts(natural: Sequence[int], width: int, keys: int) -> tuple[tuple[int, ...], ...]:
-    """Columns in parts that fit by their whole widths, if a part has more than one column beside the first ones."""
+    """Parts whose columns fit unwrapped, if a part has more than one column beside the key columns."""
     first = tuple(range(min(keys, len(natural) - 1)))
     parts: list[tuple[int, ...]] = []
     part = first
@@ -48,11 +48,11 @@ def _parts(natural: Sequence[int], width: int, keys: int) -> tuple[tuple[int, ..
 
 
 def _widths(natural: Sequence[int], least: Sequence[int], part: Sequence[int], width: int) -> tuple[int, ...]:
-    """Widths of the columns of a part: the widest ones give way first, down to their longest words."""
+    """Widths of the columns of a part: the widest ones shrink first, down to their longest words."""
     given = [natural[column] for column in part]
     floors = [least[column] for column in part]
     if _total(floors) > width:
-        # No words are short enough: they are broken, the longest first.
+        # The longest words do not fit either: they are broken, the longest first.
         floors = [1] * len(part)
     while _total(given) > width:
         over = [place for place in range(len(part)) if given[place] > floors[place]]
@@ -64,14 +64,14 @@ def _widths(natural: Sequence[int], least: Sequence[int], part: Sequence[int], w
 
 
 def _lines(cells: Sequence[Sequence[str]], part: Sequence[int], widths: Sequence[int]) -> int:
-    """The lines of a part, with the rule and an empty one behind it."""
+    """The lines of a part, with its rule and an empty line at the end."""
     return 2 + sum(
         max(_broken(row[column], width) for column, width in zip(part, widths, strict=True)) for row in cells
     )
 
 
 def _broken(text: str, width: int) -> int:
-    """The lines of a text that is broken at spaces, and within words that are wider than a line."""
+    """Lines of a text wrapped at spaces, and within words that are wider than a line."""
     if len(text) <= width:
         return 1
     lines, used = 1, 0

@@ -6,8 +6,8 @@ from rich.console import Console
 
 
 class PageConsole(Console):
-    """A console whose reader may leave before the end of a page."""
+    """Console whose output pipe may be closed before the end of a page."""
 
     def on_broken_pipe(self) -> None:
-        """Let the command line end as it does for any reader that leaves; rich would end the process as failed."""
+        """Raise the error that the command line handles; rich would exit with a failure."""
         raise BrokenPipeError

@@ -1,4 +1,4 @@
-"""Page on a terminal: lines are broken between words, tables fit, verdicts have colours."""
+"""Page on a terminal: wrapped lines, fitted tables, coloured verdicts."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ if TYPE_CHECKING:
 
 _NUMBER_AND_UNIT = re.compile(r"(?<=\d)()\s(?=(?:%|[a-zA-Z]{1,3}(?:/\w+)?\b)(?![a-z]))")
 LEAST_WIDTH = 40
-"""A narrower terminal is taken for one of this width."""
+"""Least width in characters; a narrower terminal is treated as this wide."""
 
 
 class TerminalPage(SafeStream):
     """Standard output that is a terminal."""
 
     def __init__(self, stream: TextIO, *, width: int) -> None:
-        """Take a terminal.
+        """Create a page.
 
         Args:
-            stream: What leads to it.
+            stream: The stream of the terminal.
             width: Characters of a line.
         """
         super().__init__(stream)
@@ -39,18 +39,18 @@ class TerminalPage(SafeStream):
         self._begun = ""
 
     def write(self, text: str) -> int:
-        """Take text; whole lines are written, broken between words."""
+        """Write text; complete lines are wrapped between words."""
         *lines, self._begun = (self._begun + text).split("\n")
         for line in lines:
             self._write_line(line)
         return len(text)
 
     def isatty(self) -> bool:
-        """True: what a pager shows stands on a terminal, too."""
+        """True: a pager displays on a terminal too."""
         return True
 
     def flush(self) -> None:
-        """Write what there is of a line, such as a question."""
+        """Write an incomplete line, such as a prompt."""
         if self._begun:
             super().write(self._begun)
             self._begun = ""
@@ -108,11 +108,11 @@ class TerminalPage(SafeStream):
 def fitted_page(
     *, is_wide: bool, is_paged: bool, environment: Mapping[str, str] = os.environ
 ) -> Iterator[TerminalPage | None]:
-    """Let what is printed in the block fit the terminal; nothing changes where standard output is none.
+    """Fit the output of the block to the terminal; without effect where standard output is not a terminal.
 
     Args:
-        is_wide: Whether lines may be wider than the terminal.
-        is_paged: Whether a long page goes through a pager.
+        is_wide: True if lines may be wider than the terminal.
+        is_paged: True if a long page goes through a pager.
         environment: Variables of the process: ``PAGER``, ``RGSS_PAGER``.
     """
     before = sys.stdout

@@ -1,4 +1,4 @@
-"""Pager: the program through which a long page is read."""
+"""Pager for long pages, such as ``less``."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from contextlib import suppress
 from typing import TextIO, cast
 
 _LESS = ("less", "-FRX")
-"""It ends by itself where the page fits the screen, shows colours, and leaves the page standing."""
+"""Options of ``less``: exit if the page fits the screen, show colours, do not clear the screen."""
 
 
 class Pager:
-    """A program that reads a page."""
+    """Pager process."""
 
     def __init__(self, command: Sequence[str]) -> None:
-        """Take a program; it is not started yet.
+        """Create a pager that is not started yet.
 
         Args:
-            command: Its name and its arguments.
+            command: The program and its arguments.
         """
         self._command = tuple(command)
         self._process: subprocess.Popen[str] | None = None
@@ -42,20 +42,20 @@ class Pager:
         return cls((*_LESS, *command[1:]) if command[0] == _LESS[0] else command)
 
     def start(self) -> TextIO:
-        """Start it, and give the stream that it reads."""
+        """Start the process; returns its input stream."""
         self._process = subprocess.Popen(  # noqa: S603 - the program that the user asks for
             self._command, stdin=subprocess.PIPE, encoding="utf-8", errors="replace"
         )
         return cast("TextIO", self._process.stdin)
 
     def end(self) -> None:
-        """Close the page and wait until it was read."""
+        """Close the input and wait until the pager exits."""
         if self._process is None or self._process.stdin is None:
             return
-        # Who leaves a page before its end has read enough.
+        # The reader may quit before the end of the page.
         with suppress(BrokenPipeError, ValueError, OSError):
             self._process.stdin.close()
         while self._process.poll() is None:
-            # It is the pager that an interrupt is meant for while it has the terminal.
+            # While the pager has the terminal, an interrupt is meant for it.
             with suppress(KeyboardInterrupt):
                 self._process.wait()

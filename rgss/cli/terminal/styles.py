@@ -1,4 +1,4 @@
-"""Colours of words that say how something stands."""
+"""Colours of status words."""
 
 from __future__ import annotations
 
@@ -22,4 +22,4 @@ STYLES = MappingProxyType(
         "not_measured": "dim",
     }
 )
-"""The style of a cell that is one of these words; other cells have none."""
+"""Style of a cell with a status word; other cells have none."""

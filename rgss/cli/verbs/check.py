@@ -43,7 +43,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="ID",
         help="stamp these elements as reviewed ('all': every requirement), and check nothing",
     )
-    parser.add_argument("--reviewer", metavar="NAME", help="with --review: who has read them (default: the login name)")
+    parser.add_argument(
+        "--reviewer", metavar="NAME", help="with --review: the name of the reviewer (default: the login name)"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -66,32 +68,32 @@ def _check(options: argparse.Namespace) -> int:
     folder = find_project(options.project)
     checked = [_checked(folder, study, options) for study in _studies(folder, options)]
     found = [finding for one in checked for finding in one.findings]
-    # A file that cannot be read may be one that something names.
+    # A file with errors may name files that are otherwise reported as unread.
     broken = {finding.file for one in checked if one.project is None for finding in one.findings}
     of_files = [*unread_findings(folder), *invisible_findings(folder)]
     kept = [finding for finding in of_files if finding.file not in broken]
-    # Two studies may share a scene or a robot, and what is wrong with it is told once.
+    # Studies may share a scene or a robot, whose findings are reported once.
     findings = list(dict.fromkeys([*found, *kept] if broken else [*kept, *found]))
-    grave = [finding for finding in findings if finding.severity is not Severity.INFO]
+    problems = [finding for finding in findings if finding.severity is not Severity.INFO]
     skipped = list(dict.fromkeys(one.skipped for one in checked if one.skipped))
     if options.json:
         print_json({"findings": [_as_json(finding) for finding in findings], "skipped": skipped})
     else:
-        for finding in findings if options.all else grave:
+        for finding in findings if options.all else problems:
             print(finding)
         for reason in skipped:
             print(f"Skipped: {reason}.")
         if not broken:
-            notes = 0 if options.all else len(findings) - len(grave)
-            print(_summary([one.project for one in checked if one.project is not None], len(grave), notes))
+            notes = 0 if options.all else len(findings) - len(problems)
+            print(_summary([one.project for one in checked if one.project is not None], len(problems), notes))
     if broken:
         return BAD_INPUT
-    return FINDINGS if grave else CLEAN
+    return FINDINGS if problems else CLEAN
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Checked:
-    """What was found in one study: its project, or None if files of it cannot be used."""
+    """Findings of one study, with its project, which is None if files of it cannot be used."""
 
     project: Project | None
     findings: tuple[Finding, ...]
@@ -99,15 +101,15 @@ class _Checked:
 
 
 def _studies(folder: Path, options: argparse.Namespace) -> tuple[str | None, ...]:
-    """The studies to check: the one that is named, else the default and one for each further set of requirements."""
+    """The studies to check: the named one, else the default and one for each further set of requirements."""
     from rgss.studies import DEFAULT_STUDY, REQUIREMENTS, studies_by_set
 
     if options.study is not None:
         return (options.study,)
     by_set = studies_by_set(folder)
-    # The default study is loaded in any case: where it cannot be read, what is wrong with it is told.
-    told = {DEFAULT_STUDY} if DEFAULT_STUDY in by_set.values() else {by_set.get(REQUIREMENTS)}
-    return (None, *(study for study in by_set.values() if study not in told))
+    # The default study is loaded in any case, so that its errors are reported.
+    loaded = {DEFAULT_STUDY} if DEFAULT_STUDY in by_set.values() else {by_set.get(REQUIREMENTS)}
+    return (None, *(study for study in by_set.values() if study not in loaded))
 
 
 def _checked(folder: Path, study: str | None, options: argparse.Namespace) -> _Checked:
@@ -155,7 +157,7 @@ def _findings(project: Project, options: argparse.Namespace) -> tuple[Finding, .
     marked = project_marks(project.folder, project.study.requirements)
     if not options.evidence:
         return check_trace(project.requirements, project.measure_traces, marked=marked)
-    # Without a store it is a finding of each requirement that its evidence is missing.
+    # Without a store, each requirement has a finding that its evidence is missing.
     _, state = measured_state(project, options.junit)
     return check_trace(project.requirements, project.measure_traces, marked=marked, evidence=state)
 
@@ -209,7 +211,7 @@ def _review(options: argparse.Namespace) -> int:
 
 
 def _refuse_idle(options: argparse.Namespace) -> None:
-    """Options that would do nothing beside the others are a mistake of whoever gave them.
+    """Refuse options that have no effect beside the others.
 
     Raises:
         DefinitionError: There is one.
@@ -237,7 +239,7 @@ def _login_name() -> str:
         raise DefinitionError("the login name is not known", hint="give --reviewer NAME") from error
 
 
-def _summary(projects: Sequence[Project], grave: int, notes: int) -> str:
+def _summary(projects: Sequence[Project], problems: int, notes: int) -> str:
     held = [
         f"{len(project.requirements.stakeholder)} stakeholder and {len(project.requirements.system)} system "
         f"requirements, {len(project.measures.measures)} measures, {len(project.designs.expand())} variants"
@@ -247,7 +249,7 @@ def _summary(projects: Sequence[Project], grave: int, notes: int) -> str:
         held = [f"{project.study.label}: {one}" for project, one in zip(projects, held, strict=True)]
     return (
         "\n".join(held)
-        + f": {grave} finding{'' if grave == 1 else 's'}"
+        + f": {problems} finding{'' if problems == 1 else 's'}"
         + (f", {notes} note{'' if notes == 1 else 's'} (--all shows {'it' if notes == 1 else 'them'})" if notes else "")
     )
 

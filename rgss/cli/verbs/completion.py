@@ -1,17 +1,17 @@
-"""``rgss completion``: a script with which a shell completes verbs, options, choices and names of files."""
+"""``rgss completion``: a shell script that completes verbs, options, choices and names of files."""
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
 
-HELP = "print a script with which a shell completes what is typed after rgss"
+HELP = "print the script for completion in a shell"
 FITTED = False
 EXAMPLE = "rgss completion bash >> ~/.bash_completion"
 MORE_EXAMPLES = (
     ('eval "$(rgss completion bash)"', "for this shell alone"),
-    ('rgss completion zsh > "${fpath[1]}/_rgss"', "for good, in zsh"),
-    ("rgss completion fish > ~/.config/fish/completions/rgss.fish", "for good, in fish"),
+    ('rgss completion zsh > "${fpath[1]}/_rgss"', "permanently, in zsh"),
+    ("rgss completion fish > ~/.config/fish/completions/rgss.fish", "permanently, in fish"),
 )
 SHELLS = ("bash", "zsh", "fish")
 
@@ -31,7 +31,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.errors import DefinitionError
 
     if options.project is not None:
-        raise DefinitionError("--project has no part in completion", hint=f"rgss completion {options.shell}")
+        raise DefinitionError("--project has no effect on completion", hint=f"rgss completion {options.shell}")
     script = completion_script(command_line(), options.shell)
     if options.json:
         print_json({"shell": options.shell, "script": script})
@@ -59,7 +59,7 @@ def completion_script(parser: argparse.ArgumentParser, shell: str) -> str:
     for action in _actions(parser):
         metavar = action.metavar if isinstance(action.metavar, str) else ""
         if action.choices is None and metavar in _FILES | _FOLDERS:
-            # The attribute that shtab reads; argparse itself knows nothing of it.
+            # An attribute of shtab, which argparse does not declare.
             setattr(action, "complete", shtab.DIRECTORY if metavar in _FOLDERS else shtab.FILE)  # noqa: B010
     return str(shtab.complete(parser, shell=shell, root_prefix="rgss"))
 

@@ -124,7 +124,7 @@ def _confirm(
         except EvidenceError as error:
             if not lost:
                 raise
-            # What could not be run is why its evidence is missing.
+            # The evidence is missing because these trials could not be run.
             report_lost(lost)
             print(f"rgss: {error}", file=sys.stderr)
             return RUN_FAILED
@@ -138,7 +138,7 @@ def _selection(options: argparse.Namespace, project: Project, store: EvidenceSto
 
     if not 0 <= options.failures <= _MOST_FAILURES:
         raise DefinitionError(
-            f"--failures must be from 0 to {_MOST_FAILURES}, got {options.failures}", hint="0 leaves the sample away"
+            f"--failures must be from 0 to {_MOST_FAILURES}, got {options.failures}", hint="0 omits the sample"
         )
     if options.variants is not None:
         measured = measure_survivors(project, store)[0] if options.failures else ()

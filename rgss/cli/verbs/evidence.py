@@ -1,4 +1,4 @@
-"""``rgss evidence``: what the store holds; checking it, exporting it, clearing it up."""
+"""``rgss evidence``: contents, verification, export and garbage collection of the store."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ if TYPE_CHECKING:
     from rgss.evidence.records import StoredTrial
 
 
-HELP = "show what the evidence store holds, check it, export it or clear it up"
+HELP = "show the contents of the evidence store, verify it, export it or clean it up"
 EXAMPLE = "rgss evidence export trials.parquet"
 MORE_EXAMPLES = (
     ("rgss evidence", "what is stored"),
     ("rgss evidence export trials.csv studies/pick_place.yaml", "the trials of one study, as it is now"),
-    ("rgss evidence verify", "whether every byte is what was written"),
-    ("rgss evidence gc", "what clearing up would remove"),
+    ("rgss evidence verify", "check the store for damage"),
+    ("rgss evidence gc", "what cleaning up would remove"),
 )
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's actions."""
     actions = parser.add_subparsers(dest="action", metavar="ACTION")
-    verify = _action(actions, "verify", "", "check every page, digest, seal and reference (--mend takes damage away)")
+    verify = _action(actions, "verify", "", "check every page, digest, seal and reference (--mend repairs damage)")
     verify.add_argument(
         "--mend",
         action="store_true",
-        help="take damaged rows away, so that the next sweep makes them anew; save the sound rows of a damaged file",
+        help="remove damaged rows, which the next sweep makes again; save the sound rows of a damaged file",
     )
     export = _action(
         actions, "export", "trials.csv studies/pick_place.yaml", "write one row a trial to FILE.parquet or FILE.csv"
@@ -42,15 +42,20 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_replicates(export)
     add_fidelity(export)
-    gc = _action(actions, "gc", "--apply", "show what no study names (--apply removes it; --strict keeps less)")
+    gc = _action(
+        actions,
+        "gc",
+        "--apply",
+        "show the trials and pieces that no study names (--apply removes them; --strict keeps fewer)",
+    )
     gc.add_argument(
         "--strict",
         action="store_true",
-        help="keep only what the studies themselves ask for, not what --fidelity and --replicates made of them",
+        help="keep only the trials that the studies state, not those run with --fidelity or --replicates",
     )
     doing = gc.add_mutually_exclusive_group()
-    doing.add_argument("--apply", action="store_true", help="remove it, and give its space back")
-    doing.add_argument("--dry-run", action="store_true", help="only show it, which is the default")
+    doing.add_argument("--apply", action="store_true", help="remove them, and free their space")
+    doing.add_argument("--dry-run", action="store_true", help="only show them, which is the default")
 
 
 def _action(actions: Any, name: str, words: str, text: str) -> argparse.ArgumentParser:
@@ -58,7 +63,7 @@ def _action(actions: Any, name: str, words: str, text: str) -> argparse.Argument
     parser: argparse.ArgumentParser = actions.add_parser(
         name, help=text, description=text[:1].upper() + text[1:] + ".", epilog=example
     )
-    # Without a default, which would take the place of what stands before the action.
+    # No default, which would replace the option given before the action.
     parser.add_argument("--project", type=Path, metavar="DIR", default=argparse.SUPPRESS, help="the project's folder")
     parser.add_argument("--json", action="store_true", default=argparse.SUPPRESS, help="print one JSON document")
     return parser

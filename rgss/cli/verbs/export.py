@@ -15,7 +15,7 @@ MORE_EXAMPLES = (
     ("rgss export reqif -o requirements.reqifz", "the same in an archive"),
     ("rgss export sysml -o model.sysml", "SysML v2"),
     ("rgss export ompl -o planners.db", "the searches of the study, for OMPL's planner comparison"),
-    ("rgss export ompl -o planners.db studies/pick_place.yaml", "those of a study that is named"),
+    ("rgss export ompl -o planners.db studies/pick_place.yaml", "those of a given study"),
 )
 
 

@@ -1,4 +1,4 @@
-"""``rgss import``: requirements from a file of another tool; first what would change, then the change."""
+"""``rgss import``: requirements from a file of another tool; shows the changes, and applies them on request."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, metavar="FILE", help="the file to read")
     parser.add_argument("--apply", action="store_true", help="write the changes into the project's YAML files")
     parser.add_argument("--remove", action="store_true", help="with --apply: also remove what the file lacks")
-    parser.add_argument("--as", dest="kind", choices=KINDS, metavar="KIND", help="what new elements of other tools are")
+    parser.add_argument("--as", dest="kind", choices=KINDS, metavar="KIND", help="the kind of new elements")
     parser.add_argument(
         "--default",
         action="append",
         default=[],
         metavar="NAME=VALUE",
-        help="an attribute that new elements get where the file has none",
+        help="an attribute of new elements that the file does not state",
     )
     parser.add_argument("--study", metavar="STUDY", help=STUDY_HELP)
 
@@ -49,13 +49,13 @@ def run(options: argparse.Namespace) -> int:
     from rgss.studies import FOLDERS, find_project, load_project
 
     if options.remove and not options.apply:
-        raise DefinitionError("--remove goes with --apply", hint="without either, nothing is written")
+        raise DefinitionError("--remove goes with --apply", hint="without --apply nothing is written")
     folder = find_project(options.project)
     project = load_project(folder, options.study)
-    wishes = _wishes(options)
-    foreign = _read(project, options, wishes.part)
+    assumed = _import_defaults(options)
+    foreign = _read(project, options, assumed.part)
     own = content_of(project.requirements)
-    changes = compare(own, foreign, wishes)
+    changes = compare(own, foreign, assumed)
     files: Sequence[FileChange] = planned(folder, project.requirements, changes, remove=options.remove)
     try:
         rehearsed(folder, files, lambda copy: _check(copy, options, changes, own), folders=FOLDERS)
@@ -75,9 +75,9 @@ def run(options: argparse.Namespace) -> int:
     return FINDINGS if not taken or foreign.losses or (changes and not options.apply) else CLEAN
 
 
-def _wishes(options: argparse.Namespace) -> Any:
+def _import_defaults(options: argparse.Namespace) -> Any:
     from rgss.errors import DefinitionError
-    from rgss.exchange import ATTRIBUTES, Part, Wishes
+    from rgss.exchange import ATTRIBUTES, ImportDefaults, Part
 
     names = {each.name for attributes in ATTRIBUTES.values() for each in attributes} - {"id"}
     defaults: dict[str, str] = {}
@@ -87,7 +87,7 @@ def _wishes(options: argparse.Namespace) -> Any:
             known = ", ".join(sorted(names))
             raise DefinitionError(f"--default {each!r} is not NAME=VALUE with a known name", hint=f"names: {known}")
         defaults[name] = value
-    return Wishes(part=None if options.kind is None else Part(options.kind), defaults=defaults)
+    return ImportDefaults(part=None if options.kind is None else Part(options.kind), defaults=defaults)
 
 
 def _read(project: Project, options: argparse.Namespace, part: Part | None) -> Content:
@@ -103,11 +103,11 @@ def _read(project: Project, options: argparse.Namespace, part: Part | None) -> C
 
 
 def _check(copy: Path, options: argparse.Namespace, changes: Sequence[ElementChange], before: Content) -> None:
-    """Load the project as it would be, and make sure that it says what the changes say.
+    """Load the changed project, and check that it has the changes.
 
     Raises:
         DocumentError: It cannot be loaded.
-        DefinitionError: It says something else.
+        DefinitionError: It differs from them.
     """
     from rgss.errors import DefinitionError
     from rgss.exchange import content_of, not_as_planned
@@ -131,7 +131,7 @@ def _outcome(
     if not changes:
         taken = foreign.rows or foreign.measures
         why = "the notes above say why" if foreign.notes else "it holds no element"
-        return "No changes." if taken else f"Nothing of the file was taken: {why}."
+        return "No changes." if taken else f"Nothing of the file was imported: {why}."
     counts = {kind: sum(change.kind is kind for change in changes) for kind in ChangeKind}
     said = ", ".join(f"{count} {kind.value}" for kind, count in counts.items())
     if not options.apply:

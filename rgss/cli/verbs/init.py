@@ -1,4 +1,4 @@
-"""``rgss init``: a new project to begin with."""
+"""``rgss init``: a new project."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from pathlib import Path
 HELP = "make a new project: one scene, four designs, requirements that trace to them"
 EXAMPLE = "rgss init my_project"
 MORE_EXAMPLES = (
-    ("rgss init", "in the current folder, which keeps what it has"),
-    ("rgss init --robot my_arm.urdf my_project", "round an arm of which there is a URDF"),
+    ("rgss init", "in the current folder, whose files are kept"),
+    ("rgss init --robot my_arm.urdf my_project", "for your own arm, from its URDF"),
 )
 
 
@@ -22,7 +22,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "folder", nargs="?", type=Path, default=Path(), metavar="FOLDER", help="the new folder (default: this one)"
     )
     parser.add_argument(
-        "--robot", type=Path, metavar="URDF", help="make it round this arm; the URDF and its meshes are copied"
+        "--robot", type=Path, metavar="URDF", help="make it for this arm; the URDF and its meshes are copied"
     )
     parser.add_argument(
         "--flange", metavar="LINK", help="with --robot: the link that carries the gripper (default: the arm's last)"
@@ -46,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
 
     folder: Path = options.folder
     if options.project is not None:
-        raise DefinitionError("--project names a project that is there", hint=f"rgss init {options.project}")
+        raise DefinitionError("--project names an existing project", hint=f"rgss init {options.project}")
     for name, what in (("flange", "names a link"), ("tool_axis", "names an axis"), ("mass", "is that of the arm")):
         if getattr(options, name) is not None and options.robot is None:
             option = f"--{name.replace('_', '-')}"

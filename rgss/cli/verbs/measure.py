@@ -13,13 +13,13 @@ if TYPE_CHECKING:
     from rgss.assessment import VariantMeasures
     from rgss.studies import Project
 
-HELP = "estimate the measures of every variant from evidence, and judge the requirements"
+HELP = "estimate the measures of every variant from evidence, with verdicts on the requirements"
 PAGED = True
 EXAMPLE = "rgss measure --json > measures.json"
 MORE_EXAMPLES = (
     ("rgss measure", "the measures of effectiveness and the verdicts of every variant"),
     ("rgss measure --variant 2", "every measure and verdict of one"),
-    ("rgss measure --drivers", "which draws go with which failures"),
+    ("rgss measure --drivers", "the draws that differ between failures and other trials"),
     ("rgss measure --case payload", "by the trials of one case of the workload"),
 )
 
@@ -29,10 +29,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_evidence_choice(parser)
     parser.add_argument("--variant", type=int, metavar="ID", help="only this variant, with every measure")
     parser.add_argument(
-        "--drivers", action="store_true", help="only which uncertain quantity drives which kind of failure"
+        "--drivers", action="store_true", help="only the uncertain quantities that drive each kind of failure"
     )
     parser.add_argument("--case", metavar="NAME", help="only the trials of this case of the workload")
-    parser.add_argument("--verdicts", action="store_true", help="only the verdicts, and why one is stale")
+    parser.add_argument("--verdicts", action="store_true", help="only the verdicts, with the reason of a stale one")
     parser.add_argument(
         "--record",
         action="store_true",
@@ -41,7 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Show the measures; what has no evidence is shown as not known."""
+    """Show the measures; a dash marks those without evidence."""
     from rgss.assessment import measured_in_case, read_record, record_verdicts, sequential_seeds
     from rgss.cli.output import print_json, shown_path
     from rgss.decision import measure_survivors
@@ -53,9 +53,9 @@ def run(options: argparse.Namespace) -> int:
     if options.variant is not None:
         project.designs.variant(options.variant)
         if options.record:
-            raise DefinitionError("--record is of all variants", hint="leave --variant away")
+            raise DefinitionError("--record needs all variants", hint="omit --variant")
     if options.case is not None and options.record:
-        raise DefinitionError("--record is of all trials", hint="leave --case away")
+        raise DefinitionError("--record needs all trials", hint="omit --case")
     with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
         recorded = record_verdicts(project, store) if options.record else read_record(project.folder)
         measured, screened = measure_survivors(project, store, recorded=recorded)
@@ -198,7 +198,7 @@ def _gap_lines(project: Project, measured: Sequence[VariantMeasures], shown: Con
 
 
 def _print_stale(measured: Sequence[VariantMeasures]) -> None:
-    """Say why verdicts are stale, and what to do about it."""
+    """Print why verdicts are stale, with a remedy."""
     counts = Counter(causes for entry in measured for causes in entry.causes.values())
     if not counts:
         return
@@ -207,4 +207,4 @@ def _print_stale(measured: Sequence[VariantMeasures]) -> None:
         verdicts, verb = ("verdict is", "it was") if count == 1 else ("verdicts are", "they were")
         what = ", ".join(cause.value for cause in causes)
         print(f"{count} {verdicts} stale, for this changed since {verb} made: {what}")
-    print("'rgss sweep' makes the evidence anew; 'rgss measure --record' judges anew by the evidence that is there.")
+    print("'rgss sweep' makes the evidence again; 'rgss measure --record' gives verdicts by the stored evidence.")

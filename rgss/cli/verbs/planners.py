@@ -25,7 +25,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Plan every move with every planner and show what it took."""
+    """Plan every move with every planner and show the statistics."""
     from rgss.cli.main import CLEAN
     from rgss.cli.output import print_json
     from rgss.engines import require_engines

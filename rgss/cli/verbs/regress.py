@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 CHANGED = 4
 """Exit status where behaviour changed without a stated reason and nothing is shown to be worse."""
 
-HELP = "compare behaviour, guarded metrics and the decision with a baseline; what is missing is run first"
+HELP = "compare behaviour, guarded metrics and the decision with a baseline; missing trials are run first"
 EXAMPLE = "rgss regress --junit regress.xml --markdown summary.md"
 MORE_EXAMPLES = (
     ("rgss regress", "compare with the baseline beside the study"),
-    ("rgss regress --strict --all", "the same; what is inconclusive fails, what is the same is shown"),
-    ('rgss regress --accept-change "new path smoother"', "let changed behaviour pass this once"),
-    ('rgss regress --update --reason "a new gripper model"', "write the baseline anew"),
+    ("rgss regress --strict --all", "inconclusive metrics fail, unchanged ones are shown too"),
+    ('rgss regress --accept-change "new path smoother"', "accept changed behaviour once"),
+    ('rgss regress --update --reason "a new gripper model"', "rewrite the baseline"),
 )
 
 
@@ -36,12 +36,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
     add_study(parser)
     parser.add_argument("--baseline", metavar="FILE", help="the baseline (default: beside the study, .baseline.json)")
-    parser.add_argument("--update", action="store_true", help="write the baseline anew; needs --reason")
-    parser.add_argument("--reason", metavar="TEXT", help="with --update: why the numbers may move; kept in the file")
+    parser.add_argument("--update", action="store_true", help="rewrite the baseline; needs --reason")
+    parser.add_argument("--reason", metavar="TEXT", help="with --update: why the numbers change; stored in the file")
     parser.add_argument(
         "--accept-change",
         metavar="TEXT",
-        help="why changed behaviour may pass in this run (else status 4); what is worse still fails",
+        help="why changed behaviour is accepted in this run (else status 4); what is worse still fails",
     )
     parser.add_argument("--jobs", type=int, metavar="N", help="worker processes (default: one for each core)")
     parser.add_argument("--all", action="store_true", help="show the metrics that are the same, too")
@@ -74,7 +74,7 @@ def run(options: argparse.Namespace) -> int:
         raise DefinitionError("--reason needs --update", hint="without it nothing is changed")
     if options.update:
         if not (options.reason or "").strip():
-            raise DefinitionError("--update needs a reason", hint="say with --reason why the numbers may move")
+            raise DefinitionError("--update needs a reason", hint="state with --reason why the numbers change")
         for given, option in (
             (options.junit, "--junit"),
             (options.markdown, "--markdown"),
@@ -87,7 +87,7 @@ def run(options: argparse.Namespace) -> int:
         if output is not None:
             require_no_source(output)
     if options.accept_change is not None and not options.accept_change.strip():
-        raise DefinitionError("--accept-change needs a reason", hint="say why behaviour may change")
+        raise DefinitionError("--accept-change needs a reason", hint="state why behaviour changes")
     project = chosen_project(options)
     guard_of(project)
     label = options.baseline or baseline_name(project.study.label)
@@ -102,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
                 return _update(options, project, store, run_trials, path, label, before)
             return _compare(options, project, store, run_trials, label, before)
         finally:
-            _tell_lost(lost)
+            _report_lost(lost)
 
 
 def _update(
@@ -171,7 +171,7 @@ def _compare(
 def _runner(
     project: Project, store: EvidenceStore, jobs: int, lost: list[LostTrials]
 ) -> Callable[[Sequence[TrialSpec]], None]:
-    """Runs the trials that the store has not, by the sweep."""
+    """Function that runs missing trials by the sweep."""
     from rgss.cli.sweep import SweepProgress
     from rgss.sweep import origin_of, sweep
 
@@ -197,7 +197,7 @@ def _runner(
     return run_trials
 
 
-def _tell_lost(lost: Sequence[LostTrials]) -> None:
+def _report_lost(lost: Sequence[LostTrials]) -> None:
     from rgss.cli.sweep import lost_line
 
     for trials in lost:

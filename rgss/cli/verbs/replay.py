@@ -1,4 +1,4 @@
-"""``rgss replay``: a stored trial once more, compared bit for bit, or within a tolerance on other kernels."""
+"""``rgss replay``: a stored trial run again, compared bit for bit, or within a tolerance on other numerics."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run it again; 1 if a bit differs, or 4 if that is within what other numerics explain."""
+    """Run it again; 1 if a bit differs, 4 if that is within the tolerance of other numerics."""
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json, shown_path
     from rgss.engines import require_engines
@@ -76,7 +76,7 @@ def _show(result: Any) -> None:
     for change in result.versions:
         print(f"  version of {change.name}: {change.then[:12]} then, {change.now[:12]} now")
     if result.inputs:
-        print(f"  other inputs than then: {', '.join(result.inputs)}")
+        print(f"  changed inputs: {', '.join(result.inputs)}")
     for change in result.changes:
         print(f"  {change.name}: {change.then} then, {change.now} now")
     if result.same:

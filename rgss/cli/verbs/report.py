@@ -1,4 +1,4 @@
-"""``rgss report``: the whole study on one page that loads nothing."""
+"""``rgss report``: the study as one self-contained HTML page."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MORE_EXAMPLES = (
 LARGEST_PAGE = 15_000_000
 """Bytes; a larger page is slow to open and to send, which is then reported."""
 MOST_PLANNED_SEEDS = 10
-"""Seeds of the planners' comparison at most: each is a search for every move, planner and shape of gripper."""
+"""Most seeds of the comparison of planners; each is a search for every move, planner and shape of gripper."""
 DEFAULT_FILE = Path("report.html")
 BOARD_FILE = Path("board.html")
 
@@ -45,7 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--no-film",
         action="store_true",
-        help="run nothing again: leave out films, and reference planners beside those of the designs",
+        help="run nothing: omit films and the comparison with reference planners",
     )
     parser.add_argument(
         "--film-size",
@@ -118,14 +118,14 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _browser(options: argparse.Namespace) -> str | None:
-    """The browser that prints, looked for first, since printing comes last."""
+    """The browser for printing, looked up before the report is made, so that a missing one is reported early."""
     from rgss.cli.printing import printing_browser
     from rgss.errors import DefinitionError
 
     if not options.pdf:
         return None
     if not options.board:
-        raise DefinitionError("--pdf is given without --board", hint="add --board, or print the page in a browser")
+        raise DefinitionError("--pdf needs --board", hint="add --board, or print the page in a browser")
     _check_writable(options.out.with_suffix(".pdf"))
     return printing_browser()
 
@@ -164,13 +164,13 @@ def _rendered(
 
 
 def _check_films(options: argparse.Namespace) -> None:
-    """Check the options of films first, which are made last."""
+    """Check the film options before the report is made."""
     from rgss.cli.pictures import ordered_look
     from rgss.errors import DefinitionError
 
     given = [name for name in ("film_size", "film_rate") if getattr(options, name) is not None]
     if options.no_film and given:
-        raise DefinitionError(f"--{given[0].replace('_', '-')} is given with --no-film", hint="leave one of them away")
+        raise DefinitionError(f"--{given[0].replace('_', '-')} is given with --no-film", hint="omit one of them")
     ordered_look(options.film_size, options.film_rate, films=0)
 
 
@@ -212,7 +212,7 @@ def _trace(
 
 
 def _planners(project: Project) -> dict[str, Any] | None:
-    """The planners of the designs and the references on the same moves; None where there is nothing to compare."""
+    """Planners of the designs and the study's references on the same moves; None if there is nothing to compare."""
     from rgss.engines import missing_engines
     from rgss.reports.study import planner_comparison
     from rgss.sweep import compared_planners, has_searches, limits_of
@@ -229,7 +229,7 @@ def _check_file(path: Path) -> None:
 
     if path.suffix.lower() not in (".html", ".htm"):
         # A report must not replace a file that is not a report.
-        raise DefinitionError(f"{str(path)!r} does not end in .html", hint="name the file so")
+        raise DefinitionError(f"{str(path)!r} does not end in .html", hint="use that suffix")
     _check_writable(path)
 
 
@@ -239,7 +239,7 @@ def _check_writable(path: Path) -> None:
 
     problem = why_not_writable(path)
     if problem:
-        raise DefinitionError(f"{str(path)!r} cannot be written: {problem}", hint="name a file that can be")
+        raise DefinitionError(f"{str(path)!r} cannot be written: {problem}", hint="name a writable file")
 
 
 def _write(path: Path, page: bytes) -> None:

@@ -1,4 +1,4 @@
-"""``rgss robot``: what an arm is by its description, and what is wrong with that."""
+"""``rgss robot``: summary of a robot's description, with findings."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rgss.scenes import Joint
     from rgss.studies.robot_project import RobotSummary
 
-HELP = "summarise an arm: joints, masses, reach, payload; and find what is wrong with its description"
+HELP = "summarise an arm (joints, masses, reach, payload) and check its description"
 EXAMPLE = "rgss robot my_arm.urdf -o workspace.svg"
 MORE_EXAMPLES = (("rgss robot scenes/robots/my_arm.yaml", "an arm of a project, with the project's limits"),)
 

@@ -17,9 +17,9 @@ HELP = "run one trial and show it phase by phase"
 EXAMPLE = "rgss run 2 --seed 3"
 MORE_EXAMPLES = (
     ("rgss run 2 --film trial.webm", "and film it"),
-    ("rgss run 2 --replay trial.html --beside 28", "and replay it in a page, with another variant as a ghost"),
-    ("rgss run 2 --fidelity kinematic", "motion alone, quickly"),
-    ("rgss run 2 --nominal", "with everything as the files say"),
+    ("rgss run 2 --replay trial.html --beside 28", "and write a 3D replay of it, with another variant as a ghost"),
+    ("rgss run 2 --fidelity kinematic", "motion alone, in a short time"),
+    ("rgss run 2 --nominal", "with nominal values, without uncertainty"),
     ("rgss run 2 --nominal --driver ur --address 192.168.0.10", "what would be sent to a robot; --go sends it"),
 )
 
@@ -139,8 +139,8 @@ def _show(record: Any, digest: str, drawn: Sequence[DrawnValue], control: str) -
     print_table(titles, rows, right=(3, 4, 5, 6, 7, 8))
     metrics = record.metrics
     if record.success:
-        stands = metrics["place_error_m"]
-        where = "" if stands is None else f": the object stands {number(1e3 * stands, 3)} mm from the place"
+        offset = metrics["place_error_m"]
+        where = "" if offset is None else f": the object is {number(1e3 * offset, 3)} mm from the place"
         print(f"Success in {number(metrics['task_time_s'])} s (planning included){where}.")
     else:
         print(f"Failed at {record.failed_phase}: {record.failure.value}: {record.failure_detail}")
@@ -148,7 +148,7 @@ def _show(record: Any, digest: str, drawn: Sequence[DrawnValue], control: str) -
 
 
 def _print_chosen_grasp(record: Any) -> None:
-    """Print the grasp that was chosen of candidates, where one was."""
+    """Print the grasp chosen among the candidates, if there is one."""
     from rgss.cli.output import number
 
     metrics = next((phase.metrics for phase in record.phases if "chosen_grasp_rank" in phase.metrics), None)

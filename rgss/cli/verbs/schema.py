@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-HELP = "write JSON Schemas of the YAML documents, with which editors complete and check them"
+HELP = "write JSON Schemas of the YAML documents, for completion and checks in editors"
 FITTED = False
 EXAMPLE = "rgss schema --out schemas --headers"
 MORE_EXAMPLES = (
@@ -43,7 +43,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--headers",
         action="store_true",
-        help="with --out: put the line that names its schema at the head of every document of the project",
+        help="with --out: add the line that names its schema to the top of every document of the project",
     )
 
 
@@ -55,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.studies import DOCUMENT_KINDS, document_kind
 
     if options.headers and (options.out is None or options.document is not None):
-        raise DefinitionError("--headers goes with --out and no DOCUMENT", hint="rgss schema --out schemas --headers")
+        raise DefinitionError("--headers needs --out and no DOCUMENT", hint="rgss schema --out schemas --headers")
     if options.project is not None and not options.headers:
         raise DefinitionError("--project goes with --headers", hint="omit it; schemas are alike in all projects")
     if options.out is not None:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 HELP = "run every trial of a study that has no evidence yet"
 EXAMPLE = "rgss sweep --replicates 10 --jobs 2"
 MORE_EXAMPLES = (
-    ("rgss sweep --dry-run", "say what would be made and why"),
+    ("rgss sweep --dry-run", "list what would be run and why"),
     ("rgss sweep --fidelity kinematic", "motion alone, for a first look"),
     ("rgss sweep --only gripper.fingers=2 --only 1/3", "a balanced third of the designs with two fingers"),
     ("rgss sweep --until decided --cap 50", "add trials where they can still change the decision"),
@@ -46,9 +46,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--budget", type=int, metavar="N", help="with --until: most trials of all variants (default: the study's)"
     )
-    parser.add_argument("--dry-run", action="store_true", help="say what would be made and why, and make nothing")
+    parser.add_argument("--dry-run", action="store_true", help="list what would be run and why, and run nothing")
     parser.add_argument(
-        "--no-share", action="store_true", help="run every trial by itself: the same records, at many times the cost"
+        "--no-share",
+        action="store_true",
+        help="run every trial without shared pieces: the same records, at many times the cost",
     )
     parser.add_argument(
         "--time-limit", metavar="TIME", help="longest time for one piece, such as '5 min' (default: '5 min')"
@@ -59,7 +61,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run what is missing; progress and failures of the run go to standard error; 3 if there are any."""
+    """Run the missing trials; progress and failures go to standard error; 3 if a trial could not be run."""
     from rgss.cli.main import CLEAN, RUN_FAILED
     from rgss.cli.output import shown_path
     from rgss.cli.sweep import (
@@ -147,11 +149,11 @@ def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[D
         print(*dry_run_lines(found, label), sep="\n")
         if project.study.sweeps_until_decided and not options.only:
             more = (project.study.until_decided.budget or 0) - len(specs)
-            print(f"Then up to {more} trials more, where the decision is open (until_decided.budget).")
+            print(f"Then up to {more} more trials where the decision is open (until_decided.budget).")
             rule = project.study.until_decided
             if rule.reserve is not None:
                 print(
-                    f"Then up to {rule.reserve} trials more while the probability of good selection is below "
+                    f"Then up to {rule.reserve} more trials while the probability of good selection is below "
                     f"{rule.good_selection:g} (until_decided.reserve)."
                 )
     return CLEAN
@@ -173,7 +175,7 @@ def _positive(option: str, text: str, unit: str, example: str) -> float:
     """Read a quantity above zero from an option.
 
     Raises:
-        DefinitionError: It is none.
+        DefinitionError: It is not a quantity of that unit above zero.
     """
     from rgss.errors import DefinitionError, QuantityError
     from rgss.findings import shown

@@ -1,4 +1,4 @@
-"""``rgss trace``: matrices, coverage, the chain of an id, and what a change to it touches."""
+"""``rgss trace``: matrices, coverage, and the chain or the impact of an id."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PAGED = True
 EXAMPLE = "rgss trace -o trace.html"
 MORE_EXAMPLES = (
     ("rgss trace SYS-005", "one chain, up to the need and down to the trials"),
-    ("rgss trace SYS-005 --impact", "what a change to it touches"),
+    ("rgss trace SYS-005 --impact", "the impact of a change"),
 )
 
 
@@ -29,10 +29,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "id", nargs="?", metavar="ID", help="show the chain of this id: up to the need, down to what decides"
     )
-    parser.add_argument("--impact", action="store_true", help="with an id: show what a change to it would touch")
-    parser.add_argument("--gaps", action="store_true", help="show only what is open; exit with 1 if anything is")
     parser.add_argument(
-        "--variant", type=int, metavar="N", help="show the evidence of this variant (default: the one that is chosen)"
+        "--impact", action="store_true", help="with an id: show the elements that a change to it affects"
+    )
+    parser.add_argument("--gaps", action="store_true", help="show gaps only; exit with 1 if there is one")
+    parser.add_argument(
+        "--variant", type=int, metavar="N", help="show the evidence of this variant (default: the chosen one)"
     )
     parser.add_argument("--table", choices=TABLES, metavar="NAME", help=f"only this table: {', '.join(TABLES)}")
     formats = [one.name for one in TRACE_FORMATS]
@@ -50,7 +52,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Show or write; 1 if ``--gaps`` finds something open."""
+    """Show or write; 1 if ``--gaps`` finds a gap."""
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.reports.trace import trace_report
     from rgss.trace.model import build_trace_model

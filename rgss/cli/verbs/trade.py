@@ -1,4 +1,4 @@
-"""``rgss trade``: the decision, the reasons for it, what nearly won, and what would change it."""
+"""``rgss trade``: the decision, its reasons, its closest rivals, and what would change it."""
 
 from __future__ import annotations
 
@@ -16,13 +16,16 @@ if TYPE_CHECKING:
     from rgss.studies import Project
     from rgss.tradeoff import PortfolioDecision, SolverRun
 
-HELP = "decide which variant is best, say why, and what would change that"
+HELP = "choose the best variant, with the reasons and what would change the choice"
 PAGED = True
 EXAMPLE = 'rgss trade --what-if weight.t_p=0.4 --what-if "SYS-012.threshold=0.9 kg"'
 MORE_EXAMPLES = (
     ("rgss trade", "the decision, why, and what would change it"),
-    ("rgss trade --fidelity kinematic", "by the evidence of quick trials"),
-    ('rgss trade --what-if "planning.charge_per_check=0.5 ms" --run', "with another clock; runs what it lacks"),
+    ("rgss trade --fidelity kinematic", "by the evidence of kinematic trials"),
+    (
+        'rgss trade --what-if "planning.charge_per_check=0.5 ms" --run',
+        "with another planning clock; runs the missing trials",
+    ),
     ("rgss trade --section --into README.md", "write the decision into a page"),
 )
 
@@ -64,8 +67,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="solve every program by another solver too; the certificate names the solvers that agree (scip: "
         "pip install 'rgss[scip]')",
     )
-    parser.add_argument("--brief", action="store_true", help="only the decision and why")
-    parser.add_argument("--effects", action="store_true", help="also what each level of each factor does to a measure")
+    parser.add_argument("--brief", action="store_true", help="only the decision and its reasons")
+    parser.add_argument(
+        "--effects", action="store_true", help="also the effect of each factor's levels on the measures"
+    )
     parser.add_argument("--section", action="store_true", help="print the decision as a section in Markdown")
     parser.add_argument(
         "--into", type=Path, metavar="FILE", help="with --section: put it between the file's markers instead"
@@ -88,12 +93,14 @@ def run(options: argparse.Namespace) -> int:
     if options.into is not None and not options.section:
         raise DefinitionError("--into needs --section", hint="the section is what goes into the file")
     if options.section and (options.what_if or options.json):
-        raise DefinitionError("--section is of the study as it is", hint="leave --what-if and --json away")
+        raise DefinitionError(
+            "--section excludes --what-if and --json", hint="omit them: the section shows the study itself"
+        )
     if options.jobs is not None and not options.run:
         raise DefinitionError("--jobs needs --run", hint="a decision from stored trials needs no workers")
     time_limit = seconds_of(options.time_limit)
     independent = () if options.solver_check is None else (independent_run(SolverCheck(options.solver_check)),)
-    # Read before anything is computed: it may have no place for the section.
+    # Read before anything is computed, since the file may lack the markers of the section.
     text = None if options.into is None else text_with_place(options.into)
     project = chosen_project(options)
     scenario = suppose(project, options.what_if) if options.what_if else None
@@ -125,7 +132,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _print(options: argparse.Namespace, made: StudyDecision, text: str | None) -> None:
-    """Print the decision, or write it into the text of the file that is named."""
+    """Print the decision, or write it into the text of the given file."""
     from rgss.cli.output import print_json, print_lines
     from rgss.documents import write_output
     from rgss.reports.decision import decision_lines, decision_section, trade_document, with_section
@@ -163,13 +170,13 @@ def seconds_of(text: str | None) -> float | None:
 
 
 def _reopened(project: Project, scenario: Scenario, screened: ScreeningResult, store: EvidenceStore) -> tuple[int, ...]:
-    """The designs that were screened out and would not have been under the suppositions."""
+    """The screened-out designs that would be promoted under the suppositions."""
     from rgss.assessment import measure_variants
     from rgss.decision import reopened
     from rgss.decision.what_if import measured_in
 
     if scenario.settings:
-        return ()  # Other trials screen then, of which nothing is said.
+        return ()  # The suppositions change the screening trials themselves, so that nothing is known of them.
     first = measure_variants(project.with_fidelity(screened.screening.fidelity.value), store)
     return reopened(screened, scenario.project, measured_in(scenario, first))
 

@@ -34,7 +34,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_study(parser)
     parser.add_argument("--only", action="append", metavar="WHICH", help=ONLY_HELP)
     parser.add_argument(
-        "--format", choices=[one.name for one in VARIANT_FORMATS], default="table", help="how to list them"
+        "--format", choices=[one.name for one in VARIANT_FORMATS], default="table", help="the output format"
     )
 
 
@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _left_out(designs: DesignSpace) -> list[str]:
-    """Sampled points and combinations that make no variant; nothing where all make one."""
+    """Lines on the sampled points and combinations that make no variant; empty if there are none."""
     lines = []
     if designs.sample is not None:
         sample = designs.sample

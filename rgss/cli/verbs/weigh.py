@@ -1,4 +1,4 @@
-"""``rgss weigh``: weights from pairwise answers, their intervals, and how far the answers agree."""
+"""``rgss weigh``: weights from pairwise answers, with intervals and the consistency of the answers."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from rgss.cli.options import add_study, chosen_project
 if TYPE_CHECKING:
     from rgss.studies import Project
 
-HELP = "weights from pairwise answers on swings, and how far the answers agree"
+HELP = "compute weights from pairwise answers on swings, with the consistency of the answers"
 EXAMPLE = "rgss weigh studies/pick_place.yaml"
 MORE_EXAMPLES = (
     ("rgss weigh", "the weights of the study with their intervals, and the inconsistency of the answers"),
-    ("rgss weigh --questions", "what to ask, as a section of the study's file to fill in"),
+    ("rgss weigh --questions", "the questions, as a section of the study's file to fill in"),
 )
 
 
@@ -38,7 +38,7 @@ def run(options: argparse.Namespace) -> int:
     trade_off = project.study.trade_off
     if options.questions:
         if options.json:
-            raise DefinitionError("--questions prints a section of a YAML file", hint="leave --json away")
+            raise DefinitionError("--questions prints a section of a YAML file", hint="omit --json")
         print_lines(question_lines(_swings(project)))
         return CLEAN
     if options.json:
@@ -58,7 +58,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _swings(project: Project) -> Iterator[tuple[str, str, str]]:
-    """Each measure that is valued, with its worst and its best quantity."""
+    """Worst and best quantity of each valued measure."""
     from rgss.reports.decision import quantity_text
 
     for one in project.study.values:

@@ -1,4 +1,4 @@
-"""Modelling assumptions of a study questioned: the choice under each alternative."""
+"""Modelling assumptions of a study: the choice under each alternative."""
 
 from typing import TYPE_CHECKING
 

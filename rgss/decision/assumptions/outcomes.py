@@ -1,4 +1,4 @@
-"""The choice under each alternative of each assumption that is questioned."""
+"""The choice under each alternative of each questioned assumption."""
 
 from __future__ import annotations
 
@@ -27,18 +27,19 @@ class AssumptionOutcome:
         question: The assumption and its alternative.
         taken_as: Its value in the study.
         chosen: The variant that is then chosen; None if none is, or that is not known.
-        ties: All that are then as good.
+        ties: The variants that are then as good.
         feasible: Number of variants that then meet every requirement by their estimates.
-        is_same: Whether the study's choice is still among the best, or the evidence does not separate it from the
+        is_same: True if the study's choice is still among the best, or the evidence does not separate it from the
             other one; None if that is not known.
-        is_unseparated: Whether another one is chosen, from which the evidence does not separate the study's choice.
+        is_unseparated: True if another one is chosen that the evidence does not separate from the study's choice.
         trials: Number of trials that it needs.
         missing: Number of those that would have to be run.
-        read_off: Number of those that were read off stored searches.
-        otherwise: Number of trials that then succeed and do not in the study, and of those that do and then do not.
+        read_off: Number of those that follow from stored searches.
+        otherwise: Number of trials that succeed only under the alternative, and of those that succeed only in the
+            study.
         otherwise_of_choice: Number of these that are trials of the study's choice.
-        excluded_by: Requirements that the study's evidence excludes the other choice by.
-        reason: Reason for a missing answer; empty where there is one, or trials are missing.
+        excluded_by: Requirements by which the study's evidence excludes the other choice.
+        reason: Reason for a missing answer; empty if there is one, or if trials are missing.
     """
 
     question: Question
@@ -80,7 +81,7 @@ def assumption_outcomes(
 def missing_trials(
     project: Project, measured: Sequence[VariantMeasures], store: EvidenceStore
 ) -> tuple[TrialSpec, ...]:
-    """The trials that the questions need and the evidence lacks, each once.
+    """Missing trials that the questions need, each once.
 
     Args:
         project: The project with its study, without suppositions.
@@ -89,7 +90,7 @@ def missing_trials(
 
     Raises:
         EvidenceError: The store is damaged.
-        DefinitionError: An alternative is none.
+        DefinitionError: An alternative is invalid.
     """
     reader = ScenarioEvidenceReader(project, measured, store)
     scenarios = (suppose(project, [question.supposition]) for question in questions_of(project))

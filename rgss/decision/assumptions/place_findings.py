@@ -1,4 +1,4 @@
-"""Findings about what a study questions: assumptions, alternatives and ranges of inputs that are not there."""
+"""Findings on unknown names among a study's assumptions, alternatives and ranges of inputs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Assumptions of a study that are varied: those of its file, else a list that follows from the study."""
+"""Assumptions of a study that are varied: those of its file, else a list derived from the study."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _CHARGE_FACTORS = (0.5, 2.0)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Question:
-    """An assumption, and what it is taken as instead.
+    """An assumption with an alternative value.
 
     Attributes:
-        about: The assumption, as ``--what-if`` takes it.
-        alternative: Another value of it.
+        about: The assumption, by its name for ``--what-if``.
+        alternative: The alternative value.
     """
 
     about: str
@@ -30,14 +30,14 @@ class Question:
 
     @property
     def supposition(self) -> str:
-        """The text that ``--what-if`` takes."""
+        """The text for ``--what-if``."""
         return f"{self.about}={self.alternative}"
 
 
 def questions_of(project: Project) -> tuple[Question, ...]:
-    """The assumptions that are questioned, each alternative by itself.
+    """The questioned assumptions, each alternative by itself.
 
-    They are those that the study's file gives alternatives; where it gives none, the charge of a check halved and
+    They are those with alternatives in the study's file; if it has none, the charge of a check halved and
     doubled, each planning limit of a design for all designs, the world without uncertainty, kinematic trials, and
     assumed prices of 0. Readings of the source follow from the measures' file.
 

@@ -1,4 +1,4 @@
-"""Errors of assumed numbers that the choice survives: each alone, and all costs together."""
+"""Errors of assumed numbers that do not change the choice: each alone, and all costs together."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from rgss.tradeoff.robustness import (
 )
 
 SCAN_FACTOR = 4.0
-"""A number on which nothing depends linearly is followed from a quarter of its value to four times it."""
+"""A number with a nonlinear effect is scanned over [x/4, 4x]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,12 +33,12 @@ class AssumptionFinding:
 
     Attributes:
         number: The number.
-        columns: The measures of the trade-off that depend on it; empty where none does.
-        range: The values over which the choice stays best; None where it could not be followed,
-            and `reason` is the reason.
+        columns: The measures of the trade-off that depend on it; may be empty.
+        range: The values over which the choice stays best; None if it could not be computed, with
+            the reason in `reason`.
         reason: Reason for the lack of a range; empty otherwise.
-        simulated: Whether the trials were simulated with the number: their evidence is held, so
-            that another value would need other trials.
+        simulated: True if the trials were simulated with the number: their evidence is held fixed, although
+            another value would need other trials.
     """
 
     number: ModelNumber
@@ -51,14 +51,14 @@ class AssumptionFinding:
 def assumption_findings(
     remeasuring: Remeasuring, preferences: Preferences, chosen: int
 ) -> tuple[AssumptionFinding, ...]:
-    """Follow each assumed number of the catalogue and of the measures, one at a time.
+    """Ranges of each assumed number of the catalogue and of the measures, one at a time.
 
     Where every affected measure is affine in the number and its value function piecewise linear,
     the ends are solved for exactly; otherwise the dependence is scanned and bisected.
 
     Args:
-        remeasuring: The evidence, which can be evaluated anew.
-        preferences: Preferences that the alternatives are compared by; decided by the highest weighted value.
+        remeasuring: The evidence, which can be evaluated again.
+        preferences: Preferences by which the alternatives are compared; the highest weighted value is chosen.
         chosen: The row of the choice.
     """
     numbers = assumed_numbers(remeasuring.project)
@@ -74,7 +74,7 @@ def assumption_findings(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Follower:
-    """Follows one number after another."""
+    """Range computation for one number after another."""
 
     remeasuring: Remeasuring
     preferences: Preferences
@@ -93,7 +93,7 @@ class _Follower:
         )
 
     def _decisive(self, columns: Sequence[str]) -> tuple[str, ...]:
-        """Those of some columns that weigh or are bounded."""
+        """The columns with a weight or a bound."""
         preferences = self.preferences
         decisive = {*preferences.weighting.deciding_measures}
         decisive.update(condition.measure for condition in preferences.conditions)
@@ -126,7 +126,7 @@ class _Follower:
             try:
                 table = self.remeasuring.table_with(number, value)
             except DefinitionError:
-                # A measure that is not defined there lets nothing be chosen.
+                # If a measure is undefined there, nothing can be chosen.
                 return Standing(totals=np.full(len(self.remeasuring.table), np.nan), feasible=allowed(value) & False)
             return self._standing(table, allowed(value))
 

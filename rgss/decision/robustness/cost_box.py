@@ -28,8 +28,8 @@ class CostBox:
     Attributes:
         numbers: The costs.
         column: The measure that they add up to.
-        range: What of ±x % the choice survives, and the worst corner.
-        unmoved: The costs that are assumed to be 0, which no percentage moves.
+        range: The greatest ±x % that does not change the choice, and the worst corner.
+        unmoved: The costs that are assumed to be 0, which no percentage changes.
     """
 
     numbers: tuple[ModelNumber, ...]
@@ -42,12 +42,12 @@ def cost_box(remeasuring: Remeasuring, preferences: Preferences, chosen: int) ->
     """The largest x such that the choice stays best with every assumed cost anywhere within ±x %.
 
     Args:
-        remeasuring: The evidence, which can be evaluated anew.
-        preferences: Preferences that the alternatives are compared by; decided by the highest weighted value.
+        remeasuring: The evidence, which can be evaluated again.
+        preferences: Preferences by which the alternatives are compared; the highest weighted value is chosen.
         chosen: The row of the choice.
 
     Returns:
-        The range; a reason, as a sentence part, where it does not apply.
+        The range; a reason, as part of a sentence, if it does not apply.
     """
     measures, table = remeasuring.project.measures, remeasuring.table
     numbers = tuple(
@@ -89,7 +89,7 @@ def _box_problem(
     column: str,
     breakpoints: Sequence[tuple[float, float]],
 ) -> BoxProblem:
-    """The total value of each alternative as a function of the costs, which add up to one measure."""
+    """Total value of each alternative as a function of the costs, which add up to one measure."""
     table = remeasuring.table
     assumed = np.array([number.value for number in numbers])
     quantities = table.column(column)

@@ -13,7 +13,7 @@ from rgss.tradeoff.robustness import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FactorLevels:
-    """A factor of the design space as effects name it.
+    """Factor of the design space with its parameters and levels.
 
     Attributes:
         id: Its id.
@@ -34,13 +34,13 @@ class MeasureEffects:
         measure: The measure.
         unit: Its unit.
         factors: The factors with the levels that were analysed.
-        left_out: The levels that were left out because a design with them has no estimate, as
-            ``factor=level``; without them the design is balanced again.
+        left_out: The levels that were omitted because a design with them has no estimate, as
+            ``factor=level``; without them the design is balanced.
         designs: Number of analysed designs.
-        analysis: The effects; None where no balanced block of designs has estimates, and where the
+        analysis: The effects; None if no balanced block of designs has estimates, and if the
             designs are a sample.
-        sampled: Of designs that are a sample, the share of each factor alone with its interval, by
-            factor; empty otherwise, and where too few designs have estimates.
+        sampled: For a sample of designs, the share of each factor alone with its interval, by
+            factor; empty otherwise, and if too few designs have estimates.
     """
 
     measure: str
@@ -58,7 +58,7 @@ class StudyEffects:
 
     Attributes:
         factors: The factors that vary.
-        constants: The design parameters that do not, and so have no effect that could be seen.
+        constants: The design parameters that do not vary, whose effects cannot be observed.
         measures: The effects on each measure, in the order of the file.
     """
 
@@ -68,13 +68,13 @@ class StudyEffects:
 
 
 def leading_factors(effects: MeasureEffects, *, least: float = 0.01) -> Mapping[str, float]:
-    """The factors by the share of a measure's differences that they take part in, the largest first.
+    """The factors by their total-order share of a measure's variance, the largest first.
 
-    Of designs that are a sample it is the share that each explains alone.
+    For a sample of designs it is the share that each explains alone.
 
     Args:
         effects: The effects on the measure.
-        least: Smaller shares are left out.
+        least: Least share of a returned factor.
     """
     shares = sorted(_shares(effects).items(), key=lambda item: -item[1])
     return {factor: share for factor, share in shares if share >= least}

@@ -24,19 +24,18 @@ from rgss.tradeoff.robustness import (
 )
 
 SAMPLE_RESAMPLES = 200
-"""Resamples of sampled designs for the intervals of shares."""
+"""Number of resamples of sampled designs for the intervals of shares."""
 
 
 def study_effects(project: Project, measured: Sequence[VariantMeasures], resamples: Resamples | None) -> StudyEffects:
     """Main effects and interactions of two factors on every measure, with bootstrap intervals.
 
     A factor may set several design parameters at once; their effects are those of the factor. A
-    measure that designs without success do not have is analysed over the largest block of levels
-    of which every combination has it; what is left out is reported.
+    measure that designs without success lack is analysed over the largest block of levels
+    in which every combination has it; omitted levels are reported.
 
     A measure that follows from the design alone has no noise, and its effects have no intervals.
-
-    Designs that are a sample are not a table of levels: of these each factor's share alone is
+    For a sample of designs, which is not a table of levels, only each factor's own share is
     estimated, over the designs that have the measure.
 
     Args:
@@ -72,7 +71,7 @@ def study_effects(project: Project, measured: Sequence[VariantMeasures], resampl
 
 
 def _analysed(project: Project) -> Iterator[Measure]:
-    """The measures whose effects are of interest."""
+    """The measures whose effects are analysed."""
     for measure in project.measures.measures:
         if measure.kind is not MeasureKind.SUPPLEMENTARY or measure.better.value != "none":
             yield measure
@@ -81,7 +80,7 @@ def _analysed(project: Project) -> Iterator[Measure]:
 def _replicate_columns(project: Project, measured: Sequence[VariantMeasures]) -> dict[str, NDArray[np.float64]]:
     """Quantities by replicate of each variant, shape (n, r), for each measure that is observed in trials.
 
-    Filled row by row: as objects, the replicates of many variants take four times the memory.
+    Arrays are filled row by row, since lists of Python objects would take four times the memory.
     """
     names = [measure.id for measure in _analysed(project) if measure.from_trials]
     columns: dict[str, NDArray[np.float64]] = {}
@@ -95,7 +94,7 @@ def _replicate_columns(project: Project, measured: Sequence[VariantMeasures]) ->
 
 
 def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEffects:
-    """Shares of the factors of sampled designs; a point that repeats another counts as often as it was drawn."""
+    """Shares of the factors of sampled designs; a repeated point counts as often as it was drawn."""
     sample, generator = project.designs.sample, np.random.default_rng(project.study.seed)
     repeats = Counter(sample.repeats.values()) if sample is not None else Counter()
     rows = [entry for entry in measured for _ in range(1 + repeats[entry.variant.id])]
@@ -139,7 +138,7 @@ def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEf
 
 
 def _classes(factor: FactorLevels, rows: Sequence[VariantMeasures]) -> NDArray[np.int64]:
-    """The level of each design, or where the factor has a range, the class of its value."""
+    """Level of each design, or the class of its value if the factor has a range."""
     if factor.levels:
         return np.array([factor.levels.index(entry.variant.levels[factor.id]) for entry in rows], dtype=np.int64)
     values = [entry.variant.parameters[factor.parameters[0]] for entry in rows]
@@ -172,11 +171,11 @@ class _Design:
         )
 
     def arranged(self, values: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]:
-        """Values of the variants, one axis for each factor; NaN where rules leave no variant."""
+        """Values of the variants, one axis for each factor; NaN for combinations that rules exclude."""
         return np.asarray(self.all_arranged(np.array(values, dtype=np.float64)[None])[0], dtype=np.float64)
 
     def all_arranged(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Rows of such values, shape (k, n), each as its own table: shape (k, ...)."""
+        """Rows of values, shape (k, n), each arranged as a table: shape (k, ...)."""
         shape = [len(factor.levels) for factor in self.factors]
         places = np.array(self.places, dtype=np.intp).reshape(len(self.places), len(shape))
         flat = np.ravel_multi_index(tuple(places.T), shape) if shape else np.zeros(len(places), dtype=np.intp)
@@ -187,13 +186,13 @@ class _Design:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _ResampledBlock:
-    """The means of every design of a balanced block in each resample, arranged when they are read.
+    """Means of every design of a balanced block in each resample, arranged lazily.
 
     Attributes:
         means: The means of the variants, shape (b, n).
         design: Levels of each variant.
-        cut: The levels that are kept, as an index.
-        shape: The numbers of levels that are kept of each factor that varies.
+        cut: The retained levels, as an index.
+        shape: The number of retained levels of each varying factor.
     """
 
     means: NDArray[np.float64]

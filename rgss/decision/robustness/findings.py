@@ -1,4 +1,4 @@
-"""Robustness of a decision: the analyses, and the reasons for missing parts."""
+"""Results of the robustness analyses of a decision, with the reasons for missing parts."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ class RequirementPrice:
     """Price of a requirement.
 
     Attributes:
-        condition: The demand.
-        steps: How the choice and the feasible set change with its limit, from loose to tight; rows
+        condition: The requirement as a condition.
+        steps: Choice and feasible set as functions of its limit, from loose to tight; rows
             are those of the analysis.
     """
 
@@ -44,16 +44,15 @@ class WeightRobustness:
     """Effect of other weights on a choice by weighted value.
 
     Attributes:
-        elicited: Whether the weights are bounded by what was elicited; all weights otherwise.
+        elicited: True if the weights are bounded by elicitation; all weights otherwise.
         regions: The weights at which each alternative wins.
         shifts: The nearest weights at which each wins, the nearest first.
         ranges: Range of each weight alone.
-        acceptability: The indices of SMAA-2 over weights and noise; over weights alone where
-            there is no noise to draw from.
+        acceptability: The indices of SMAA-2 over weights and noise; over weights alone without noise.
         first_errors: The standard error of each alternative's first-rank acceptability over
-            repetitions of the study, shape (n,); that of the draws of weights where there is no noise.
+            repetitions of the study, shape (n,); that of the draws of weights without noise.
         uncertainty: The uncertainty of the choice at the study's weights; None without noise.
-        with_noise: Whether they are over noise too.
+        with_noise: True if they are over noise too.
 
     A part that could not be computed is None, with its reason in `Robustness.not_computed`.
     """
@@ -77,20 +76,20 @@ class Robustness:
         measures: The measures with a weight above 0: the columns of weights.
         weights: Their weights.
         values: Values of each alternative in them, shape (n, m); NaN where unknown.
-        feasible: Mask of the alternatives that meet every demand.
+        feasible: Mask of the alternatives that meet every requirement.
         front: The Pareto front of the feasible ones.
-        weighting: Effects of other weights; None where `refused` has the reason.
-        assumptions: Range of each assumed number that keeps the choice; empty where `refused` has the reason.
-        costs: Range of all assumed costs together that keeps the choice; None where `refused` has the reason.
-        prices: Price of each demand.
+        weighting: Effects of other weights; None if `refused` has the reason.
+        assumptions: Range of each assumed number that keeps the choice; empty if `refused` has the reason.
+        costs: Range of all assumed costs together that keeps the choice; None if `refused` has the reason.
+        prices: Price of each requirement.
         reversals: Removals of an alternative that change the order of the others, under the
             study's program; none for values that are anchored on requirements.
-        stretched: The same had the values been stretched between the extremes of the sample.
+        stretched: The same for values stretched between the extremes of the sample.
         effects: Effects of each factor on each measure.
         draws: Number of posterior draws of the noise; 0 without noise.
         resamples: Number of resamples of the replicates for the effects; 0 without noise.
-        all_resamples: Whether these are all there are.
-        refused: Reason that an analysis does not apply, by its name.
+        all_resamples: True if the resamples are enumerated completely.
+        refused: Reason why an analysis does not apply, by its name.
         not_computed: Reason for each part that could not be computed; its value here is empty.
     """
 

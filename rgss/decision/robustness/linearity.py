@@ -8,7 +8,7 @@ from functools import singledispatch
 from rgss.measures import Binary, Call, Estimator, MeasureSet, Name, Negative, Node, Number, Power, Summary
 
 CONSTANT, AFFINE, OTHER = range(3)
-"""Does not depend on the symbols; a number plus a multiple of each; anything else."""
+"""Degrees: independent of the symbols; affine in them; anything else."""
 
 _LINEAR_FUNCTIONS = ("sum", "mean")
 
@@ -16,8 +16,7 @@ _LINEAR_FUNCTIONS = ("sum", "mean")
 def is_affine(measures: MeasureSet, measure: str, symbols: Collection[str]) -> bool:
     """True if a measure is an affine function of some symbols together, with the others held.
 
-    The answer is conservative: what simplifies to an affine function but is not written as one
-    may be missed.
+    The result is conservative: an expression that only simplifies to an affine function may be missed.
 
     Args:
         measures: The measures.

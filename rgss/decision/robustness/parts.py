@@ -1,4 +1,4 @@
-"""The parts of an analysis of robustness, each computed by itself: one that fails leaves the others."""
+"""Parts of the robustness analysis, each computed by itself: a failure does not affect the others."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Result = TypeVar("Result")
 
 
 class Part(str, Enum):
-    """A part of the analysis, by its place in the document that ``rgss trade --json`` prints."""
+    """Part of the analysis, by its place in the document of ``rgss trade --json``."""
 
     PARETO = "pareto"
     REGIONS = "weight_changes.regions"
@@ -34,7 +34,7 @@ class Part(str, Enum):
 
     @property
     def words(self) -> str:
-        """The part as pages for people name it."""
+        """Name of the part on pages."""
         return _TITLES[self]
 
 
@@ -77,7 +77,7 @@ class NotComputed:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PartComputer:
-    """Computes parts one after the other and notes those that fail.
+    """Computation of parts, with a record of those that fail.
 
     Attributes:
         missing: Reason for each part that was not computed.
@@ -86,14 +86,14 @@ class PartComputer:
     missing: dict[Part, NotComputed] = field(default_factory=dict)
 
     def compute(self, part: Part, function: Callable[[], Result], otherwise: Result) -> Result:
-        """A part, or its substitute where it cannot be computed.
+        """A part, or its substitute if it cannot be computed.
 
-        Only errors that carry a reason for the user, and a lack of memory, are noted. All else is a
-        mistake of the program and goes on to the caller.
+        Only errors with a reason for the user, and a lack of memory, are recorded. All others are
+        bugs and propagate.
 
         Args:
             part: The part.
-            function: Computes it.
+            function: Function that computes it.
             otherwise: Its empty value.
         """
         try:
@@ -114,6 +114,6 @@ def not_computed_lines(missing: Mapping[Part, NotComputed]) -> tuple[str, ...]:
     for part, why in missing.items():
         parts.setdefault(why, []).append(part.words)
     return tuple(
-        f"Not computed: {', '.join(titles)}: {why.reason}." + (f" To mend it: {why.remedy}." if why.remedy else "")
+        f"Not computed: {', '.join(titles)}: {why.reason}." + (f" Remedy: {why.remedy}." if why.remedy else "")
         for why, titles in parts.items()
     )

@@ -1,4 +1,4 @@
-"""Price of each requirement of a study: what its limit costs."""
+"""Price of each requirement of a study: the value that its limit costs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rgss.tradeoff.robustness import condition_masks, price_list
 
 
 def requirement_prices(problem: TradeProblem, table: EvidenceTable) -> tuple[RequirementPrice, ...]:
-    """The price of each demand: the best value at every limit of it.
+    """Price of each requirement: the best value at every limit of it.
 
     Args:
         problem: The trade-off.

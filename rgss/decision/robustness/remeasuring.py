@@ -20,14 +20,14 @@ Column = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Remeasuring:
-    """Evaluates the columns of a trade-off anew from stored trials.
+    """Evaluator of the columns of a trade-off from stored trials, with a changed number.
 
     Attributes:
         project: The project.
         measured: Its variants with their records, by ascending id.
         table: The evidence of the trade-off, whose rows are these variants.
         fixed: The values that measures take from each of the variants.
-        kinds: Cache: which variants are alike by some of these values.
+        kinds: Cache of groups of variants with equal values.
     """
 
     project: Project
@@ -68,11 +68,11 @@ class Remeasuring:
     def table_with(self, number: ModelNumber, value: float) -> EvidenceTable:
         """The evidence with another value of a number.
 
-        What trials showed is held: a number that a trial was simulated with keeps its old effect in
+        Results of trials are held fixed: a number that a trial was simulated with keeps its old effect in
         them (see `simulated_numbers`).
 
         Args:
-            number: Which number.
+            number: The number.
             value: Its value in SI.
 
         Raises:
@@ -111,7 +111,7 @@ class Remeasuring:
     def _by_design(
         self, measures: MeasureSet, measure: str, rows: NDArray[np.intp], number: ModelNumber, value: float
     ) -> Column:
-        """Quantities that follow from the design alone, computed once for designs that do not differ in it."""
+        """Quantities that follow from the design alone, computed once for equal designs."""
         alike = self._alike(tuple(measures.sources(measure)))[rows]
         _, firsts, kinds = np.unique(alike, return_index=True, return_inverse=True)
         found = np.empty(len(firsts))
@@ -123,7 +123,7 @@ class Remeasuring:
         return np.asarray(found[kinds], dtype=np.float64)
 
     def _alike(self, stands_on: tuple[str, ...]) -> NDArray[np.intp]:
-        """Index of the kind of each variant by these sources, shape (n,); cached."""
+        """Index of the group of each variant by these sources, shape (n,); cached."""
         if stands_on not in self.kinds:
             known: dict[tuple[object, ...], int] = {}
             keys = (tuple(fixed[source] for source in stands_on) for fixed in self.fixed)
@@ -135,7 +135,7 @@ class Remeasuring:
 
 
 def _padded(rows: Sequence[Sequence[float | None]], width: int) -> Column:
-    """Replicates as rows of one width; NaN where unknown, and where a variant has fewer than others."""
+    """Replicates as rows of one width, padded with NaN; NaN where unknown."""
     values = np.full((len(rows), width), np.nan)
     for place, row in enumerate(rows):
         values[place, : len(row)] = np.array(row, dtype=np.float64)
@@ -143,7 +143,7 @@ def _padded(rows: Sequence[Sequence[float | None]], width: int) -> Column:
 
 
 def _mean(replicates: Column) -> Column:
-    """The mean of the known replicates of each row; NaN where none is."""
+    """Mean of the known replicates of each row; NaN if there are none."""
     known = np.isfinite(replicates)
     total = np.where(known, replicates, 0.0).sum(axis=1)
     mean = np.divide(total, known.sum(axis=1), out=np.full(len(total), np.nan), where=known.any(axis=1))

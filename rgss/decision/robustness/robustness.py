@@ -49,10 +49,10 @@ from rgss.tradeoff.robustness import (
 from rgss.tradeoff.weights import winning_regions
 
 ITERATIONS = 20_000
-"""Draws of weights and noise for the acceptability; its standard errors are below 0.0036."""
+"""Number of draws of weights and noise for the acceptability; its standard errors are below 0.0036."""
 
 DRAWN_RESAMPLES = 1_000
-"""Resamples of the replicates where not all can be taken."""
+"""Number of resamples of the replicates if not all can be enumerated."""
 
 
 _NO_EFFECTS = StudyEffects(factors=(), constants=(), measures=())
@@ -65,7 +65,7 @@ class _Posed:
     Attributes:
         problem: The trade-off.
         values: Single values, shape (n, m).
-        feasible: Mask of the alternatives that meet every demand, shape (n,).
+        feasible: Mask of the alternatives that meet every requirement, shape (n,).
         weights: The weights, shape (m,).
         margin: The practical margin.
         replicates: Replicates of each alternative, shape (n,).
@@ -123,7 +123,7 @@ def analyse_robustness(
     parts = PartComputer()
     generator = np.random.default_rng(project.study.seed)
     resamples = _resamples(table, generator, refused)
-    # Levels are compared on the same seeds, which not all variants have where replicates were added to some.
+    # Levels are compared on common seeds, since replicates may have been added to some variants only.
     alike = common_seeds(project, measured)
     values = single_values(problem, table)
     weights = np.array([problem.weighting.weights[measure] for measure in problem.weighting.deciding_measures])
@@ -144,7 +144,7 @@ def analyse_robustness(
         )
         weighting = _weighting(posed, chosen, posterior, generator, parts)
         draws = 0 if posterior is None else posterior.outcomes.shape[0]
-        # The draws are the largest arrays of the analysis, and nothing below reads them.
+        # The draws are the largest arrays of the analysis, and are not used below.
         del posterior
         assumed = _assumed(Remeasuring.of(project, measured, table), problem, chosen, parts, refused)
     else:
@@ -185,7 +185,7 @@ def _assumed(
 
 
 def _no_weights(problem: TradeProblem, chosen: int | None) -> str:
-    """Reason that weights, assumptions and costs are not analysed; empty where they are."""
+    """Reason why weights, assumptions and costs are not analysed; empty if they are."""
     if chosen is None:
         return "no variant meets every requirement"
     if not isinstance(problem.program, AdditiveValue):
@@ -205,7 +205,7 @@ def _resamples(table: EvidenceTable, generator: np.random.Generator, refused: di
 def _posterior(
     project: Project, problem: TradeProblem, table: EvidenceTable, generator: np.random.Generator
 ) -> PosteriorOutcomes | None:
-    """Posterior draws of the evidence; None where nothing was observed twice."""
+    """Posterior draws of the evidence; None if no variant has two observations."""
     if max((int(samples.ran.sum(axis=1).max()) for samples in table.samples.values()), default=0) < FEWEST_REPLICATES:
         return None
     levels = level_numbers(project.designs, table.variants.tolist())
@@ -248,7 +248,7 @@ def _weighting(
 
 
 def _reversals(problem: TradeProblem, table: EvidenceTable, feasible: NDArray[np.bool_]) -> tuple[RankReversal, ...]:
-    """Removals under the study's own program: its best first, then the best of the rest, and so on."""
+    """Rank reversals under the study's own program, which ranks by repeated choice among the rest."""
     rows = np.flatnonzero(feasible)
     totals = weighted_values(problem, table)[rows] if isinstance(problem.program, AdditiveValue) else None
 
@@ -268,7 +268,7 @@ def _reversals(problem: TradeProblem, table: EvidenceTable, feasible: NDArray[np
 def _stretched(
     problem: TradeProblem, table: EvidenceTable, feasible: NDArray[np.bool_], weights: NDArray[np.float64]
 ) -> tuple[RankReversal, ...]:
-    """Removals had values been anchored on the sample; measures with a target are left as they are."""
+    """Rank reversals for values anchored on the sample; measures with a target are unchanged."""
     rows = np.flatnonzero(feasible)
     if not len(rows):
         return ()

@@ -17,7 +17,7 @@ Allowed = Callable[[float], NDArray[np.bool_]]
 
 
 def allowed_variants(project: Project, measured: Sequence[VariantMeasures], number: ModelNumber) -> Allowed:
-    """Function from a value of a number to the mask of the variants that are allowed, shape (n,)."""
+    """Function from a value of a number to the mask of allowed variants, shape (n,)."""
     rules = [rule for rule in project.designs.rules if number.component and _names(rule, number)]
 
     def allowed(value: float) -> NDArray[np.bool_]:
@@ -31,10 +31,10 @@ def allowed_variants(project: Project, measured: Sequence[VariantMeasures], numb
 
 
 def rule_kinks(project: Project, measured: Sequence[VariantMeasures], number: ModelNumber) -> list[float] | None:
-    """The values at which a rule begins or ceases to allow a variant.
+    """Values at which a rule starts or stops allowing a variant.
 
     Returns:
-        The values; None if a constraint is on the number, whose ends are not solved for.
+        The values; None if a constraint on the number has no closed-form solution.
     """
     found: set[float] = set()
     for rule in project.designs.rules:

@@ -15,11 +15,11 @@ class Advantage:
     """Lead of a choice in weighted value.
 
     Attributes:
-        lead: The value of the choice less that of its best rival; below 0 where another is better. None where
+        lead: The value of the choice minus that of its best rival; below 0 if another is better. None if
             the choice is not feasible, or there is no rival.
-        feasible: Whether the choice meets every demand.
-        winners: The rows of the best designs, ascending; empty where nothing is feasible.
-        rival: The row of the best rival; None where there is none.
+        feasible: True if the choice meets every requirement.
+        winners: The rows of the best designs, ascending; empty if nothing is feasible.
+        rival: The row of the best rival; None if there is none.
     """
 
     lead: float | None
@@ -31,8 +31,8 @@ class Advantage:
 def advantage_of(standing: Standing, chosen: int, tied: tuple[int, ...]) -> Advantage:
     """The advantage of a choice.
 
-    Rivals are all other feasible designs; those that are tied with the choice in the study count only
-    where they are better than it.
+    Rivals are all other feasible designs; those tied with the choice in the study count only
+    if they are better than it.
 
     Args:
         standing: Weighted values and feasibility of the designs.

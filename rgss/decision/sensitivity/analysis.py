@@ -37,16 +37,16 @@ class Sensitivity:
         variants: The ids of the rows of everything below, ascending.
         measures: The measures with a weight above 0.
         weights: Their weights, shape (m,).
-        tornado: Swing of the advantage over each input; None where `refused` or `not_computed` has the reason.
+        tornado: Swing of the advantage over each input; None if `refused` or `not_computed` has the reason.
         bends: The choice under bent value functions.
-        kept: The feasible designs with the reason that each is worth keeping, or what beats it; None where it
+        kept: The feasible designs, each with the reason to keep it or the designs that beat it; None if it
             could not be computed.
         keep_margin: Distance from the best within which a design is worth keeping.
-        bounded_weights: Whether elicited bounds cut the weights for which designs are kept.
-        agreement: The choices of the stakeholders; None where the study names none.
+        bounded_weights: True if elicitation bounds the weights for which designs are kept.
+        agreement: The choices of the stakeholders; None if the study names none.
         accept_within: Distance from a stakeholder's best value up to which a design is accepted.
-        flat: The weights that separate nothing.
-        refused: Reason that the sensitivity to inputs is not analysed; empty where it is.
+        flat: The weights that do not separate the designs.
+        refused: Reason why the sensitivity to inputs is not analysed; empty if it is.
         not_computed: Reason for each part that could not be computed.
     """
 
@@ -73,7 +73,7 @@ def analyse_sensitivity(
     *,
     problem: TradeProblem,
 ) -> Sensitivity:
-    """Analyse how a decision follows from its inputs; nothing is simulated.
+    """Analyse the sensitivity of a decision to its inputs; nothing is simulated.
 
     Args:
         project: The project with its study.
@@ -83,7 +83,7 @@ def analyse_sensitivity(
         problem: The trade-off.
 
     Raises:
-        DocumentError: A stated range is of no input, or wrong.
+        DocumentError: A stated range names no input, or is wrong.
     """
     trade_off = project.study.trade_off
     refused = _refused(problem, decision)
@@ -130,7 +130,7 @@ def _refused(problem: TradeProblem, decision: Decision) -> str:
 
 
 def _tornado(standings: Standings, decision: Decision, found: Robustness) -> Tornado | DocumentError:
-    """The tornado; an error in a stated range is returned, since it is the user's and leaves nothing to show."""
+    """The tornado; an error in a range that the user stated is returned in its place."""
     trade_off = standings.project.study.trade_off
     book = RangeBook(trade_off.sensitivity, trade_off.range_places)
     inputs = list(uncertain_inputs(standings, found, book))

@@ -18,14 +18,14 @@ class BentEnd:
     """A value function bent in one direction.
 
     Attributes:
-        curvature: The curvature at the end of the range: above 0 where the function is concave, so that the
+        curvature: The curvature at the end of the range: above 0 if the function is concave, so that the
             first gains count most.
-        lead: The advantage of the choice there; None where it has none.
+        lead: The advantage of the choice there; None if it has none.
         winners: The designs that are best there.
-        flip: The curvature at which the choice changes; None where it does not on the way.
+        flip: The curvature at which the choice changes; None if it does not change within the range.
         flip_winners: The designs that win beyond it.
         flip_tolerance: The risk tolerance there, as a share of the range from worst to best; None without a flip.
-        flip_halfway: Of a linear function, the quantity that is worth one half there; None otherwise.
+        flip_halfway: For a linear function, the quantity with the value one half there; None otherwise.
     """
 
     curvature: float

@@ -1,4 +1,4 @@
-"""Weights that separate nothing, and what to do about each."""
+"""Weights that do not separate the designs, with a remedy for each."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class FlatRemedy(str, Enum):
 
     Attributes:
         MOVE_ENDS: The quantities differ, but all lie beyond one end of the value function: move the ends to them.
-        VARY_THE_WORLD: Trials show the same for all: the task is too easy for the designs.
+        VARY_THE_WORLD: Trials give the same value for all: the task is too easy for the designs.
         OTHER_DESIGNS: The quantity follows from the design, and the feasible designs do not differ in it.
     """
 
@@ -28,7 +28,7 @@ class FlatRemedy(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlatWeight:
-    """A weight that separates nothing.
+    """Weight that does not separate the designs.
 
     Attributes:
         measure: The measure.
@@ -36,12 +36,12 @@ class FlatWeight:
         weight: Its weight.
         low: The least quantity among the designs that it does not separate.
         high: The greatest.
-        all_low: The least quantity among all designs; NaN where none is known.
+        all_low: The least quantity among all designs; NaN if none is known.
         all_high: The greatest.
-        among_feasible: Whether only the feasible designs do not differ.
+        among_feasible: True if only the feasible designs do not differ.
         remedy: Change that would let it separate designs.
-        effective: The weights that decide, without it and all other flat ones; they sum to 1, or are empty
-            where every weight is flat.
+        effective: The effective weights, without all flat ones; they sum to 1, or are empty
+            if every weight is flat.
     """
 
     measure: str
@@ -57,7 +57,7 @@ class FlatWeight:
 
 
 def flat_weights(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> tuple[FlatWeight, ...]:
-    """The weights that separate nothing, in the order of the study.
+    """The weights that do not separate the designs, in the order of the study.
 
     Args:
         project: The project with its study.

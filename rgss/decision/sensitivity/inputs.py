@@ -1,4 +1,4 @@
-"""Uncertain inputs of a decision, each with a range and the standing of the designs at any value of it."""
+"""Uncertain inputs of a decision, each with a range and with values and feasibility of the designs as its function."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class FlipSearch(str, Enum):
 
     Attributes:
         KNOWN: It is solved for by the analyses of robustness.
-        NESTED: The choice changes once at most on each side: bisection.
+        NESTED: The choice changes at most once on each side: bisection.
         SCANNED: Scan of 64 steps on each side, and bisection.
     """
 
@@ -47,7 +47,7 @@ class Flip:
 
     Attributes:
         value: The value, in the unit of the input.
-        winners: The rows that win beyond it; empty where nothing is feasible there.
+        winners: The rows that win beyond it; empty if nothing is feasible there.
     """
 
     value: float
@@ -56,10 +56,10 @@ class Flip:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class UncertainInput:
-    """An input of a decision that is moved from a low to a high value.
+    """Input of a decision that is varied from a low to a high value.
 
     Attributes:
-        id: Its name as ``--what-if`` takes it.
+        id: Its name for ``--what-if``.
         kind: Its kind.
         unit: Its unit.
         base: Its value in the study.
@@ -67,9 +67,9 @@ class UncertainInput:
         high: The high end.
         basis: Source of the range.
         standing: Weighted values and feasibility of the designs at a value of the input.
-        exact: Whether that value is the nearest for certain; a scan may miss a change that reverts within a step.
+        exact: True if the nearest flip is certain; a scan may miss a change that reverts within a step.
         search: Search method for the value at which the choice changes.
-        known_flips: Of KNOWN, the nearest changes below and above the base; None where there is none.
+        known_flips: For KNOWN, the nearest changes below and above the base; None if there is none.
     """
 
     id: str

@@ -14,18 +14,18 @@ from rgss.studies.trade_off import SensitivityChoice, StatedRange
 
 
 class RangeBook:
-    """The ranges of a study; an input takes its own, and what is left over is a mistake.
+    """Ranges of a study; each input takes its own, and remaining ones are errors.
 
     Attributes:
-        choice: Ranges of inputs for which none is stated.
+        choice: Ranges of inputs without a stated range.
     """
 
     def __init__(self, choice: SensitivityChoice, places: Sequence[Finding]) -> None:
-        """Take the section of the study's file.
+        """Create the ranges from the section of the study's file.
 
         Args:
             choice: The section.
-            places: For each stated range a finding at its place.
+            places: A finding at the place of each stated range.
         """
         self.choice = choice
         self._stated = {one.input: one for one in choice.ranges}
@@ -34,7 +34,7 @@ class RangeBook:
         self._known: list[str] = []
 
     def stated(self, name: str, unit: str, base: float) -> tuple[float, float] | None:
-        """The stated range of an input; None where there is none, or it is wrong.
+        """The stated range of an input; None if there is none, or if it is wrong.
 
         Args:
             name: The input.
@@ -59,15 +59,15 @@ class RangeBook:
     def range_of(
         self, name: str, unit: str, base: float, spread: float, *, least: float | None = None, most: float | None = None
     ) -> tuple[float, float, RangeBasis]:
-        """The stated range of an input, or a spread around its value, cut to what it can be.
+        """The stated range of an input, or a spread around its value, clipped to its possible values.
 
         Args:
             name: The input.
             unit: Its unit.
             base: Its value.
-            spread: Change to either side where no range is stated.
-            least: The least that it can be.
-            most: The most that it can be.
+            spread: Change to either side if no range is stated.
+            least: Its least possible value.
+            most: Its greatest possible value.
         """
         stated = self.stated(name, unit, base)
         if stated is not None:
@@ -80,17 +80,17 @@ class RangeBook:
         )
 
     def has(self, name: str) -> bool:
-        """True if a range is stated for an input that has not taken it yet."""
+        """True if a range is stated for an input and not taken yet."""
         return name in self._stated
 
     def check(self, others: Iterable[str] = ()) -> None:
-        """Check that every stated range is of an input, and right.
+        """Check that every stated range belongs to an input and is valid.
 
         Args:
-            others: Inputs that have no range because they decide nothing.
+            others: Inputs without a range because they have no effect.
 
         Raises:
-            DocumentError: One is not; with every problem in its place in the study's file.
+            DocumentError: One is not, with every problem at its place in the study's file.
         """
         ignored = set(others)
         for one in self._stated.values():

@@ -1,4 +1,4 @@
-"""Standing of the designs with one input of the decision changed, all else held."""
+"""Values and feasibility of the designs with one input of the decision changed, all else fixed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from rgss.tradeoff.robustness import Standing
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Standings:
-    """The designs of a study under changed inputs; decided by weighted value.
+    """Designs of a study under changed inputs; decided by weighted value.
 
     Attributes:
         project: The project with its study.
@@ -29,8 +29,8 @@ class Standings:
         table: Its evidence.
         values: The single values in the measures with a weight above 0, shape (n, m).
         weights: Their weights, shape (m,).
-        feasible: Mask of the designs that meet every demand, shape (n,).
-        remeasuring: Evaluates the evidence anew.
+        feasible: Mask of the designs that meet every requirement, shape (n,).
+        remeasuring: Evaluator of the evidence.
     """
 
     project: Project
@@ -55,7 +55,7 @@ class Standings:
         others = self.weights.copy()
         others[place] = 0.0
         rest = float(others.sum())
-        # Where one measure has all weight there are no proportions to keep: the others share alike.
+        # If one measure has all weight, there are no proportions to keep: the others get equal shares.
         shares = others / rest if rest > 0.0 else (np.arange(len(others)) != place) / max(1, len(others) - 1)
 
         def standing(weight: float) -> Standing:
@@ -87,7 +87,7 @@ class Standings:
         return standing
 
     def with_threshold(self, requirement: str) -> Callable[[float], Standing]:
-        """Another threshold of one requirement; values and demands that are anchored on it move along."""
+        """Another threshold of one requirement; values and conditions that are anchored on it follow."""
 
         def standing(threshold: float) -> Standing:
             preferences = self._preferences(requirement, threshold)
@@ -96,7 +96,7 @@ class Standings:
         return standing
 
     def with_number(self, number: ModelNumber) -> Callable[[float], Standing]:
-        """Another value of an assumed number; what trials showed is held."""
+        """Another value of an assumed number; results of trials are held fixed."""
         allowed = allowed_variants(self.project, self.remeasuring.measured, number)
 
         def standing(value: float) -> Standing:
@@ -104,7 +104,7 @@ class Standings:
             try:
                 table = self.remeasuring.table_with(number, value)
             except DefinitionError:
-                # A measure that is not defined there lets nothing be chosen.
+                # If a measure is undefined there, nothing can be chosen.
                 return Standing(totals=np.full(len(self.table), np.nan), feasible=mask & False)
             found = _decided(self.problem, table)
             return Standing(totals=found.totals, feasible=found.feasible & mask)
@@ -137,10 +137,10 @@ class Standings:
 
 
 def standings_of(remeasuring: Remeasuring, problem: TradeProblem) -> Standings:
-    """The designs of a study, ready to be moved.
+    """Standings of the designs of a study.
 
     Args:
-        remeasuring: The evidence, which can be evaluated anew.
+        remeasuring: The evidence, which can be evaluated again.
         problem: The trade-off, decided by weighted value.
     """
     table = remeasuring.table

@@ -16,17 +16,17 @@ _HALVINGS = 60
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TornadoEnd:
-    """One end of the range of an input; designs by their ids.
+    """End of the range of an input; designs are given by their ids.
 
     Attributes:
         value: The value of the input there, in its unit.
-        lead: The advantage of the choice there; below 0 where another design is better. None where the choice
-            misses a demand, or has no rival.
-        feasible: Whether the choice meets every demand there.
-        winners: The designs that are best there; empty where nothing is feasible.
-        rival: The best rival there; None where there is none.
-        flip: The value nearest to the study's at which the choice changes on the way; None where it does not.
-        flip_winners: The designs that win beyond it; empty where nothing is feasible there.
+        lead: The advantage of the choice there; below 0 if another design is better. None if the choice
+            misses a requirement, or has no rival.
+        feasible: True if the choice meets every requirement there.
+        winners: The designs that are best there; empty if nothing is feasible.
+        rival: The best rival there; None if there is none.
+        flip: The value nearest to the study's at which the choice changes; None if it does not change up to this end.
+        flip_winners: The designs that win beyond it; empty if nothing is feasible there.
     """
 
     value: float
@@ -50,10 +50,10 @@ class TornadoBar:
         basis: Source of its range.
         low: The low end.
         high: The high end.
-        swing: The greatest less the least advantage at low end, study and high end; infinite where the choice
-            misses a demand at an end.
-        exact: Whether flips were solved for or bisected where they can change once; otherwise a change that
-            reverts within a 64th of the way may have been missed. The ends are exact always.
+        swing: The greatest minus the least advantage at low end, study and high end; infinite if the choice
+            misses a requirement at an end.
+        exact: True if flips are exact; otherwise a change that reverts within a 64th of the range may have
+            been missed. The ends are always exact.
     """
 
     id: str
@@ -73,7 +73,7 @@ class TornadoBar:
 
     @property
     def moves(self) -> bool:
-        """True if the advantage moves by more than a tie."""
+        """True if the advantage changes by more than a tie."""
         return self.swing > TIE_TOLERANCE
 
 
@@ -83,10 +83,10 @@ class Tornado:
 
     Attributes:
         chosen: The chosen design.
-        rival: Its best rival in the study; None where there is none.
-        lead: Its advantage in weighted value; None where there is no rival.
+        rival: Its best rival in the study; None if there is none.
+        lead: Its advantage in weighted value; None without a rival.
         bars: One for each input, those with the largest swing first; equals in the order of the study.
-        without_range: Inputs with a value of 0, of which no share is a range.
+        without_range: Inputs with the value 0, for which a share of the value is no range.
     """
 
     chosen: int
@@ -97,12 +97,12 @@ class Tornado:
 
     @property
     def moving(self) -> tuple[TornadoBar, ...]:
-        """The bars of inputs that move the advantage, or change the choice."""
+        """The bars of inputs that change the advantage or the choice."""
         return tuple(bar for bar in self.bars if bar.moves or bar.flips)
 
     @property
     def still(self) -> tuple[TornadoBar, ...]:
-        """The others."""
+        """The other bars."""
         return tuple(bar for bar in self.bars if not (bar.moves or bar.flips))
 
 
@@ -113,7 +113,7 @@ def tornado_of(
     tied: tuple[int, ...],
     variants: tuple[int, ...],
 ) -> Tornado:
-    """Decide anew at both ends of each input, and find where the choice changes between.
+    """Tornado: the decision at both ends of each input, and the values between at which the choice changes.
 
     Args:
         inputs: The inputs.
@@ -133,7 +133,7 @@ def tornado_of(
         chosen=variants[chosen],
         rival=None if here.rival is None else variants[here.rival],
         lead=here.lead,
-        # Stable: equal swings stay in the order of the study.
+        # The sort is stable: equal swings keep the order of the study.
         bars=tuple(sorted(bars, key=lambda bar: -bar.swing if math.isinf(bar.swing) else -round(bar.swing, 12))),
         without_range=tuple(without),
     )

@@ -18,12 +18,12 @@ def uncertain_inputs(standings: Standings, found: Robustness, book: RangeBook) -
 
     Args:
         standings: The designs under changed inputs.
-        found: The robustness of the decision, whose exact ends are taken.
+        found: The robustness of the decision, whose exact ends are used.
         book: The ranges.
 
     Raises:
         TradeoffError: No weights agree with what was elicited.
-        DefinitionError: A value function is anchored on what is not there.
+        DefinitionError: A value function is anchored on an unknown requirement.
     """
     yield from _weights(standings, found, book)
     yield from _anchors(standings, book)
@@ -33,7 +33,7 @@ def uncertain_inputs(standings: Standings, found: Robustness, book: RangeBook) -
 
 
 def undecided_inputs(standings: Standings, found: Robustness) -> tuple[str, ...]:
-    """Inputs of the model that decide nothing, so that a range of theirs moves nothing."""
+    """Inputs of the model without an effect on the decision, for which a range has no effect."""
     weightless = [name for name in standings.problem.weighting.weights if name not in standings.measures]
     return (
         *(one.number.id for one in found.assumptions if not one.columns),
@@ -87,7 +87,7 @@ def _answered(standings: Standings) -> dict[str, tuple[float, float]]:
     for elicited in standings.project.study.trade_off.elicited:
         for name, weight in elicited.weights.items():
             if name in weights:
-                # Of a member of a group, in the whole.
+                # The weight of a group's member in the whole.
                 share = weights[name] / weight
                 found[name] = (share * elicited.low[name], share * elicited.high[name])
     return found
@@ -160,7 +160,7 @@ def _thresholds(standings: Standings, book: RangeBook) -> Iterator[UncertainInpu
             high=high,
             basis=basis,
             standing=standings.with_threshold(threshold.requirement),
-            # Without values that move along, what is feasible at one limit is feasible at every looser one.
+            # If no value function is anchored on it, designs feasible at one limit are feasible at every looser one.
             search=FlipSearch.SCANNED if moved_along else FlipSearch.NESTED,
             exact=not moved_along,
         )

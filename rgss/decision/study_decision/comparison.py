@@ -1,4 +1,4 @@
-"""Chosen variant and runner-up, side by side."""
+"""Side-by-side comparison of chosen variant and runner-up."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class ParameterRow:
     Attributes:
         name: Its name, in words.
         unit: Its unit.
-        cells: Its value in each variant that is compared.
+        cells: Its value in each compared variant.
     """
 
     name: str
@@ -33,7 +33,7 @@ class WeightedRow:
         measure: Its id.
         unit: Its unit.
         weight: Its weight.
-        cells: Its estimate for each variant that is compared; None where unknown.
+        cells: Its estimate for each compared variant; None if unknown.
     """
 
     measure: str
@@ -49,7 +49,7 @@ class ObjectiveRow:
     Attributes:
         place: Its place in the order of the program, from 1.
         name: The objective.
-        cells: Its value for each variant that is compared.
+        cells: Its value for each compared variant.
     """
 
     place: int
@@ -59,13 +59,13 @@ class ObjectiveRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SideBySide:
-    """The chosen variant and, where there is one, the runner-up.
+    """The chosen variant and, if there is one, the runner-up.
 
     Attributes:
         variants: Their ids, the chosen one first.
         parameters: The parameters that vary.
         measures: The weighted measures.
-        values: The weighted values; None where a weighted measure is unknown.
+        values: The weighted values; None if a weighted measure is unknown.
         objectives: The objectives of the program; empty for the additive one.
     """
 

@@ -13,7 +13,7 @@ from rgss.studies import Project
 
 
 class Feasibility(str, Enum):
-    """Conclusion on a design under all requirements that a measure decides."""
+    """Conclusion on a design under all requirements with a criterion."""
 
     FEASIBLE = "feasible"
     """Every verdict is met."""
@@ -32,8 +32,8 @@ class DesignStanding:
         met: Ids of the requirements that are shown to be met.
         open: Ids of those whose verdict is inconclusive.
         missed: Ids of those that are shown not to be met.
-        not_run: Ids of those without evidence that holds now, and of those that no measure decides.
-        undecided: Ids of those that a measure decides, and that are open or without evidence.
+        not_run: Ids of those without valid evidence, and of those without a criterion.
+        undecided: Ids of those with a criterion that are open or without evidence.
     """
 
     variant: int
@@ -45,7 +45,7 @@ class DesignStanding:
 
     @property
     def feasibility(self) -> Feasibility:
-        """Feasible, infeasible or open; requirements that no measure decides do not count."""
+        """Feasible, infeasible or open; requirements without a criterion do not count."""
         if self.missed:
             return Feasibility.INFEASIBLE
         return Feasibility.OPEN if self.undecided else Feasibility.FEASIBLE
@@ -58,7 +58,7 @@ class Conclusion:
     Attributes:
         standings: The verdicts on each design, by ascending id.
         chosen: The verdicts on the chosen design; None if nothing is chosen.
-        unmeasured: Ids of the system requirements that no measure decides.
+        unmeasured: Ids of the system requirements without a criterion.
     """
 
     standings: tuple[DesignStanding, ...]
@@ -66,7 +66,7 @@ class Conclusion:
     unmeasured: tuple[str, ...]
 
     def count(self, feasibility: Feasibility) -> int:
-        """The number of designs of which the evidence shows this."""
+        """Number of designs with this conclusion."""
         return sum(one.feasibility is feasibility for one in self.standings)
 
     @property
@@ -104,7 +104,7 @@ def _standing(project: Project, entry: VariantMeasures, unmeasured: tuple[str, .
     for requirement in requirements_with_criteria(project):
         if requirement.criterion is None:
             continue
-        # Judged anew, for suppositions move thresholds and estimates.
+        # Computed again, since suppositions change thresholds and estimates.
         stale = entry.verdicts.get(requirement.id) is Verdict.STALE
         verdict = judge(requirement.criterion, entry.estimates[requirement.criterion.measure], stale=stale)
         if verdict is Verdict.NOT_RUN and entry.records:

@@ -1,4 +1,4 @@
-"""Variants that nearly won: their acceptability, and what would let them win."""
+"""Closest rivals of the choice: their acceptability, and the weights at which they win."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ class Contender:
     Attributes:
         variant: Its id.
         support: Its place relative to the Pareto front; None if it is not feasible.
-        feasible: Whether it meets every demand.
+        feasible: True if it meets every requirement.
         single_values: Its value in each weighted measure, rounded so that equal variants compare equal.
         region: The share of weights at which it is best by the evidence; None if not computed.
         first: The share of the draws in which none is better.
         first_error: The standard error of that over repetitions of the study.
-        confidence: The probability that it is best at the weights that are typical for it; NaN if
+        confidence: The probability that it is best at its central weights; NaN if
             it is never first.
         feasible_share: The share of the draws in which it is feasible.
         weight_to_move: The least weight to move until it is best; None if no weights do that.
@@ -44,13 +44,13 @@ class Contender:
 
 
 def contenders_of(found: Robustness) -> tuple[Contender, ...]:
-    """The contenders, those that are most often first to begin with, equals by ascending id.
+    """The contenders, the most often first ones at the beginning, equals by ascending id.
 
     Args:
         found: The robustness of the decision.
 
     Returns:
-        The contenders; none where the acceptability was not computed.
+        The contenders; none if the acceptability was not computed.
     """
     weighting = found.weighting
     if weighting is None or weighting.acceptability is None:
@@ -78,5 +78,5 @@ def contenders_of(found: Robustness) -> tuple[Contender, ...]:
                 weight_to_move=None if shift is None else shift.sum_distance / 2.0,
             )
         )
-    # Stable: equals stay in the order of their ids.
+    # The sort is stable: equals keep the order of their ids.
     return tuple(sorted(made, key=lambda one: -one.first))

@@ -1,4 +1,4 @@
-"""Robustness of a decision with the figures that its pages show."""
+"""Robustness of a decision with derived figures for its pages."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ class WeightMove:
     """Least move of weights that changes the choice.
 
     Attributes:
-        moved: The weight that is moved.
+        moved: The total weight that is moved.
         before: The weights of the study.
-        after: The weights that are moved.
+        after: The weights after the move.
         winners: The variants that then win.
     """
 
@@ -35,8 +35,8 @@ class Driver:
 
     Attributes:
         measure: The measure.
-        shares: The share of its differences by factor, the largest first.
-        left_out: Levels that are left out, for lack of success.
+        shares: The share of its variance by factor, the largest first.
+        left_out: Levels that are omitted for lack of successful trials.
     """
 
     measure: str
@@ -46,21 +46,21 @@ class Driver:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RobustnessFindings:
-    """Robustness of a decision, with what follows from it for the choice.
+    """Robustness of a decision, with its consequences for the choice.
 
     Attributes:
         analysis: The analyses, with the reason for each part that was not computed.
-        contenders: The variants that nearly won.
+        contenders: The closest rivals.
         nearest_move: The least move of weights that changes the choice; None if there is none, or
             it was not computed.
         limits: The moves of limits that change the choice.
-        decisive: The assumptions that change the choice within the values that were followed.
+        decisive: The assumptions that change the choice within the scanned values.
         harmless: Ids of the assumptions that do not.
         simulated: Ids of the assumptions that the trials were simulated with.
         corner: The costs, by component, that differ from the assumed ones at the worst corner.
         effects: The effects on each measure of effectiveness.
         drivers: The leading factors of each.
-        sampled: Whether the designs are a sample of the design space.
+        sampled: True if the designs are a sample of the design space.
     """
 
     analysis: Robustness
@@ -113,7 +113,7 @@ def robustness_findings(project: Project, found: Robustness) -> RobustnessFindin
 
 def _nearest_move(found: Robustness) -> WeightMove | None:
     shifts = () if found.weighting is None else found.weighting.shifts or ()
-    # The first is the choice itself.
+    # The first shift belongs to the choice itself.
     others = [shift for shift in shifts[1:] if shift.distance > 0.0]
     if not others:
         return None

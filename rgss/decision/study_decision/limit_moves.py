@@ -30,9 +30,9 @@ class LimitMoves:
 
     Attributes:
         requirement: The requirement.
-        demand: Its demand, such as ``P_max >= 0.8 kg``.
+        demand: Its criterion as text, such as ``P_max >= 0.8 kg``.
         unit: The unit of the limit.
-        at_least: Whether the limit is a lower bound.
+        at_least: True if the limit is a lower bound.
         looser: The nearest change when it is loosened; None if there is none.
         tighter: The nearest change when it is tightened; None if there is none.
     """

@@ -21,7 +21,7 @@ class ReadingOutcome:
         reading: The reading.
         chosen: The variant that is then chosen; None if none is.
         feasible: Number of variants that then meet every requirement.
-        reason: Reason for a missing answer; empty where there is one.
+        reason: Reason for a missing answer; empty if there is one.
     """
 
     reading: Reading
@@ -31,7 +31,7 @@ class ReadingOutcome:
 
 
 def reading_outcomes(project: Project, measured: Sequence[VariantMeasures]) -> tuple[ReadingOutcome, ...]:
-    """The choice under each alternative of each measure, one at a time, from the trials that there are.
+    """The choice under each alternative of each measure, one at a time, from the stored trials.
 
     Args:
         project: The project with its study.
@@ -41,7 +41,7 @@ def reading_outcomes(project: Project, measured: Sequence[VariantMeasures]) -> t
 
 
 def readings_among(project: Project, outcomes: Sequence[AssumptionOutcome]) -> tuple[ReadingOutcome, ...]:
-    """The readings of the source among the assumptions that were questioned, which all of them are.
+    """The readings of the source, all of which are among the questioned assumptions.
 
     Args:
         project: The project with its study.

@@ -1,4 +1,4 @@
-"""Reasons for a choice: its lead over the runner-up, and the limits that it comes closest to."""
+"""Reasons for a choice: its lead over the runner-up, and its closest limits."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from rgss.tradeoff.problem import tabulated
 from rgss.tradeoff.programs import condition_column
 
 CLOSEST_LIMITS = 2
-"""So many limits are named."""
+"""Most limits that are named."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -18,7 +18,7 @@ class Gain:
 
     Attributes:
         measure: The measure.
-        amount: The difference; above 0 where the chosen variant is ahead.
+        amount: The difference; above 0 if the chosen variant is ahead.
     """
 
     measure: str
@@ -31,7 +31,7 @@ class ClosestLimit:
 
     Attributes:
         requirement: The requirement.
-        demand: Its demand, such as ``P_max >= 0.8 kg``.
+        demand: Its criterion as text, such as ``P_max >= 0.8 kg``.
         statistic: The statistic of the chosen variant that is compared with the limit.
         unit: The unit of both.
         margin: The distance to the limit as a share of it, at least 0.
@@ -66,7 +66,7 @@ def closest_limits(problem: TradeProblem, chosen: int | None) -> tuple[ClosestLi
         problem: The trade-off.
         chosen: Id of the chosen variant; None if nothing is chosen.
     """
-    # A table of the chosen variant alone: that of thousands takes long to make.
+    # A table of the chosen variant alone, since one of thousands takes long to compute.
     table = tabulated([one for one in problem.alternatives if one.variant == chosen])
     if chosen is None or not len(table):
         return ()

@@ -39,17 +39,17 @@ class StudyDecision:
 
     Attributes:
         study: The study's id.
-        evidence: Name of the evidence, as people see it.
-        variants: Number of variants that were compared.
+        evidence: Name of the evidence in messages.
+        variants: Number of compared variants.
         trials: Number of their trials.
         decision: Choice, ranking, conflicts and certificate.
         conclusion: Conclusion from the verdicts on every design.
         comparison: The choice beside the runner-up; None if nothing is chosen.
         gains: The gains of the choice over the runner-up, in the order of the weights.
-        closest_limits: The limits that the choice comes closest to.
+        closest_limits: The limits closest to the choice.
         practical_margin: Differences in value below this are of no practical meaning.
         tolerance: Share of a threshold on what trials observe by which the choice may miss it.
-        last_of_equals: Whether the largest id of equals is chosen; the smallest otherwise.
+        last_of_equals: True if the largest id of equals is chosen; otherwise the smallest.
         double_counted: Valued measures of which one contains the other.
         shared_parts: Valued measures that depend on measures in common.
         robustness: Near alternatives, and changes that would change the decision; None if not analysed.
@@ -62,9 +62,9 @@ class StudyDecision:
         gaps: Measures of effectiveness of the choice whose equation and simulation differ by more than 10 %.
         readings: Decision under each reading of the source; empty if not analysed.
         assumptions: The choice under each alternative of each assumption; empty if not requested.
-        drivers: Draws that go with failures; None if not analysed.
+        drivers: Drivers of failures; None if not analysed.
         cases: The success of each case of the workload; empty without a workload.
-        seeds: The seeds that were read, where variants may have different numbers; empty otherwise.
+        seeds: The seeds that were read, if variants may have different numbers; empty otherwise.
     """
 
     study: str
@@ -97,14 +97,14 @@ class StudyDecision:
 
     @property
     def is_final(self) -> bool:
-        """True if a choice is proven best, the portfolio's too, and no part of the analysis is missing."""
+        """True if the choice and the portfolio are proven best, and no part of the analysis is missing."""
         is_whole = self.robustness is None or not self.robustness.analysis.not_computed
         is_whole &= self.sensitivity is None or not self.sensitivity.not_computed
         return is_settled(self.decision, self.portfolio) and is_whole
 
 
 def is_settled(decision: Decision, portfolio: PortfolioDecision | None) -> bool:
-    """True if a variant is chosen, the portfolio too where there is one, and both are proven best."""
+    """True if a variant, and a portfolio if there is one, is chosen and proven best."""
     return decision.status is DecisionStatus.OPTIMAL and (
         portfolio is None or portfolio.status is DecisionStatus.OPTIMAL
     )
@@ -130,14 +130,14 @@ def decide_study(
     Args:
         project: The project with its study, without suppositions.
         measured: Every variant with its estimates and records, by ascending id.
-        evidence: Name of the evidence, as people see it.
-        analysed: Whether the robustness is analysed too, which takes some seconds.
+        evidence: Name of the evidence in messages.
+        analysed: True to analyse the robustness too, which takes some seconds.
         independent: Runs of other solvers, as further checks.
         portfolio: The portfolio of the study; None if it has none.
         screened: The outcome of screening; None without.
         scenario: Suppositions that the decision is made under; None for the study as it is.
-        supposed: Every variant under the suppositions; estimated anew from the trials of the study by default.
-        reopened: Designs that screening would let pass under the suppositions.
+        supposed: Every variant under the suppositions; by default estimated again from the trials of the study.
+        reopened: Designs that screening would promote under the suppositions.
         assumptions: The choice under each alternative of each assumption, which needs the evidence store.
         time_limit: Seconds for the runs of a solver over levels, for each decision that is made.
 
@@ -250,7 +250,7 @@ def study_decision(
 def _readings(
     project: Project, measured: Sequence[VariantMeasures], assumptions: Sequence[AssumptionOutcome]
 ) -> tuple[ReadingOutcome, ...]:
-    # Each is one of the assumptions, and decided by already where those are.
+    # Each reading is one of the assumptions, and decided already if those are analysed.
     return readings_among(project, assumptions) if assumptions else reading_outcomes(project, measured)
 
 
@@ -260,7 +260,7 @@ def _drivers(project: Project, measured: Sequence[VariantMeasures]) -> DriversOf
 
 
 def _gaps(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> tuple[ModelGap, ...]:
-    """Notable differences of equation and simulation in the choice's measures of effectiveness."""
+    """Notable differences between equation and simulation in the choice's measures of effectiveness."""
     shown = {measure.id for measure in project.measures.of_kind(MeasureKind.EFFECTIVENESS)}
     chosen = next((entry for entry in measured if entry.variant.id == decision.chosen), None)
     found = () if chosen is None else model_gaps(project.measures, chosen.estimates)

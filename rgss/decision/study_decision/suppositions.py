@@ -37,9 +37,9 @@ class WhatIf:
         units: The unit of each weighted measure.
         before: The decision without them.
         after: The decision under them.
-        reopened: Designs that were screened out, and would not have been under the suppositions.
-        separated: Whether the evidence separates the former choice from the one under the suppositions; None where they
-            are the same, or one of them is nothing.
+        reopened: Screened-out designs that would be promoted under the suppositions.
+        separated: True if the evidence separates the former choice from the one under the suppositions; None if they
+            are the same, or if there is no choice on a side.
     """
 
     scenario: Scenario
@@ -51,13 +51,13 @@ class WhatIf:
 
     @property
     def value_of_former_choice(self) -> float | None:
-        """The value under the suppositions of what was chosen before; None if unknown, or not feasible."""
+        """Value of the former choice under the suppositions; None if unknown, or not feasible."""
         former = self.before.decision.chosen
         return None if former is None else _value(self.after.decision, former)
 
     @property
     def violated_by_former_choice(self) -> tuple[str, ...]:
-        """The requirements that what was chosen before would violate."""
+        """The requirements that the former choice would violate."""
         former = self.before.decision.chosen
         found = (one.requirements for one in self.after.decision.infeasible if one.variant == former)
         return next(found, ())

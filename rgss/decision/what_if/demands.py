@@ -1,4 +1,4 @@
-"""Numbers of a study's own demands that can be supposed: chances, tails, and limits of its program."""
+"""Numbers of a study's additional conditions that can be supposed: chances, tails, and limits of its program."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ THRESHOLD = "threshold"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DemandNumber:
-    """A number of a demand that a study makes beside the requirements.
+    """Number of a condition that a study states in addition to the requirements.
 
     Attributes:
         id: Its name, such as ``tail:SYS-033.threshold``.
         value: Its value.
-        unit: The unit of that.
-        changed: The trade-off with another value of it.
+        unit: The unit of the value.
+        changed: Function that returns the trade-off with another value.
     """
 
     id: str
@@ -32,10 +32,10 @@ class DemandNumber:
 
 
 def demand_numbers(project: Project) -> Mapping[str, DemandNumber]:
-    """Every number of the demands of a study, by name.
+    """Numbers of the additional conditions of a study, by name.
 
     Raises:
-        DefinitionError: A demand is anchored on a requirement that does not bound its measure.
+        DefinitionError: A condition is anchored on a requirement that does not bound its measure.
         TradeoffError: As for `program_of`.
     """
     trade_off = project.study.trade_off

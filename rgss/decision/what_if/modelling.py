@@ -1,4 +1,4 @@
-"""Every modelling assumption of a study that can be supposed otherwise, and its trials with another."""
+"""Modelling assumptions of a study that can be supposed otherwise, and the project with another value."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ def model_settings(project: Project) -> dict[str, ModelSetting]:
 
 
 def with_setting(project: Project, name: str, text: str) -> tuple[SettingChange, Project]:
-    """A modelling assumption supposed otherwise, and the project with it.
+    """A changed modelling assumption, and the project with it.
 
     Args:
         project: The project.
         name: Its name, one of `model_settings`.
-        text: The value that is supposed, as it was written.
+        text: The supposed value, as it was written.
 
     Raises:
-        DefinitionError: The value is none of it.
+        DefinitionError: The value is invalid.
     """
     setting = model_settings(project)[name]
     return SettingChange(id=name, before=setting.value, after=text), setting.changed(text)

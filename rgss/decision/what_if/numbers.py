@@ -1,4 +1,4 @@
-"""Numbers of the model that may be assumed, and the model with another value of one of them."""
+"""Numbers of the model (costs, properties, constants), and the model with another value of one."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ class ModelNumber:
     """A cost or property of a component, or a constant of the measures.
 
     Attributes:
-        id: What it is called on the command line: ``catalogue.<component>.<property>`` or
+        id: Its name on the command line: ``catalogue.<component>.<property>`` or
             ``measures.<constant>``.
         value: Its value in SI (money in US dollars).
-        unit: The unit of that.
+        unit: The unit of the value.
         rationale: Reason for the assumption; empty unless it is assumed.
         component: The component; empty for a constant.
         role: The component's role; empty for a constant.
@@ -77,23 +77,23 @@ def model_numbers(project: Project) -> tuple[ModelNumber, ...]:
 
 
 def assumed_numbers(project: Project) -> tuple[ModelNumber, ...]:
-    """Those that are assumed."""
+    """The assumed numbers."""
     return tuple(number for number in model_numbers(project) if number.is_assumed)
 
 
 def symbols_of(measures: MeasureSet, number: ModelNumber) -> frozenset[str]:
-    """The symbols of expressions that a number gives its value to."""
+    """Symbols of expressions whose value is a number."""
     if not number.component:
         return frozenset({number.name})
     return frozenset(symbol.id for symbol in measures.inputs if symbol.source == number.source)
 
 
 def with_number(project: Project, number: ModelNumber, value: float) -> Project:
-    """The project with another value of one number; what depends on it follows.
+    """The project with another value of one number; dependent values follow.
 
     Args:
         project: The project.
-        number: Which number.
+        number: The number.
         value: Its value in SI.
     """
     if not number.component:

@@ -1,4 +1,4 @@
-"""Assumptions on planning that can be supposed otherwise: charge, limits, resolutions, kinds of moves, planners."""
+"""Assumptions on planning for what-ifs: charge, limits, resolutions, kinds of moves, planners."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _MOST_CHECKS = 1_000_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Quantity:
-    """A quantity of the section ``planning``: its field, its unit, and whether it may be 0."""
+    """Quantity of the section ``planning``: field, unit, and True if it may be 0."""
 
     field: str
     unit: str
@@ -96,7 +96,7 @@ def _planner_settings(project: Project) -> Iterator[ModelSetting]:
 
 
 def _shared_settings(project: Project) -> Iterator[ModelSetting]:
-    """The parameters that several planners of the study have, supposed alike for all of them."""
+    """Parameters that several planners of the study share, changed for all of them together."""
     sharing: dict[str, list[str]] = {}
     for planner, settings in project.study.planning.planners.items():
         for key in available_planners()[settings.algorithm].parameters:
@@ -132,7 +132,7 @@ def _with_shared(project: Project, planners: Sequence[str], key: str, text: str)
 
 
 def settings_of_designs(project: Project) -> Iterator[ModelSetting]:
-    """The planning limit and the other quantities that design parameters set to numbers, taken alike for all designs.
+    """The planning limit and other quantities that design parameters set to numbers, changed for all designs together.
 
     Args:
         project: The project with its study.

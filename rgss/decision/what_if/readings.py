@@ -1,4 +1,4 @@
-"""Readings of the source that can be supposed: ``reading.S=share_of_states``."""
+"""Alternative readings of the source for what-ifs, such as ``reading.S=share_of_states``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ READING = "reading"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reading:
-    """Another reading of a measure's source.
+    """Alternative reading of a measure's source.
 
     Attributes:
         measure: The measure.
@@ -29,7 +29,7 @@ class Reading:
 
     @property
     def id(self) -> str:
-        """The name of what is supposed, such as ``reading.S``."""
+        """The name for ``--what-if``, such as ``reading.S``."""
         return f"{READING}.{self.measure}"
 
     @property
@@ -48,7 +48,7 @@ def readings_of(project: Project) -> tuple[Reading, ...]:
 
 
 def with_reading(project: Project, name: str, alternative: str) -> tuple[Reading, Project]:
-    """A reading by its name, and the project in which the measure is read so.
+    """A reading by its name, and the project with it.
 
     Args:
         project: The project.

@@ -14,11 +14,11 @@ from rgss.studies import Project
 
 
 def measured_in(scenario: Scenario, measured: Sequence[VariantMeasures]) -> tuple[VariantMeasures, ...]:
-    """The estimates of every variant under suppositions, from the trials that there are.
+    """Estimates of every variant under suppositions, from the stored trials.
 
     Args:
         scenario: The suppositions.
-        measured: Every variant with its estimates and records, as the project is.
+        measured: Every variant with its estimates and records, without the suppositions.
     """
     project = scenario.project
     numbers = {number.id: number for number in model_numbers(project)}
@@ -54,7 +54,7 @@ def _estimates(project: Project, entry: VariantMeasures, affected: frozenset[str
             trials=[record.metrics for record in entry.records],
             variant=entry.variant.id,
         )
-    # What follows from the design alone needs no interval, and the rest stays as it is.
+    # Measures that follow from the design alone need no interval; the others are unchanged.
     values = design_values(measures, fixed=fixed, variant=entry.variant.id)
     changed = {
         name: Estimate.exact(values[name] / measures.measure(name).si_per_unit, measures.measure(name).unit)

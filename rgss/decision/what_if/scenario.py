@@ -11,12 +11,12 @@ from rgss.studies import Project
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
-    """One thing that is supposed to be another.
+    """Supposed change of a value.
 
     Attributes:
-        id: What it is, such as ``weight.t_e``.
+        id: Name of the value, such as ``weight.t_e``.
         before: Its value.
-        after: The value that is supposed.
+        after: The supposed value.
         unit: The unit of both.
     """
 
@@ -31,15 +31,15 @@ class Scenario:
     """A project under suppositions.
 
     Attributes:
-        project: The project as it would be.
+        project: The changed project.
         changes: The suppositions, in the order given.
         rescaled: The weights that follow from the supposed ones: the others keep their
             proportions so that all sum to 1.
         dropped: Variants that the rules of the design space would no longer allow.
-        simulated: The numbers that the trials were simulated with, by id: what trials showed is
-            held, though another value needs other trials.
-        readings: Other readings of the source that are supposed.
-        settings: Modelling assumptions that are supposed, which trials are made with.
+        simulated: Ids of the numbers that the trials were simulated with: results of trials are
+            held fixed, although another value would need other trials.
+        readings: Supposed readings of the source.
+        settings: Supposed modelling assumptions, which change the trials.
     """
 
     project: Project

@@ -1,4 +1,4 @@
-"""A modelling assumption that can be supposed otherwise: its name, its value, and the project with another."""
+"""Modelling assumption for what-ifs: name, value, and the project with another value."""
 
 from __future__ import annotations
 
@@ -20,9 +20,10 @@ class ModelSetting:
 
     Attributes:
         id: Its name, such as ``planning.charge_per_check``.
-        value: Its value, in words.
-        example: A text that supposes another.
-        changed: The project with another value, which is read from a text; raises `DefinitionError` if it is none.
+        value: Its value, as text.
+        example: An example of a supposition.
+        changed: Function from the text of another value to the project with it; raises `DefinitionError` if the
+            text is invalid.
     """
 
     id: str
@@ -33,11 +34,11 @@ class ModelSetting:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SettingChange:
-    """A modelling assumption that is supposed to be another.
+    """Supposed change of a modelling assumption.
 
     Attributes:
         id: Its name.
-        before: Its present value, in words.
+        before: Its present value, as text.
         after: The supposed value, as it was written.
     """
 
@@ -47,7 +48,7 @@ class SettingChange:
 
 
 def in_words(value: float, unit: str) -> str:
-    """A quantity with its unit: seconds and metres below a tenth in thousandths.
+    """Text of a quantity with its unit; seconds and metres below a tenth are given in ms and mm.
 
     Args:
         value: The value in SI.
@@ -62,7 +63,7 @@ def in_words(value: float, unit: str) -> str:
 
 
 def quantity_from(name: str, text: str, unit: str, *, above: float | None = None, least: float | None = None) -> float:
-    """A quantity of a supposition.
+    """Quantity of a supposition, validated.
 
     Args:
         name: Name of the supposition.
@@ -72,7 +73,7 @@ def quantity_from(name: str, text: str, unit: str, *, above: float | None = None
         least: Its least value.
 
     Raises:
-        DefinitionError: It is none, or out of range.
+        DefinitionError: It is not a quantity of this unit, or out of range.
     """
     try:
         value = parse_quantity(text, unit)
@@ -86,10 +87,10 @@ def quantity_from(name: str, text: str, unit: str, *, above: float | None = None
 
 
 def count_from(name: str, text: str, *, least: int, most: int) -> int:
-    """A whole number of a supposition.
+    """Whole number of a supposition, validated.
 
     Raises:
-        DefinitionError: It is none, or out of range.
+        DefinitionError: It is not a whole number, or out of range.
     """
     value = quantity_from(name, text, "1")
     if value != int(value) or not least <= value <= most:
@@ -98,10 +99,10 @@ def count_from(name: str, text: str, *, least: int, most: int) -> int:
 
 
 def one_of(name: str, text: str, known: Mapping[str, object] | tuple[str, ...]) -> str:
-    """A name of a supposition.
+    """Name of a supposition, validated.
 
     Raises:
-        DefinitionError: It is none of those that are known.
+        DefinitionError: It is unknown.
     """
     if text not in known:
         raise DefinitionError(

@@ -13,7 +13,7 @@ from rgss.sweep import key_of
 def simulated_numbers(
     project: Project, variants: Sequence[DesignVariant], numbers: Iterable[ModelNumber]
 ) -> frozenset[str]:
-    """The ids of the numbers of which another value needs other trials.
+    """Ids of the numbers whose change needs other trials.
 
     Args:
         project: The project with its study.
@@ -25,7 +25,7 @@ def simulated_numbers(
         before = next((one for one in variants if variant_with(one, number, number.value + 1.0) is not one), None)
         if before is not None:
             asked.append(number)
-            # Any other value serves, since the key of a trial is a digest of all that it is made of.
+            # Any other value suffices, since the key of a trial is a digest of all its inputs.
             pairs += [before, variant_with(before, number, number.value * 1.5 + 1.0)]
     if not asked:
         return frozenset()

@@ -1,4 +1,4 @@
-"""Estimates under suppositions on how trials are made: of trials that are stored or read off."""
+"""Estimates under suppositions that change trials, from stored trials or from stored searches."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ class ScenarioEvidence:
     """Evidence under suppositions.
 
     Attributes:
-        measured: Every variant with its estimates; empty where any trial is missing.
+        measured: Every variant with its estimates; empty if any trial is missing.
         trials: Number of trials that the decision needs.
-        read_off: Number of those that were read off stored searches.
+        read_off: Number of those that follow from stored searches.
         missing: The trials that would have to be run.
     """
 
@@ -35,28 +35,28 @@ class ScenarioEvidence:
 
     @property
     def lack(self) -> str:
-        """Phrase on the number of trials that lack."""
+        """Phrase on the number of missing trials."""
         return f"the suppositions need {len(self.missing)} trials of {self.trials} that were not run"
 
     def require_whole(self) -> None:
         """Check that no trial is missing.
 
         Raises:
-            EvidenceError: Some are.
+            EvidenceError: Trials are missing.
         """
         if self.missing:
             raise EvidenceError(self.lack, hint="add --run to run them")
 
 
 class ScenarioEvidenceReader:
-    """Evidence of scenarios of one study; each stored piece is read once for all of them."""
+    """Reader of the evidence of scenarios of one study, which reads each stored piece once."""
 
     def __init__(self, project: Project, measured: Sequence[VariantMeasures], store: EvidenceStore) -> None:
-        """Begin with nothing read.
+        """Create a reader.
 
         Args:
             project: The project without suppositions.
-            measured: Every variant with its estimates and records, whose seeds are taken.
+            measured: Every variant with its estimates and records, which determine the seeds.
             store: The evidence.
         """
         self._measured = tuple(measured)
@@ -70,7 +70,7 @@ class ScenarioEvidenceReader:
 
         Raises:
             EvidenceError: The store is damaged.
-            DefinitionError: A measure is not defined for a design, or a design makes no trial.
+            DefinitionError: A measure is not defined for a design, or a design is incomplete.
         """
         if not scenario.settings:
             measured = measured_in(scenario, self._measured)
@@ -98,7 +98,7 @@ def _seeds(entry: VariantMeasures) -> tuple[int, ...]:
 def _specs(
     project: Project, variants: dict[int, DesignVariant], entries: Sequence[VariantMeasures]
 ) -> tuple[TrialSpec, ...]:
-    """The trials under the suppositions: every variant with the seeds that it was tried with."""
+    """The trials under the suppositions: every variant with the seeds of its trials."""
     by_seeds: dict[tuple[int, ...], list[DesignVariant]] = {}
     for entry in entries:
         by_seeds.setdefault(_seeds(entry), []).append(variants[entry.variant.id])

@@ -1,4 +1,4 @@
-"""Assumptions on trials that can be supposed otherwise: fidelity, physics, uncertainty, workload."""
+"""Assumptions on trials for what-ifs: fidelity, physics, uncertainty, workload."""
 
 from __future__ import annotations
 
@@ -132,7 +132,7 @@ def _without(project: Project, quantity: str, text: str) -> Project:
 
 
 def _removed(uncertainty: Uncertainty, quantity: str) -> Uncertainty:
-    """An uncertainty without a quantity; of its group, those that are left go together as before."""
+    """An uncertainty without a quantity; the others of its correlated group are kept."""
     groups = []
     for group in uncertainty.correlations:
         kept = [place for place, name in enumerate(group.quantities) if name != quantity]

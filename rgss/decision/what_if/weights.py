@@ -12,7 +12,7 @@ from rgss.tradeoff import CriterionNode
 
 
 def with_weights(trade_off: TradeOff, wanted: Mapping[str, float]) -> TradeOff:
-    """A trade-off in which some criteria have other weights in the whole.
+    """A trade-off with other weights of some criteria in the whole.
 
     The measures of a group keep their proportions, and so do all others.
 
@@ -40,9 +40,9 @@ def with_weights(trade_off: TradeOff, wanted: Mapping[str, float]) -> TradeOff:
     if left < -1e-9 or (not rest and abs(left) > 1e-9):
         raise DefinitionError(
             f"--what-if: the weights that are given sum to {given:g}",
-            hint="give weights that sum to at most 1; the others share what is left"
+            hint="give weights that sum to at most 1; the others share the rest"
             if rest
-            else "give weights that sum to 1, or leave one out",
+            else "give weights that sum to 1, or omit one",
         )
     for name, weight in wanted.items():
         _scale(weights, groups[name], weight, f"weight.{name}")

@@ -33,14 +33,14 @@ EXAMPLE = 'weight.t_p=0.4, "SYS-012.threshold=0.8 kg" or "catalogue.kg-2-light.c
 
 
 def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
-    """Read suppositions and put them into a project, without a simulation.
+    """Read suppositions and apply them to a project, without a simulation.
 
     Args:
         project: The project with its study.
         suppositions: Texts such as ``weight.t_p=0.4`` or ``SYS-012.threshold=0.8 kg``.
 
     Raises:
-        DefinitionError: A text is malformed, names what is not there, has a value of another unit,
+        DefinitionError: A text is malformed, has an unknown name or a value of another unit,
             or a supposition is given twice.
         TradeoffError: The weights that follow contradict each other or what was elicited.
     """
@@ -106,7 +106,7 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
 
 
 def _reweighted(project: Project, weights: Mapping[str, float]) -> tuple[Project, tuple[Change, ...]]:
-    """The project with some weights moved, and the changes of the others that follow."""
+    """The project with some weights changed, and the resulting changes of the others."""
     before = dict(project.study.trade_off.weighting.weights)
     trade_off = with_weights(project.study.trade_off, weights)
     after = trade_off.weighting.weights
@@ -123,7 +123,7 @@ def _dropped(before: Project, after: Project) -> tuple[int, ...]:
 
     Raises:
         EvidenceError: They allow variants that they did not allow before.
-        DefinitionError: They allow none.
+        DefinitionError: They allow no variant.
     """
     there = {variant.id for variant in after.designs.expand()}
     was_there = {variant.id for variant in before.designs.expand()}
@@ -135,7 +135,7 @@ def _dropped(before: Project, after: Project) -> tuple[int, ...]:
         )
     if not there:
         raise DefinitionError(
-            "--what-if: the rules of the design space would then allow no variant", hint="suppose less"
+            "--what-if: the rules of the design space would then allow no variant", hint="suppose a smaller change"
         )
     return tuple(sorted(was_there - there))
 
@@ -156,14 +156,14 @@ def _split(text: str) -> tuple[str, str]:
 
 
 def _full_name(project: Project, name: str) -> str:
-    """The name of a number, which pages may print without its kind: ``t_e`` as a weight, ``SYS-012`` as a threshold.
+    """Full name of a number, which pages may print without its kind: ``t_e`` of a weight, ``SYS-012`` of a threshold.
 
     Raises:
-        DefinitionError: It is the name of a demand that has no number.
+        DefinitionError: It is the name of a condition without a number.
     """
     if name.startswith(EVIDENCE_PREFIX):
         raise DefinitionError(
-            f"--what-if: {shown(name)} demands that a measure is known and has no number",
+            f"--what-if: {shown(name)} requires that a measure is known, and has no threshold to suppose",
             hint="run trials that show it, or suppose another threshold",
         )
     trade_off = project.study.trade_off

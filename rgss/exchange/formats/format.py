@@ -17,8 +17,8 @@ class ExportFormat:
 
     Attributes:
         name: Its name on the command line.
-        write: Writes a project to a file, as a whole or not at all; the third argument is the name
-            of the evidence as people see it. Returns how many things of each kind were written.
+        write: Function that writes a project to a file, atomically; the third argument is the name
+            of the evidence in messages. Returns the number of written elements of each kind.
             Raises `DefinitionError` for a missing package, `EvidenceError` for missing evidence.
     """
 

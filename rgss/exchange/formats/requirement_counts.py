@@ -1,4 +1,4 @@
-"""Counts of what an export of the requirements holds."""
+"""Counts of the exported requirements and elements."""
 
 from __future__ import annotations
 

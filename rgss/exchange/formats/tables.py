@@ -17,7 +17,7 @@ def _write_csv(project: Project, path: Path, evidence: str) -> Mapping[str, int]
     from rgss.documents import write_output
     from rgss.exchange.tables import csv_text
 
-    # By its mark, Excel recognises UTF-8.
+    # Excel recognises UTF-8 by its byte order mark.
     write_output(path, csv_text(requirements_content(project)).encode("utf-8-sig"))
     return requirement_counts(project)
 

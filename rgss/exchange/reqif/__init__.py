@@ -1,4 +1,4 @@
-"""ReqIF 1.2 (OMG formal/16-07-01), both ways, by the library ``reqif``; also as archives."""
+"""Import and export of ReqIF 1.2 (OMG formal/16-07-01) and its archives, by the library ``reqif``."""
 
 from rgss.exchange.reqif.archive import ARCHIVE_ENDING, archive_of
 from rgss.exchange.reqif.reading import read_reqif

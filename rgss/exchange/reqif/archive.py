@@ -21,7 +21,7 @@ _DAMAGED = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, E
 
 
 def is_archive(content: bytes) -> bool:
-    """True if a file is a ZIP file, whatever its name ends in."""
+    """True if a file is a ZIP file, independent of its suffix."""
     return content.startswith(_SIGNATURES)
 
 
@@ -51,7 +51,7 @@ def reqif_members(content: bytes, file: str) -> Iterator[tuple[str, bytes]]:
         file: Its name in messages.
 
     Raises:
-        DocumentError: It is damaged, encrypted, has no ReqIF file, a name that leads out of it, or
+        DocumentError: It is damaged, encrypted, has no ReqIF file, a member name that leads out of it, or
             would unpack to too much.
     """
     try:
@@ -59,7 +59,7 @@ def reqif_members(content: bytes, file: str) -> Iterator[tuple[str, bytes]]:
             members = sorted(_members(archive, file), key=lambda member: member.filename)
             left = LARGEST_REQIF_BYTES
             for member in members:
-                # What an archive says of the size of its members need not be true.
+                # The stated sizes of the members of an archive may be wrong.
                 with archive.open(member) as source:
                     parts = []
                     while part := source.read(_AT_ONCE):

@@ -1,4 +1,4 @@
-"""Grammar of ReqIF 1.2 (OMG formal/16-07-01): what each element holds, and the attributes that it needs."""
+"""Grammar of ReqIF 1.2 (OMG formal/16-07-01): content and required attributes of each element."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ class Shape:
     """Content of one element.
 
     Attributes:
-        one: What it must hold exactly once.
-        maybe: What it may hold, at most once.
-        many: What it may hold any number of times.
-        attributes: The attributes that reading it needs; none of them may be empty.
-        formal: Further attributes and elements that the schema demands, and that reading does not need.
-        is_open: It may hold anything, such as XHTML.
+        one: Child elements that must occur exactly once.
+        maybe: Child elements that may occur at most once.
+        many: Child elements that may occur any number of times.
+        attributes: The attributes that reading needs; none of them may be empty.
+        formal: Further attributes and elements that the schema requires and reading does not need.
+        is_open: True if it may contain anything, such as XHTML.
     """
 
     one: tuple[str, ...] = ()
@@ -36,7 +36,7 @@ def shape_of(name: str, around: str) -> Shape | None:
 
     Args:
         name: Its name.
-        around: The name of the element around it; empty for the root.
+        around: The name of its parent; empty for the root.
 
     Returns:
         Its shape; None if ReqIF has no such element there.
@@ -61,7 +61,7 @@ def _of_kind(kind: str) -> Iterable[tuple[str, Shape]]:
     yield data_type, _named(maybe=values)
     yield definition, _named(one=("TYPE",), maybe=("DEFAULT-VALUE",))
     yield f"{definition}/TYPE", Shape(one=(f"{data_type}-REF",))
-    # The schema lets it be empty, which the library cannot read.
+    # It may be empty by the schema, which the library cannot read.
     yield f"{definition}/DEFAULT-VALUE", Shape(one=(value,))
     yield f"{value}/DEFINITION", Shape(one=(f"{definition}-REF",))
     if kind == "ENUMERATION":
@@ -111,7 +111,7 @@ _SHAPES: Mapping[str, Shape] = MappingProxyType(
         "SPEC-ATTRIBUTES": Shape(many=_all(_DEFINITION)),
         "RELATION-GROUP-TYPE": _named(maybe=("SPEC-ATTRIBUTES",)),
         "SPEC-OBJECT-TYPE": _named(maybe=("SPEC-ATTRIBUTES",)),
-        # The library reads no relation type without a name, and no type of specifications without a time.
+        # The library cannot read a relation type without a name, or a specification type without a time.
         "SPEC-RELATION-TYPE": _named("LONG-NAME", maybe=("SPEC-ATTRIBUTES",)),
         "SPECIFICATION-TYPE": _named("LAST-CHANGE", maybe=("SPEC-ATTRIBUTES",)),
         "VALUES": Shape(many=_all(_VALUE)),

@@ -9,7 +9,7 @@ from rgss.exchange.reqif.vocabulary import (
 )
 
 STRING, XHTML, FLAG = ("data", "string"), ("data", "xhtml"), ("data", "boolean")
-"""Parts of the identifiers of the data types that have no choices."""
+"""Parts of the identifiers of data types other than enumerations."""
 
 
 def choice_identifier(type_name: str, attribute: Attribute, choice: str) -> str:

@@ -1,4 +1,4 @@
-"""Parts of the library ``reqif`` in use, which is untyped and divided into many modules."""
+"""The used names of the library ``reqif``, which is untyped and divided into many modules."""
 
 from reqif.models.reqif_core_content import ReqIFCoreContent
 from reqif.models.reqif_data_type import (

@@ -17,7 +17,7 @@ from rgss.findings import shown
 _MOST_NAMED = 8
 
 _ESCAPES_BREAKS = "strictdoc"
-r"""StrictDoc writes a break of a line in a string as ``\n``, since XML would make a blank of it."""
+r"""Line break in a string of StrictDoc: ``\n``, since XML would turn a real one into a blank."""
 
 
 class UnsoundObjectError(ValueError):
@@ -31,11 +31,11 @@ class ForeignObject:
     Attributes:
         identifier: Its identifier in the file.
         type_name: The name of its type.
-        part: What it is here; None if that is open, or it is a measure.
-        is_ours: Its type is one that we have written.
+        part: Its part here; None if that is open, or it is a measure.
+        is_ours: True if rgss has written its type.
         id: Its id.
-        cells: Its attributes by our names, as texts.
-        line: The line that it begins in.
+        cells: Its attributes as texts, by the names of rgss.
+        line: Its first line.
     """
 
     identifier: str
@@ -51,12 +51,12 @@ class ObjectReader:
     """Reader of objects, with a list of what could not be imported."""
 
     def __init__(self, bundle: Any, known: Mapping[str, Part], part: Part | None) -> None:
-        """Take a file.
+        """Create a reader of a file.
 
         Args:
-            bundle: What the library has read.
-            known: What the elements of the project are, by id.
-            part: What an element is that neither the file nor the project says.
+            bundle: The file as read by the library.
+            known: Part of each element of the project, by id.
+            part: Part of elements whose part neither the file nor the project states.
         """
         core = bundle.core_content.req_if_content
         tool = getattr(bundle.req_if_header, "req_if_tool_id", None) or ""
@@ -72,17 +72,17 @@ class ObjectReader:
         self._parts = {name.lower(): kind for kind, name in TYPE_NAMES.items()}
         self._nameless: Counter[str] = Counter()
         self._attributes: dict[str, dict[str, None]] = {}
-        """The attributes that the objects left aside have, by the name of their type."""
+        """The attributes of the objects that are not imported, by the name of their type."""
         self._unused: dict[str, None] = {}
         self.lost: list[tuple[int, str]] = []
-        """Line and message of everything that a text loses with its markup."""
+        """Line and message of all content that texts lose with their markup."""
         self.own_parts = [kind for kind in Part if type_identifier(kind.value) in self._types]
 
     def read(self, objects: Sequence[Any]) -> dict[str, ForeignObject]:
         """The objects that have an id, by their identifiers in the file.
 
         Args:
-            objects: The objects as the library has them.
+            objects: The objects as read by the library.
 
         Raises:
             UnsoundObjectError: Two objects have one identifier, or one is of no type.
@@ -101,9 +101,9 @@ class ObjectReader:
         for name, count in sorted(self._nameless.items()):
             had = ", ".join(map(shown, itertools.islice(self._attributes[name], _MOST_NAMED)))
             has = f" among their attributes {had}" if had else ""
-            yield f"{count} objects of type {shown(name)} are left aside: they have no id or no text{has}"
+            yield f"{count} objects of type {shown(name)} are not imported: they have no id or no text{has}"
         for name in self._unused:
-            yield f"the attribute {name!r} is left aside: there is none of that name here"
+            yield f"the attribute {name!r} is not imported: rgss has none of that name"
 
     def _object(self, each: Any) -> ForeignObject | None:
         kind = self._types.get(each.spec_object_type)

@@ -1,4 +1,4 @@
-"""Texts as XHTML of ReqIF, and back; markup in a text of ours is text, and never markup."""
+"""Conversion of plain texts to XHTML of ReqIF and back; markup within a plain text is escaped."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _OWN_ELEMENTS = frozenset({"div", "br"})
 
 
 def escaped(text: str, where: str) -> str:
-    """A text for XML, between tags or in an attribute.
+    """A text escaped for XML, between tags or in an attribute.
 
     Raises:
         DefinitionError: It has a character that XML cannot hold.
@@ -27,7 +27,7 @@ def escaped(text: str, where: str) -> str:
 
 
 def as_xhtml(text: str, where: str) -> str:
-    """A text as XHTML; its breaks of lines are elements."""
+    """A text as XHTML; its line breaks are elements."""
     return f"<xhtml:div>{escaped(text, where).replace(chr(10), _BREAK)}</xhtml:div>"
 
 
@@ -36,8 +36,8 @@ def from_xhtml(node: Any, *, exact: bool) -> PlainText:
 
     Args:
         node: The element around the XHTML, of lxml.
-        exact: The file is of ours, so that a value with nothing but our elements is `as_xhtml` of a
-            text; any other is laid out as a browser does.
+        exact: True if rgss wrote the file, so that a value with only its elements is inverted exactly;
+            any other is laid out as by a browser.
     """
     inner = list(node.iterdescendants())
     if exact and all(not isinstance(each.tag, str) or _name(each) in _OWN_ELEMENTS for each in inner):

@@ -1,4 +1,4 @@
-"""A ReqIF file of any tool as elements of ours."""
+"""Reader of ReqIF files of any tool."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Par
 
     Args:
         path: The file.
-        known: What the elements of the project are, by id; for types that are not ours.
-        part: What an element is that is neither known nor of a type of ours.
+        known: Part of each element of the project, by id, for types of other tools.
+        part: Part of elements that are neither known nor of a type of rgss.
 
     Raises:
         DefinitionError: The package reqif is not installed.
-        DocumentError: The file cannot be read, is not a ReqIF, or has a document type, an entity or
-            a relation to an object that is not there.
+        DocumentError: The file cannot be read, is not ReqIF, or has a document type, an entity or
+            a relation to a missing object.
     """
     file = str(path)
     content = read_bytes(path, limit=LARGEST_REQIF_BYTES)
@@ -105,13 +105,13 @@ def _parsed(content: bytes, file: str) -> Any:
 
 
 def _content_alone(text: str) -> str:
-    """The same XML without comments and processing instructions, which the library takes for elements."""
-    # What is well formed has none of them within a tag, so only sections of CDATA could look like one.
+    """The XML without comments and processing instructions, which the library takes for elements."""
+    # Well-formed XML has none of them within a tag, so that only CDATA sections could look like one.
     return _NO_CONTENT.sub(lambda match: match[1] or "\n" * match[0].count("\n"), text)
 
 
 def _unreadable(content: bytes, file: str, error: Exception | None, *, line: int = 1) -> DocumentError:
-    """Error for a file that cannot be read, in our own words: the library's are about its own code."""
+    """Error for a file that cannot be read, since the messages of the library are about its code."""
     found = structure_problems(content, file)
     if found:
         return refusal_of(found)

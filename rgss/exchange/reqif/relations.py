@@ -1,4 +1,4 @@
-"""Relations and hierarchy of a ReqIF file as links of ours."""
+"""Relations and hierarchy of a ReqIF file as links of elements."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ class RelationReader:
     """Reader of relations, with a list of what could not be imported."""
 
     def __init__(self, core: Any, objects: Mapping[str, ForeignObject]) -> None:
-        """Take a file.
+        """Create a reader of a file.
 
         Args:
-            core: The content of the file as the library has it.
+            core: The content of the file as read by the library.
             objects: Its objects by their identifiers.
         """
         self._core, self._objects = core, objects
@@ -40,13 +40,13 @@ class RelationReader:
         self._all = {each.identifier for each in core.spec_objects or []}
         self._left: Counter[str] = Counter()
         self.broken: list[tuple[int, str]] = []
-        """Line and message of each relation to an object that is not there."""
+        """Line and message of each relation to a missing object."""
         self.lost: list[tuple[int, str]] = []
-        """Line and message of each place in the hierarchy that an element has besides its first."""
+        """Line and message of each further position of an element in the hierarchy after its first."""
 
     @property
     def stated(self) -> frozenset[str]:
-        """The attributes of which the file says everything, since it has a type for their relation."""
+        """The attributes that the file states completely, since it has a type for their relation."""
         kinds = {relation_name(name) for name in self._types.values()}
         tables = (_TURNED, _SYSTEM, _BEHAVIOUR)
         return frozenset(name for table in tables for kind, name in table.items() if kind in kinds)
@@ -61,7 +61,7 @@ class RelationReader:
             line = int(getattr(each.xml_node, "sourceline", None) or 1)
             if kind is None or missing:
                 what = f"object {missing[0]!r}" if missing else f"type {each.relation_type_ref!r}"
-                self.broken.append((line, f"the relation {each.identifier!r} names the {what}, which is not there"))
+                self.broken.append((line, f"the relation {each.identifier!r} names the {what}, which does not exist"))
                 continue
             source, target = self._objects.get(each.source), self._objects.get(each.target)
             place = None if source is None or target is None else _place(relation_name(kind), source, target)
@@ -75,7 +75,7 @@ class RelationReader:
         return found
 
     def containment(self) -> dict[str, str]:
-        """The id of the element around each element that stands in another of its part: the first in the file."""
+        """Id of the containing element of each contained element; the first in the file if there are several."""
         found: dict[str, str] = {}
         pending: list[tuple[Any, ForeignObject | None]] = [
             (child, None) for each in self._core.specifications or [] for child in each.children or ()
@@ -86,13 +86,13 @@ class RelationReader:
             line = int(getattr(node.xml_node, "sourceline", None) or 1)
             _require_names(node.spec_object)
             if node.spec_object not in self._all:
-                message = f"the hierarchy names the object {node.spec_object!r}, which is not there"
+                message = f"the hierarchy names the object {node.spec_object!r}, which does not exist"
                 self.broken.append((line, message))
             here = self._objects.get(node.spec_object)
             if here is not None and around is not None and here.part is around.part and here.part is not None:
                 first = found.setdefault(here.id, around.id)
                 if first != around.id:
-                    message = f"{here.id}: it stands under {first!r} and under {around.id!r}; {first!r} is kept"
+                    message = f"{here.id}: it is under {first!r} and under {around.id!r}; {first!r} is kept"
                     self.lost.append((line, message))
             pending += [(child, here or around) for child in reversed(node.children or ())]
         return found
@@ -100,11 +100,11 @@ class RelationReader:
     def notes(self) -> Iterator[str]:
         """Notes on content that was not imported."""
         for kind, count in sorted(self._left.items()):
-            yield f"{count} relations of type {kind!r} are left aside: there is no such link between such elements here"
+            yield f"{count} relations of type {kind!r} are not imported: rgss has no such link between such elements"
 
 
 def _require_names(*references: str | None) -> None:
-    """Make sure that references name something, whether it is there or not.
+    """Check that no reference is empty.
 
     Raises:
         UnsoundObjectError: One of them is empty.

@@ -1,8 +1,8 @@
 """Conversion of rich text to plain text of the same meaning, with a list of what is lost.
 
 Exponents and indices, lists and tables have a plain form; struck-out text is deleted text and is
-left out; attachments and markup of other languages are lost. Emphasis, fonts and colours are
-taken for decoration.
+omitted; attachments and markup of other languages are lost. Emphasis, fonts and colours count as
+decoration.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class PlainText:
 
     Attributes:
         text: The text.
-        losses: What of it is not in the text, one phrase each.
+        losses: Content that is not in the text, one phrase each.
     """
 
     text: str
@@ -59,7 +59,7 @@ def plain_text(node: Any) -> PlainText:
 
 
 _INDENT = "\ue000"
-"""Stands for the indentation of an inner list until blanks have been laid out; of the private use area."""
+"""Placeholder of the indentation of an inner list until blanks are laid out, from the private use area."""
 
 
 @dataclass(slots=True)
@@ -67,7 +67,7 @@ class _Reader:
     parts: list[str] = field(default_factory=list)
     losses: list[str] = field(default_factory=list)
     counters: list[int | None] = field(default_factory=list)
-    """The number of the last item of each list around; None where items have no numbers."""
+    """Number of the last item of each enclosing list; None for unnumbered lists."""
     literal: bool = False
 
     def children(self, node: Any) -> None:
@@ -104,7 +104,7 @@ class _Reader:
             gone = " ".join("".join(node.itertext()).split())
             if gone:
                 what = "hidden" if _GONE.search(style) else "struck-out"
-                self.losses.append(f"the {what} text {shown(gone)} is left out")
+                self.losses.append(f"the {what} text {shown(gone)} is omitted")
             return
         shift = _SHIFTED.search(style)
         raised = name == "sup" or (shift is not None and shift[1].lower() == "super")
@@ -160,7 +160,7 @@ class _Reader:
             cells = [each for each in row if isinstance(each.tag, str) and each.tag.rpartition("}")[2] in _CELLS]
             self.parts.append(_BETWEEN_CELLS.join(self.apart(each).replace("\n", "; ") for each in cells) + "\n")
             if any((each.get(span) or "1") != "1" for each in cells for span in ("rowspan", "colspan")):
-                self.losses.append("the table has joined cells, which are said once")
+                self.losses.append("the table has merged cells, whose text occurs once")
         caption = next(iter(node.iter("{*}caption")), None)
         if caption is not None:
             self.parts.append(self.apart(caption) + "\n")
@@ -190,7 +190,7 @@ class _Reader:
     def attachment(self, node: Any, name: str) -> None:
         named = node.get("data") or node.get("src") or node.get("name") or ""
         what = "attachment" if name == "object" else f"element '{name}'"
-        self.losses.append(f"the {what} {shown(named)} is left out" if named else f"the {what} is left out")
+        self.losses.append(f"the {what} {shown(named)} is omitted" if named else f"the {what} is omitted")
         if name == "object":
             # Its content is the alternative shown in place of the attachment.
             self.children(node)

@@ -22,7 +22,7 @@ _WHOLE_NUMBERS = ("ACCURACY",)
 def structure_problems(content: bytes, file: str) -> tuple[Finding, ...]:
     """Elements that lack required parts of ReqIF, and dangling references; empty if none is known.
 
-    What reading needs comes first; what the schema alone demands is said if there is nothing else.
+    Problems that prevent reading come first; violations of the schema alone are reported if there are no others.
 
     Args:
         content: Well-formed XML.
@@ -39,7 +39,7 @@ def structure_problems(content: bytes, file: str) -> tuple[Finding, ...]:
 
 @dataclass(slots=True, kw_only=True)
 class _Element:
-    """An element whose end is not read yet."""
+    """An element whose end tag is not read yet."""
 
     name: str
     identifier: str
@@ -57,7 +57,7 @@ class _Reader:
         self._file = file
         self._open: list[_Element] = []
         self._passed_over = 0
-        """How deep it is in an element that may hold anything, or that does not belong where it is."""
+        """Depth within an element that may contain anything, or that is misplaced."""
         self._found: list[Finding] = []
         self._formal: list[Finding] = []
         self._identifiers: dict[str, tuple[str, int]] = {}
@@ -80,7 +80,7 @@ class _Reader:
             self._passed_over = 1
             return
         shape = shape_of(name, "" if around is None else around.name)
-        if shape is None:  # the root is another, which is reported alone
+        if shape is None:  # a wrong root is reported alone
             self._passed_over = 1
             return
         element = _Element(name=name, identifier=attributes.get("IDENTIFIER", ""), line=line, shape=shape)
@@ -116,7 +116,7 @@ class _Reader:
     def _belongs(self, name: str, namespace: str, around: _Element, line: int) -> bool:
         shape = around.shape
         if namespace != NAMESPACE or name not in (*shape.one, *shape.maybe, *shape.many):
-            self._report(line, f"an element {shown(name)} stands in {around.name}, where it does not belong")
+            self._report(line, f"{around.name} must not contain an element {shown(name)}")
             return False
         around.inner[name] += 1
         if around.inner[name] == 2 and name not in shape.many:
@@ -135,7 +135,7 @@ class _Reader:
         for wanted in _WHOLE_NUMBERS:
             if wanted in attributes and not attributes[wanted].strip().lstrip("+-").isdecimal():
                 self._report(line, f"{wanted} of {element} must be a whole number, got {shown(attributes[wanted])}")
-        # An alternative identifier is one of another tool, which nothing refers to.
+        # An alternative identifier is one of another tool, to which nothing refers.
         if element.identifier and name != "ALTERNATIVE-ID":
             _, before = self._identifiers.setdefault(element.identifier, (name, line))
             if self._identifiers[element.identifier] != (name, line):
@@ -147,7 +147,7 @@ class _Reader:
             if not identifier:
                 yield self._problem(line, f"an element {name} is empty and names nothing")
             elif not kind:
-                yield self._problem(line, f"the {name} {shown(identifier)} names what is not there")
+                yield self._problem(line, f"the {name} {shown(identifier)} names a missing element")
             elif f"{kind}{_REFERENCE}" != name:
                 yield self._problem(line, f"the {name} {shown(identifier)} names a {kind}, that of line {where}")
 
@@ -156,5 +156,5 @@ class _Reader:
 
     def _problem(self, line: int, message: str) -> Finding:
         return problem(
-            self._file, "structure", f"is XML, but not ReqIF that can be read: {message}", line=line, hint="mend it"
+            self._file, "structure", f"is XML, but not ReqIF that can be read: {message}", line=line, hint="correct it"
         )

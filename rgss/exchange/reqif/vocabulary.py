@@ -55,7 +55,7 @@ _NAMESPACE = uuid.uuid5(uuid.NAMESPACE_URL, "https://www.omg.org/spec/ReqIF/rgss
 
 
 def identifier(*parts: str) -> str:
-    """The identifier of whatever some texts name; an XML name that depends on these texts alone."""
+    """Identifier derived from some texts; an XML name that depends on these texts alone."""
     return f"_{uuid.uuid5(_NAMESPACE, chr(10).join(parts))}"
 
 
@@ -65,24 +65,24 @@ def long_name(attribute: Attribute) -> str:
 
 
 def attribute_name(long: str) -> str:
-    """Name here of an attribute of any tool; one of ours where there is one for it."""
+    """Name in rgss of an attribute of any tool; the given name if there is none."""
     plain = re.sub(r"[\s-]+", "_", long.strip()).lower()
     plain = plain.removeprefix("reqif.")
     return _OTHERS.get(plain, plain)
 
 
 def relation_name(long: str) -> str | None:
-    """The relation of any tool among ours; None if it is none of them."""
+    """Relation in rgss for one of any tool; None if there is none."""
     plain = re.sub(r"[^a-z]", "", long.lower())
     known = {name.lower(): name for name in RELATIONS}
     return known.get(plain, _OTHER_RELATIONS.get(plain))
 
 
 def is_string(attribute: Attribute) -> bool:
-    """True if an attribute is a plain string in ReqIF: one that holds no prose, so no breaks of lines."""
+    """True if an attribute is a plain string in ReqIF, without line breaks."""
     return attribute.form is Form.DETAIL or attribute.name in ("id", "threshold")
 
 
 def is_relation(attribute: Attribute) -> bool:
-    """True if an attribute is relations in ReqIF, or the hierarchy, and no attribute."""
+    """True if an attribute is expressed by relations or by the hierarchy in ReqIF."""
     return attribute.holds_ids

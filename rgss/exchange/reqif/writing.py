@@ -1,4 +1,4 @@
-"""A project as ReqIF: the same content gives the same bytes."""
+"""Writer of ReqIF: the same content gives the same bytes."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ from rgss.exchange.reqif.vocabulary import (
 from rgss.requirements import LinkKind
 
 NO_TIME = "2000-01-01T00:00:00Z"
-"""ReqIF wants a time of the last change of everything; none is known, and that of writing would change the bytes."""
+"""Time of the last change, which ReqIF requires; it is unknown, and the time of writing would change the bytes."""
 
-# A quarter of the file. Texts have no break of a line of their own before a "<", see `as_xhtml`.
+# A quarter of the file is indentation. Texts have no line break before a "<", see `as_xhtml`.
 _INDENTATION = re.compile(r">\n +<")
 _LONGEST_STRING = "100000"
 _MEASURE_ATTRIBUTES = (
@@ -58,7 +58,7 @@ def reqif_text(content: Content, *, title: str) -> str:
         title: The title in the header.
 
     Raises:
-        DefinitionError: The package reqif is not installed, or a text cannot stand in XML.
+        DefinitionError: The package reqif is not installed, or a text has a character that XML does not allow.
     """
     models = _library()
     measures = dict(content.measures)
@@ -105,7 +105,7 @@ def reqif_text(content: Content, *, title: str) -> str:
 
 
 def _title(text: str) -> str:
-    """A title as the library takes it: it escapes ampersands, and no other sign."""
+    """A title for the library, which escapes ampersands only."""
     escaped(text, "the title")
     return text.replace("<", "‹").replace(">", "›")
 
@@ -243,7 +243,7 @@ def _relations(models: Any, rows: Sequence[Row]) -> Iterator[Any]:
 
 
 def _relations_of(row: Row) -> Iterator[tuple[str, str, str]]:
-    """Kind, source and target of what a row states."""
+    """Kind, source and target of the relations of a row."""
     for attribute in ATTRIBUTES[_part(row)]:
         if not is_relation(attribute) or attribute.link is LinkKind.CONTAINMENT:
             continue

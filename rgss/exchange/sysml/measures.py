@@ -16,8 +16,8 @@ def calculations(measures: MeasureSet) -> list[str]:
     """Constants as attributes, measures as calculations from them, from inputs and from each other.
 
     A calculation takes the symbols of its expression as parameters, in SI; a row is a parameter
-    with as many values as the row has entries. Units are in the documentation: not all of them
-    (money) are among the library's.
+    with as many values as the row has entries. Units are in the documentation, since some of them
+    (money) are not in the library.
     """
     lengths: dict[str, int | None] = {symbol.id: symbol.length for symbol in measures.inputs}
     lengths |= {measure.id: measure.length for measure in measures.measures}
@@ -52,7 +52,7 @@ def _calculation(
 
 
 def _unit(unit: str) -> str:
-    return "A pure number." if unit == "1" else f"In the SI unit of {unit}."
+    return "Dimensionless." if unit == "1" else f"In the SI unit of {unit}."
 
 
 def _length(node: Node, rows: Mapping[str, int]) -> int | None:
@@ -61,7 +61,7 @@ def _length(node: Node, rows: Mapping[str, int]) -> int | None:
 
 
 def _rows(node: Node, rows: Mapping[str, int]) -> tuple[str, ...]:
-    """The symbols of rows in a node that go entry by entry, each once."""
+    """The symbols of rows in a node that are evaluated entry by entry, each once."""
     if isinstance(node, Name):
         return (node.id,) if node.id in rows else ()
     if isinstance(node, Negative):
@@ -80,8 +80,8 @@ def _written(node: Node, rows: Mapping[str, int], entries: Mapping[str, str]) ->
 
     Args:
         node: The node.
-        rows: How many entries each row has.
-        entries: Within a row that is computed entry by entry, what stands for the entry of each row.
+        rows: Number of entries of each row.
+        entries: The expression of an entry of each row, within a row that is computed entry by entry.
     """
     length = _length(node, rows)
     if length and not entries and not isinstance(node, Name):

@@ -21,7 +21,7 @@ LIBRARIES = (
     "RequirementDerivation::*",
     "ModelingMetadata::*",
 )
-"""What the model takes from the libraries of the language."""
+"""Imported libraries of the language."""
 
 
 def sysml_text(requirements: RequirementSet, measures: MeasureSet, *, title: str) -> str:

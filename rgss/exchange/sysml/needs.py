@@ -27,7 +27,7 @@ Asked = TypeVar("Asked", StakeholderNeed, Requirement)
 
 
 def requirement_definitions() -> list[str]:
-    """The two kinds of requirements with the attributes that they have beyond SysML's own."""
+    """The two kinds of requirements with their attributes in addition to those of SysML."""
     return [
         *body(f"requirement def {name(NEED)}", (f"attribute {each} : String[0..1];" for each in _OF_NEEDS)),
         *body(

@@ -1,7 +1,7 @@
 """Lexical elements of the textual notation: names, strings, documentation, bodies.
 
-The notation is read by people as code is, and never back by rgss: characters that reorder or hide
-text are shown by their code points.
+The notation is for readers; rgss does not import it. Characters that reorder or hide text are shown by
+their code points.
 """
 
 from __future__ import annotations
@@ -32,27 +32,27 @@ def real(value: float) -> str:
         return f"-{real(-value)}"
     text = repr(float(value))
     mantissa, exponent, power = text.partition("e")
-    # The grammar wants digits after a point, and an exponent without a plus sign.
+    # The grammar requires digits after a point, and an exponent without a plus sign.
     return f"{mantissa if '.' in mantissa else mantissa + '.0'}{exponent}{power.replace('+', '')}"
 
 
 def documentation(text: str) -> str:
-    """A text as the documentation of the element that holds it; it cannot end the comment that it stands in."""
+    """A text as the documentation of its element; it cannot end the comment that contains it."""
     return f"doc {_remark(text)}"
 
 
 def comment(about: str, text: str) -> str:
-    """A text as a comment on an element beside it, for elements that hold no documentation."""
+    """A text as a comment on another element, for elements that cannot contain documentation."""
     return f"comment about {name(about)} {_remark(text)}"
 
 
 def declared(keyword: str, identity: str, called: str = "") -> str:
-    """The head of a declaration: keyword, short name if it is called something else, name."""
+    """The head of a declaration: keyword, short name if it differs from the name, name."""
     return f"{keyword} <{name(identity)}> {name(called)}" if called else f"{keyword} {name(identity)}"
 
 
 def body(head: str, lines: Iterable[str]) -> list[str]:
-    """A declaration with what it owns, indented; a semicolon where it owns nothing."""
+    """A declaration with its indented members; a semicolon if it has none."""
     inner = list(lines)
     return [f"{head} {{", *(_INDENT + line for line in inner), "}"] if inner else [f"{head};"]
 

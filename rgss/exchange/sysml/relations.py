@@ -14,14 +14,14 @@ SYSTEM = "System requirements"
 
 
 class Relations:
-    """Writes every link of a set of requirements between the elements' qualified names."""
+    """Writer of the links of a set of requirements, between qualified names of elements."""
 
     def __init__(self, requirements: RequirementSet, parts: Parts) -> None:
         """Index the elements.
 
         Args:
             requirements: The requirements and the architecture.
-            parts: Where the parts of the blocks stand.
+            parts: The paths of the blocks' parts.
         """
         self._requirements = requirements
         self._parts = parts

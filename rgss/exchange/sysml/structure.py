@@ -15,8 +15,8 @@ PARTS = "Part definitions"
 class Parts:
     """Paths of the blocks' parts.
 
-    A block that is one kind of its parent is not a piece of it: its definition specialises the
-    parent's, and its part subsets the parent's part, beside which it stands.
+    A block that is a kind of its parent is not a part of it: its definition specialises the
+    parent's, and its part subsets the parent's part, as a sibling.
     """
 
     def __init__(self, architecture: Architecture) -> None:
@@ -45,7 +45,7 @@ class Parts:
         return lines
 
     def parts(self) -> list[str]:
-        """The parts, each within the one that it is a piece of."""
+        """The parts, each nested in its whole."""
         return [line for block in self._owned.get(None, ()) for line in self._part(block)]
 
     def _part(self, block: Block) -> list[str]:

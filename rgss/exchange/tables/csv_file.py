@@ -34,13 +34,13 @@ _WRONG: Mapping[str, str] = MappingProxyType(
         "NUL": "a cell must not hold the character U+0000",
     }
 )
-"""What is wrong, by a sign in the message of the reader of the standard library."""
+"""Description of a problem, by a phrase in the message of the reader of the standard library."""
 
 
 def csv_text(content: Content) -> str:
     """Write requirements as CSV, one row each.
 
-    A text that a spreadsheet might compute gets an apostrophe before it, which `read_csv` takes off.
+    A text that a spreadsheet might evaluate as a formula gets a leading apostrophe, which `read_csv` removes.
 
     Args:
         content: The project.
@@ -57,10 +57,10 @@ def csv_text(content: Content) -> str:
 
 
 def read_csv(path: Path) -> Content:
-    """Read requirements from CSV; the columns may stand in any order.
+    """Read requirements from CSV; the columns may be in any order.
 
     Args:
-        path: The file, in UTF-8. Commas, semicolons or tabs divide its cells.
+        path: The file, in UTF-8, with commas, semicolons or tabs as separators.
 
     Raises:
         DocumentError: The file cannot be read, is not UTF-8 or not CSV, or has other columns.

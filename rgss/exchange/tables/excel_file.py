@@ -26,7 +26,7 @@ _WIDE, _NARROW = 60.0, 18.0
 def excel_bytes(content: Content) -> bytes:
     """Write requirements as a workbook, one sheet for each part and one row for each requirement.
 
-    Texts are cells of texts, also where they look like formulas; the same content gives the same bytes.
+    Texts are text cells, also if they look like formulas; the same content gives the same bytes.
 
     Args:
         content: The project.
@@ -37,7 +37,7 @@ def excel_bytes(content: Content) -> bytes:
     _require_openpyxl()
     from openpyxl import Workbook
 
-    # Before there is a workbook, which cannot be left half-written.
+    # Checked before the workbook is created, which must not be left incomplete.
     for row in content.rows:
         long = next((name for name, cell in row.cells.items() if len(cell) > LONGEST_EXCEL_TEXT), None)
         if row.part in PARTS and long is not None:
@@ -51,7 +51,7 @@ def excel_bytes(content: Content) -> bytes:
 
 
 def read_excel(path: Path) -> Content:
-    """Read requirements from a workbook; the columns of a sheet may stand in any order.
+    """Read requirements from a workbook; the columns of a sheet may be in any order.
 
     Args:
         path: The file, with the sheets ``stakeholder`` and ``system``.
@@ -70,7 +70,7 @@ def read_excel(path: Path) -> Content:
     rows: list[Row] = []
     try:
         with warnings.catch_warnings():
-            # It warns of unknown formatting of a workbook, which is not read here.
+            # openpyxl warns of unknown formatting, which is not read here.
             warnings.simplefilter("ignore")
             workbook = load_workbook(io.BytesIO(content), read_only=True)
             names = workbook.sheetnames
@@ -86,7 +86,7 @@ def read_excel(path: Path) -> Content:
         message = "is not a workbook that can be read: it is damaged, or lacks parts that a workbook has"
         raise DocumentError([problem(file, "syntax", message, hint="save it again as .xlsx")]) from None
     others = [name for name in names if name not in [part.value for part in PARTS]]
-    notes = [f"the sheet {name!r} is left aside" for name in others]
+    notes = [f"the sheet {name!r} is not imported" for name in others]
     return table_content(file, rows, findings, notes)
 
 
@@ -115,7 +115,7 @@ def _require_harmless(content: bytes, file: str) -> None:
 
 def _rows(file: str, sheet: Any, part: Part, findings: list[Finding]) -> Iterator[Row]:
     where = f"sheet {part.value!r}: "
-    # What a sheet says of its own size need not be true.
+    # The stated size of a sheet may be wrong.
     sheet.reset_dimensions()
     columns: Mapping[str, int] | None = None
     for number, cells in enumerate(sheet.iter_rows(max_row=MOST_ROWS + 2, max_col=MOST_COLUMNS + 1), start=1):

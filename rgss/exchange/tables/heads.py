@@ -35,12 +35,12 @@ def found_columns(file: str, heads: Sequence[str], wanted: Sequence[str], *, whe
 
     Args:
         file: The file's name.
-        heads: What stands in the first row.
+        heads: The cells of the first row.
         wanted: The columns that the table must have.
-        where: The sheet, as a message begins.
+        where: Name of the sheet as the prefix of messages.
 
     Raises:
-        DocumentError: A column is missing, stands twice, or is another.
+        DocumentError: A column is missing, duplicate or unknown.
     """
     names = [head.strip().lower() for head in heads]
     while names and not names[-1]:
@@ -59,7 +59,7 @@ def found_columns(file: str, heads: Sequence[str], wanted: Sequence[str], *, whe
             message = f"{where}unknown column {shown(heads[number - 1])}"
             findings.append(problem(file, "column", message, column=number, hint=hint))
         elif name in names[: number - 1]:
-            message = f"{where}column {name!r} stands twice"
+            message = f"{where}duplicate column {name!r}"
             findings.append(problem(file, "column", message, column=number, hint="keep one"))
     if findings:
         raise DocumentError(findings)

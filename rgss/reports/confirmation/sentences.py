@@ -1,4 +1,4 @@
-"""Sentences that tell what a confirmation came to."""
+"""Result of a confirmation in sentences."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _NUMBERS = ("no", "one", "two", "three", "four")
 
 
 def summary_sentences(confirmation: Confirmation) -> Iterator[str]:
-    """The decision, the verdicts and the outcomes in a sentence each, and what was left out."""
+    """The decision, the verdicts and the outcomes in a sentence each, and what was not confirmed."""
     yield decision_sentence(confirmation)
     yield verdict_sentence(confirmation)
     yield outcome_sentence(confirmation)
@@ -74,7 +74,7 @@ def verdict_sentence(confirmation: Confirmation) -> str:
 
 
 def outcome_sentence(confirmation: Confirmation) -> str:
-    """Sentence on the trials that end differently under another setting."""
+    """Sentence on the trials with another outcome under another setting."""
     total = len(confirmation.trials)
     differing = confirmation.differing_trials
     if not differing:
@@ -85,7 +85,7 @@ def outcome_sentence(confirmation: Confirmation) -> str:
 
 
 def trial_sentence(confirmation: Confirmation, trial: ConfirmedTrial) -> str:
-    """Outcome of one trial in the study and under the settings that differ, with the numbers that show it."""
+    """Outcome of one trial in the study and under the settings that differ, with the figures behind it."""
     parts = []
     for index in trial.differing:
         detail = trial.records[index].failure_detail

@@ -12,13 +12,13 @@ _DIGITS = 4
 
 
 def confirmation_tables(confirmation: Confirmation) -> tuple[Table, ...]:
-    """Decisions, verdicts that differ, outcomes and metrics side by side; what is empty is left out."""
+    """Decisions, verdicts that differ, outcomes and metrics side by side; empty tables are omitted."""
     made = (_decisions(confirmation), _verdicts(confirmation), _outcomes(confirmation), _metrics(confirmation))
     return tuple(table for table in made if table.rows)
 
 
 def shown_number(value: float | None) -> str:
-    """A number with four digits; a dash for none."""
+    """Number with four digits; a dash if there is none."""
     return "–" if value is None else f"{value:.{_DIGITS}g}"
 
 

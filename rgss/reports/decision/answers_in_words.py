@@ -1,4 +1,4 @@
-"""Sentences on weights that follow from pairwise answers: how they were found, and how far the answers agree."""
+"""Sentences on weights that follow from pairwise answers: method, and consistency of the answers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ DIGEST_SHOWN = 12
 
 
 def elicitation_sentences(elicited: Iterable[ElicitedWeights], by: Mapping[str, ElicitedWeights]) -> Iterator[str]:
-    """The answers that weights follow from, by their digests.
+    """Sentences on the answers that weights follow from, with their digests.
 
     Args:
         elicited: The groups of the study.
@@ -44,7 +44,7 @@ def method_sentence(one: ElicitedWeights) -> str:
 
 
 def consistency_sentences(found: Consistency) -> Iterator[str]:
-    """The indices with their limits, the worst triad and the worst answer with what would mend them.
+    """The indices with their limits, the worst triad and the worst answer with their corrections.
 
     Args:
         found: The inconsistency of the ratio answers.
@@ -72,7 +72,7 @@ def consistency_sentences(found: Consistency) -> Iterator[str]:
 def _triad(triad: Triad) -> str:
     answers = ", ".join(answer.words for answer in triad.answers)
     mends = " or ".join(_pair(answer, ratio) for answer, ratio in zip(triad.answers, triad.mends, strict=True))
-    return f"The worst triad, off by ×{triad.factor:.3g}: {answers}. Any one of these would mend it: {mends}."
+    return f"The worst triad, off by ×{triad.factor:.3g}: {answers}. Any one of these would correct it: {mends}."
 
 
 def _pair(answer: PairwiseAnswer, ratio: float) -> str:

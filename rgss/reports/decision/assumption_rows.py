@@ -1,4 +1,4 @@
-"""Table of the modelling assumptions: what each is taken as, and the choice under an alternative, in words."""
+"""Table of the modelling assumptions: present value, alternative, and the choice under it, in words."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class AssumptionRow:
 
     Attributes:
         cells: Its cells, under `ASSUMPTION_HEADS`.
-        changes: Whether the choice changes; None if that is not known.
+        changes: True if the choice changes; None if that is not known.
     """
 
     cells: tuple[str, ...]
@@ -48,7 +48,7 @@ def assumption_rows(made: StudyDecision) -> tuple[AssumptionRow, ...]:
 
 
 def assumption_sentences(made: StudyDecision) -> Iterator[str]:
-    """Summary of the table, how to complete it, and whether a lower fidelity gives another decision.
+    """Summary of the table, the command that completes it, and the decision at a lower fidelity.
 
     Args:
         made: The decision.

@@ -1,4 +1,4 @@
-"""Sentences on what the evidence shows: standing of the choice, its probability, ties, more replicates."""
+"""Sentences on the conclusion from the evidence: verdicts on the choice, its probability, ties, more replicates."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rgss.trace.views import share_in_words
 from rgss.tradeoff.robustness import ChoiceUncertainty, Rival
 
 MOST_TIES = 4
-"""So many groups of tied variants are named."""
+"""Most groups of tied variants that are named."""
 
 
 def headline(made: StudyDecision) -> str:
@@ -71,7 +71,7 @@ def standing_sentence(made: StudyDecision) -> str:
 
 
 def seeds_sentences(groups: Sequence[SeedGroup]) -> Iterator[str]:
-    """The seeds that were read of each variant, and what that means for intervals; nothing for fixed replicates.
+    """The seeds that were read of each variant, with a caution on intervals; empty for fixed replicates.
 
     Args:
         groups: Variants of equal seeds, the fewest seeds first.
@@ -97,7 +97,7 @@ def seeds_sentences(groups: Sequence[SeedGroup]) -> Iterator[str]:
 
 
 def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
-    """The probability of the choice, what is tied with it, and what more replicates are worth.
+    """Sentences on the probability of the choice, on ties, and on the expected gain of more replicates.
 
     Args:
         made: The decision.
@@ -129,7 +129,7 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
 
 
 def share_text(share: float) -> str:
-    """A share as it is stated, such as 5 %."""
+    """Text of a share, such as 5 %."""
     return f"{100.0 * share:.3g} %"
 
 
@@ -161,7 +161,7 @@ def _tie(found: RobustnessFindings, members: list[Rival]) -> str:
             "break the tie, and no difference of value does."
         )
     if rival.measure is None:
-        return f"{tied}; no estimate differs, so that only a measure that tells them apart breaks the tie."
+        return f"{tied}; no estimate differs, so that only a measure in which they differ breaks the tie."
     if rival.replicates is None:
-        return f"{tied}; they differ most in {rival.measure}, and no number of replicates worth running parts them."
-    return f"{tied}; they differ most in {rival.measure}; about {rival.replicates} replicates would part them."
+        return f"{tied}; they differ most in {rival.measure}, and no affordable number of replicates separates them."
+    return f"{tied}; they differ most in {rival.measure}; about {rival.replicates} replicates would separate them."

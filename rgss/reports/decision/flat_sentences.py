@@ -1,4 +1,4 @@
-"""Sentences on weights that separate nothing."""
+"""Sentences on weights that do not separate the designs."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def flat_sentences(flat: tuple[FlatWeight, ...]) -> Iterator[str]:
     for one in flat:
         among = "feasible variants" if one.among_feasible else "variants"
         yield (
-            f"{one.measure} is worth the same for all {among}, so its weight of {one.weight:.3g} decides nothing: "
+            f"{one.measure} is worth the same for all {among}, so its weight of {one.weight:.3g} has no effect:  "
             f"{_remedy(one)}"
         )
     if len(flat) and flat[0].effective:
@@ -32,13 +32,13 @@ def flat_sentences(flat: tuple[FlatWeight, ...]) -> Iterator[str]:
 def _remedy(one: FlatWeight) -> str:
     if one.remedy is FlatRemedy.MOVE_ENDS:
         low, high = amount(one.low, one.unit), amount(one.high, one.unit)
-        return f"set worst and best to the swing that is there, {low} to {high}, and weigh that swing anew."
+        return f"set worst and best to the swing that is there, {low} to {high}, and weigh that swing again."
     everyone = ""
     if one.all_low < one.all_high and one.among_feasible:
         everyone = f" (all variants: {amount(one.all_low, one.unit)} to {amount(one.all_high, one.unit)})"
     if one.remedy is FlatRemedy.VARY_THE_WORLD:
         return (
-            f"all are at {amount(one.high, one.unit)}{everyone}; let the world vary or ask more of the task until "
+            f"all are at {amount(one.high, one.unit)}{everyone}; let the world vary or make the task harder until "
             "designs differ, or drop the measure."
         )
     return (

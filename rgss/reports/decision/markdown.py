@@ -48,7 +48,7 @@ def decision_section(made: StudyDecision) -> str:
 
 
 def _assumptions(made: StudyDecision) -> Iterator[str]:
-    """The table of the modelling assumptions, and what it says."""
+    """The table of the modelling assumptions, and its summary."""
     yield f"| {' | '.join(ASSUMPTION_HEADS)} |"
     yield "|" + "---|" * len(ASSUMPTION_HEADS)
     for row in assumption_rows(made):
@@ -59,16 +59,16 @@ def _assumptions(made: StudyDecision) -> Iterator[str]:
 
 
 def text_with_place(file: Path) -> str:
-    """The text of a file that has a place for the section.
+    """Text of a file that has the markers of the section.
 
     Args:
         file: The file.
 
     Raises:
-        DefinitionError: The file cannot be read, or has not each marker once.
+        DefinitionError: The file cannot be read, or does not have each marker exactly once.
     """
     try:
-        # Not as text, so that its ends of lines stay.
+        # Read as bytes, so that its line ends are kept.
         text = b"".join(chunks_of(file, largest=LARGEST_FILE_BYTES)).decode("utf-8")
     except (OSError, ValueError) as error:
         raise DefinitionError(f"{str(file)!r} cannot be read", hint="name a Markdown file") from error

@@ -1,4 +1,4 @@
-"""Conflicts that leave nothing to choose, and what would mend them, in the document of the HTML report."""
+"""Conflicts of an infeasible decision, with their repairs, in the document of the HTML report."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from rgss.trace.views import rounded_away, share_in_words
 from rgss.tradeoff import Conflicts, Decision, JointRepair, LimitChange
 
 MOST_CONFLICTS_LISTED = 12
-"""So many conflicts, and so many ways to mend them all, are listed."""
+"""Most conflicts, and most repairs, that are listed."""
 
 
 def conflict_part(decision: Decision) -> Plain | None:
-    """Requirements that cannot be met together, with the probability, and the limits that would resolve it.
+    """Requirements that cannot be met together, with the probability, and the repairs.
 
     Args:
-        decision: What was decided.
+        decision: The decision.
 
     Returns:
-        None where something is feasible. Otherwise the conflicts with the probability that each is
-        still there when the replicates are drawn anew (None with one replicate), what
-        would mend all of them, what each requirement alone would have to become, and the nearest variant.
+        None if a variant is feasible. Otherwise the conflicts with the probability that each remains
+        when the replicates are resampled (None with one replicate), the repairs of all of them, the repair
+        by each requirement alone, and the nearest variant.
     """
     conflicts = decision.conflicts
     if conflicts is None:
@@ -63,10 +63,10 @@ def conflict_part(decision: Decision) -> Plain | None:
 
 
 def conflict_reasons(decision: Decision) -> Iterator[str]:
-    """The same in sentences: the surest conflict, the smallest change that mends all, the nearest variant.
+    """Conflicts in sentences: the most probable one, the smallest repair of all, the nearest variant.
 
     Args:
-        decision: What was decided.
+        decision: The decision.
     """
     conflicts = decision.conflicts
     if conflicts is None:
@@ -86,7 +86,7 @@ def conflict_reasons(decision: Decision) -> Iterator[str]:
         of = f" of {repair.unlocked} that are then feasible" if repair.unlocked > 1 else ""
         together = " together" if len(repair.changes) > 1 else ""
         chosen = "" if repair.winner is None else f"; then variant {repair.winner}{of} is chosen"
-        yield f"The smallest change that mends it: {moved}{together}{chosen}."
+        yield f"The smallest repair: {moved}{together}{chosen}."
     nearest = conflicts.nearest
     yield f"Nearest is variant {nearest.variant}, which violates {_listed(nearest.requirements)}."
 
@@ -125,7 +125,7 @@ def _needed(change: LimitChange) -> str:
 
 
 def _example(conflicts: Conflicts) -> str:
-    """The command that tries the smallest change that mends everything; empty if there is none."""
+    """Command that tries the smallest repair of all conflicts; empty if there is none."""
     first = next((one for one in _easiest_first(conflicts) if one.changes), None)
     if first is None:
         return ""

@@ -24,13 +24,13 @@ from rgss.tradeoff import Contribution, PortfolioDecision
 from rgss.tradeoff.programs import Certificate
 
 MOST_CONTENDERS = 40
-"""So many variants that come first for some weights are listed, the most acceptable first."""
+"""Most listed variants that come first for some weights, the most acceptable first."""
 
 _MOST_LISTED = 6
 
 
 def decision_part(made: StudyDecision) -> Plain:
-    """The decision, the reasons for it, what nearly won, and what would change it.
+    """The decision, its reasons, its closest rivals, and what would change it.
 
     Args:
         made: The decision.
@@ -106,7 +106,7 @@ def _robustness(found: RobustnessFindings | None) -> Plain:
 
 
 def _drivers(made: StudyDecision) -> Plain:
-    """Sentences on the draws that go with failures, and the success of each case; empty where nothing was drawn."""
+    """Sentences on the drivers of failures, and the success of each case; empty if nothing was drawn."""
     drivers = made.drivers
     if drivers is None or not drivers.seeds:
         return {}

@@ -17,7 +17,7 @@ class KeptGroup:
     Attributes:
         variants: Their ids.
         why: The reason, in words.
-        behind: What the best is worth more at the study's weights.
+        behind: Difference to the value of the best at the study's weights.
     """
 
     variants: tuple[int, ...]
@@ -95,9 +95,9 @@ def agreement_sentences(found: Sensitivity) -> Iterator[str]:
     compromise = [found.variants[row] for row in agreement.compromise]
     whose = " and ".join(agreement.most_regretful)
     regret = (
-        "nobody regrets anything"
+        "nobody has a regret"
         if agreement.largest_regret <= 1e-9
-        else f"nobody regrets more than {score(agreement.largest_regret)} ({whose})"
+        else f"nobody's regret exceeds {score(agreement.largest_regret)} ({whose})"
     )
     yield f"Compromise by least largest regret: {variants_text(compromise)}; {regret}."
     best = max(float(agreement.borda[row]) for row in range(len(found.variants)) if agreement.borda[row] >= 0.0)

@@ -1,4 +1,4 @@
-"""Sentences on a decision that its pages share: reasons, cautions, certificate, portfolio, noise."""
+"""Sentences on a decision that its renderers share: reasons, cautions, certificate, portfolio, noise."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Reason:
 
     Attributes:
         text: The reason, in a sentence.
-        details: What it consists of; may be empty.
+        details: Its parts; may be empty.
     """
 
     text: str
@@ -77,7 +77,7 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
 
 
 def cautions(made: StudyDecision) -> Iterator[str]:
-    """Cautions on a choice: double counting, weights that decide nothing, equations that the simulation contradicts.
+    """Cautions on a choice: double counting, weights without effect, equations that the simulation contradicts.
 
     Args:
         made: The decision.
@@ -92,7 +92,7 @@ def cautions(made: StudyDecision) -> Iterator[str]:
         return
     for flat in made.decision.flat_measures:
         among = "feasible variants" if flat.among_feasible else "variants"
-        yield f"{flat.measure} is the same for all {among}, so its weight of {flat.weight:g} decides nothing."
+        yield f"{flat.measure} is the same for all {among}, so its weight of {flat.weight:g} has no effect."
     for gap in made.gaps:
         yield f"{gap_sentence(gap)}."
 
@@ -150,7 +150,7 @@ def notable_checks(checks: tuple[Check, ...]) -> list[str]:
 
 
 def no_portfolio(portfolio: PortfolioDecision) -> str:
-    """Why there is no portfolio; empty where there is one.
+    """Reason why there is no portfolio; empty if there is one.
 
     Args:
         portfolio: The choice of a portfolio.
@@ -165,7 +165,7 @@ def no_portfolio(portfolio: PortfolioDecision) -> str:
 
 
 def portfolio_proof(portfolio: PortfolioDecision) -> str:
-    """Sentence on the proof that a portfolio is best, or on how much better another can be.
+    """Sentence on the proof that a portfolio is best, or on the bound of the gap.
 
     Args:
         portfolio: The choice of a portfolio.
@@ -182,7 +182,7 @@ def noise_sentence(survival: ConflictSurvival | None) -> str:
     """Method by which the survival of conflicts under noise was computed.
 
     Args:
-        survival: The survival; None where there is one replicate of each variant.
+        survival: The survival; None if there is one replicate of each variant.
     """
     if survival is None:
         return "Whether a conflict survives noise: unknown, it needs two replicates of each variant."

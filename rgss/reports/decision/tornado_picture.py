@@ -10,14 +10,14 @@ from rgss.invisible_characters import visible
 from rgss.reports.decision.words import amount, score, variants_text
 
 MOST_BARS = 25
-"""So many inputs are drawn; the document has all."""
+"""Most inputs that are drawn; the document has all."""
 
 _WIDTH, _ROW, _BAR, _TOP = 960.0, 26.0, 16.0, 44.0
 _LEFT, _RIGHT = 330.0, 930.0
 
 
 def tornado_svg(tornado: Tornado) -> str:
-    """A picture of the bars; empty where no input moves the lead.
+    """Picture of the bars; empty if no input moves the lead.
 
     Args:
         tornado: The sensitivity of a choice.

@@ -1,4 +1,4 @@
-"""Sentences on what replication until decided came to, and on what it leaves open."""
+"""Result of replication until decided in sentences, with what remains open."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ _ROUND_TO = 50
 
 
 def until_decided_summary(result: UntilDecided) -> str:
-    """One line that says what came of it.
+    """Result in one line.
 
     Args:
-        result: What it came to.
+        result: The result of the replication.
     """
     share = result.total / (len(result.trials) * result.rule.cap)
     chosen = "no variant" if result.variant is None else f"variant {result.variant}"
@@ -42,7 +42,7 @@ def open_paragraph(result: UntilDecided, *, command: str) -> str:
     """Open questions at the end of replication, what would settle them, and the command; empty if decided.
 
     Args:
-        result: What it came to.
+        result: The result of the replication.
         command: The command that goes on, to which an option is appended.
     """
     if result.reason is Reason.DECIDED:
@@ -96,14 +96,14 @@ def _advice(result: UntilDecided, command: str) -> str:
         )
     name = "cap" if result.reason is Reason.CAP else "budget"
     return (
-        f"If trials go on as so far, some {_rounded(found.trials)} trials more settle the decision"
+        f"If trials go on as so far, some {_rounded(found.trials)} more trials settle the decision"
         f"{_beyond_cap(result, found)}; to go on where it stopped, type "
         f"'{command} {_raised(result, found.trials)}', or raise until_decided.{name}."
     )
 
 
 def _raised(result: UntilDecided, more: int) -> str:
-    """The option that gives it so many trials more."""
+    """Option that allows so many more trials."""
     if result.reason is Reason.CAP:
         return f"--cap {2 * result.rule.cap}"
     return f"--budget {_rounded(result.total + more)}"

@@ -1,4 +1,4 @@
-"""Words for the figures of a decision: ids, quantities, limits and changes of weights."""
+"""Text of the figures of a decision: ids, quantities, limits and changes of weights."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from rgss.trace.views import rounded_away, value_in_words
 
 LONGEST_IDS = 12
-"""So many runs of ids are written out."""
+"""Most runs of ids that are written out."""
 
 UNKNOWN = "–"
 
@@ -40,17 +40,17 @@ def variants_text(variants: Sequence[int]) -> str:
 
 
 def amount(value: float, unit: str) -> str:
-    """A quantity with its unit; money to the dollar."""
+    """Quantity with its unit; money is rounded to the dollar."""
     return f"{value:,.0f} USD" if unit == "USD" else value_in_words(value, unit)
 
 
 def quantity_text(value: float, unit: str) -> str:
-    """A quantity as a file of a study takes it."""
+    """Quantity in the notation of the study's YAML file."""
     return f"{value:g}" if unit == "1" else f"{value:g} {unit}"
 
 
 def moved_limit(limit: float, needed: float, unit: str) -> str:
-    """New value of a limit, rounded away from the present one, so that the number as written is enough."""
+    """New value of a limit, rounded away from the present one, so that the rounded number suffices."""
     return amount(rounded_away(limit, needed, unit), unit)
 
 

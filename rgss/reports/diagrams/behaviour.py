@@ -13,7 +13,7 @@ from rgss.requirements.behaviour import Flow, FlowNode, FlowNodeKind, State, Sta
 
 _SYSTEM = "system"
 _LONGEST_LABEL = 4
-"""With more failures than this on one way, they are listed in the state that it leaves."""
+"""With more failures than this on one edge, they are listed in the state that it leaves."""
 
 _FLOW_SHAPES = {
     FlowNodeKind.INITIAL: Shape.INITIAL,
@@ -30,7 +30,7 @@ def use_case_diagram(behaviours: Iterable[Behaviour], blocks: Iterable[Block]) -
     """Draw all use cases with their actors; None if there is no use case.
 
     Args:
-        behaviours: The behaviours of the model; those that are no use case are left out.
+        behaviours: The behaviours of the model; only use cases are drawn.
         blocks: Its structure, for the names of actors.
 
     Raises:
@@ -74,7 +74,7 @@ def use_case_diagram(behaviours: Iterable[Behaviour], blocks: Iterable[Block]) -
 
 
 def activity_diagram(activity: Behaviour, names: Mapping[str, str]) -> Drawing | None:
-    """Draw what an activity does and in which order; None while its flow is open.
+    """Activity diagram: actions and their order; None while its flow is open.
 
     Each performer of its actions has a lane.
 
@@ -160,7 +160,7 @@ def _performed(flow: Flow) -> list[tuple[FlowNode, str]]:
 
 
 def state_diagram(behaviour: Behaviour) -> Drawing | None:
-    """Draw the states of a machine and what leads from one to the next; None while it is open.
+    """State diagram: states and transitions; None while the machine is open.
 
     Transitions with the same ends are one arrow with a line for each.
 

@@ -1,4 +1,4 @@
-"""Writing SVG: shapes, lines and texts, escaped, with every coordinate in a fixed form."""
+"""SVG writer: shapes, lines and escaped texts, with every coordinate in a fixed format."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from rgss.documents import printable
 from rgss.reports.diagrams.style import LINE, STYLE
 
 Point = tuple[float, float]
-"""A place on the canvas: pixels to the right, pixels down."""
+"""Point on the canvas: pixels to the right, pixels down."""
 
 _ARROW, _SPREAD = 9.0, 0.42
 
 
 class Canvas:
-    """Collects the parts of one drawing; x grows to the right, y downwards, both in pixels."""
+    """Parts of one drawing; x grows to the right, y downwards, both in pixels."""
 
     def __init__(self, origin: Point = (0.0, 0.0)) -> None:
         """Begin without parts.
@@ -57,7 +57,7 @@ class Canvas:
         self._parts.append(f'<polygon class="{style}" points="{places}"/>')
 
     def text(self, x: float, y: float, text: str, style: str, *, anchor: str = "start") -> None:
-        """Write one line; y is where its letters stand. Nothing is written of an empty text."""
+        """Write one line with its baseline at y; an empty text is not written."""
         if not text:
             return
         x, y = self._placed((x, y))
@@ -76,8 +76,8 @@ class Canvas:
         """Draw the head of an arrow.
 
         Args:
-            tip: Where it points.
-            behind: A point that it comes from.
+            tip: Its tip.
+            behind: A point on the line behind the tip.
             head: ``open``, ``filled``, ``triangle``, ``diamond``, ``crosshair`` or empty for none.
         """
         angle = math.atan2(tip[1] - behind[1], tip[0] - behind[0])
@@ -103,7 +103,7 @@ class Canvas:
 
     @contextmanager
     def group(self, title: str) -> Iterator[None]:
-        """Put what is drawn within into a group with a title, which a pointer shows."""
+        """Group the shapes of the block under a title, which is shown as a tooltip."""
         self._parts.append(f"<g><title>{escape(printable(title))}</title>")
         yield
         self._parts.append("</g>")
@@ -114,11 +114,11 @@ class Canvas:
         """The drawing as one ``svg`` element.
 
         Args:
-            name: A name that no other drawing of a page has; letters, digits and hyphens.
-            title: What it is called.
-            description: What it shows, for those who do not see it.
+            name: A name that is unique on the page; letters, digits and hyphens.
+            title: Its title.
+            description: Its text alternative.
             size: Its width and height.
-            with_style: Whether the style sheet is in it, as a file needs it.
+            with_style: True to include the style sheet, as a file needs it.
             behind: What is drawn before the parts, such as a frame.
         """
         width, height = size
@@ -141,6 +141,6 @@ class Canvas:
 
 
 def _number(value: float) -> str:
-    """A coordinate with one decimal, and none where it is whole; never a negative nought."""
+    """Coordinate with one decimal, none if it is whole; never a negative zero."""
     text = f"{value:.1f}"
     return "0" if text == "-0.0" else text.removesuffix(".0")

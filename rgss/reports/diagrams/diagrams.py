@@ -20,13 +20,13 @@ from rgss.requirements import RequirementSet
 from rgss.trace.evidence import success_criterion
 
 MOST_ELEMENTS = 600
-"""A model with more requirements, blocks and behaviours is not drawn as a whole: its map alone is."""
+"""Most elements of a model that is drawn as a whole; of a larger one only the containment map is drawn."""
 
 _NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_.-]")
 
 
 def diagrams_of(requirements: RequirementSet, measures: MeasureSet | None = None) -> tuple[Drawing, ...]:
-    """Draw the containment map, and what a model of moderate size has of each other kind of diagram.
+    """Draw the containment map, and for a model of moderate size every other kind of diagram.
 
     These are requirement diagrams, block definition, internal block and parametric
     diagrams, a use-case diagram, activities,
@@ -43,7 +43,7 @@ def diagrams_of(requirements: RequirementSet, measures: MeasureSet | None = None
 
 
 def missing_diagrams(requirements: RequirementSet) -> str:
-    """Sentence on what is too large to be drawn; empty if everything is drawn."""
+    """Sentence on the diagrams that are too large to be drawn; empty if everything is drawn."""
     if len(requirements.elements) > MOST_ELEMENTS:
         return (
             f"The model has {len(requirements.elements)} elements. Of more than {MOST_ELEMENTS}, "
@@ -56,7 +56,7 @@ def missing_diagrams(requirements: RequirementSet) -> str:
 
 
 def drawings_for_page(drawings: Sequence[Drawing]) -> list[dict[str, Any]]:
-    """Diagrams as the template of a page shows them."""
+    """Diagrams in the form of the page's template."""
     from markupsafe import Markup
 
     return [
@@ -71,11 +71,11 @@ def drawings_for_page(drawings: Sequence[Drawing]) -> list[dict[str, Any]]:
 
 
 def write_diagrams(drawings: Sequence[Drawing], folder: Path) -> tuple[Path, ...]:
-    """Write each diagram as an SVG file, whole or not at all.
+    """Write each diagram as an SVG file, atomically.
 
     Args:
         drawings: The diagrams.
-        folder: Where they go; it is made if need be.
+        folder: The folder of the files, which is created if it does not exist.
 
     Returns:
         The files.
@@ -92,7 +92,7 @@ def write_diagrams(drawings: Sequence[Drawing], folder: Path) -> tuple[Path, ...
 
 
 def file_stem(drawing: Drawing) -> str:
-    """The name of a diagram's file without its ending."""
+    """Name of a diagram's file without its suffix."""
     return _NOT_IN_NAMES.sub("_", drawing.name)
 
 

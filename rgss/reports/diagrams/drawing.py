@@ -1,4 +1,4 @@
-"""A finished diagram, and the drawing of one that is a graph."""
+"""Finished diagram, and the drawing of a graph."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ _NARROW = 110.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drawing:
-    """A diagram that is drawn.
+    """Finished diagram.
 
     Attributes:
         name: Its name in file names and anchors, such as ``states-task``.
-        title: What it is called.
-        description: What it shows, in a sentence or two.
-        text_alternative: What it shows part by part, for those who do not see it; may be empty.
+        title: Its title.
+        description: Its content, in a sentence or two.
+        text_alternative: Its content part by part, for those who do not see it; may be empty.
         heading: The header of its frame.
         inner: Width and height of what is within the frame, in pixels.
         canvas: What is within the frame, drawn from the frame's origin on.
@@ -70,7 +70,7 @@ class Drawing:
         """The diagram as SVG; the same diagram gives the same text.
 
         Args:
-            with_style: Whether the style is in it, as a file needs it. A page has it once for all.
+            with_style: True to include the style sheet, as a file needs it; a page has it once.
         """
         return self.canvas.document(
             name=self.name,
@@ -85,15 +85,15 @@ class Drawing:
 def draw_graph(
     graph: Graph, *, heading: Heading, name: str, title: str, description: str, text_alternative: str = ""
 ) -> Drawing:
-    """Place and draw a diagram of nodes and edges.
+    """Lay out and draw a diagram of nodes and edges.
 
     Args:
         graph: The diagram.
         heading: The header of its frame.
         name: Its name in file names and anchors.
-        title: What it is called.
-        description: What it shows.
-        text_alternative: What it shows part by part.
+        title: Its title.
+        description: Its content, in a sentence or two.
+        text_alternative: Its content part by part.
 
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
@@ -223,7 +223,7 @@ def _draw_label(canvas: Canvas, edge: Edge, centre: Point | None) -> None:
 
 
 def _extent(placed: Layout, graph: Graph) -> tuple[float, float]:
-    """The size of the diagram; labels and heads of arrows may reach beyond what was laid out."""
+    """The size of the diagram; labels and arrow heads may extend beyond the layout."""
     width, height = placed.width, placed.height
     for edge, centre in zip(graph.edges, placed.labels, strict=True):
         if centre is not None:

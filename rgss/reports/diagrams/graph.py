@@ -1,4 +1,4 @@
-"""Diagrams as nodes and edges, before they have a place."""
+"""Diagrams as graphs of nodes and edges, before layout."""
 
 from __future__ import annotations
 
@@ -59,11 +59,11 @@ class Node:
         id: Its id within the diagram.
         shape: Its outline.
         name: Its name; may be empty.
-        stereotype: What it is, shown in guillemets above the name; may be empty.
+        stereotype: Its stereotype, shown in guillemets above the name; may be empty.
         texts: Further texts below the name, each broken into lines where it needs them.
-        tint: The sort that colours it besides its stereotype: ``need``, ``requirement``,
+        tint: The kind of element that determines its colour: ``need``, ``requirement``,
             ``behaviour``, ``measure``, ``fail`` or empty.
-        cluster: Id of the cluster that it stands in; empty for none.
+        cluster: Id of its cluster; empty for none.
         compartments: Compartments behind the texts.
         ports: Squares at its borders.
         rank: ``min`` or ``max`` for a node at the beginning or the end of the diagram; else empty.
@@ -83,17 +83,17 @@ class Node:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Edge:
-    """A line from node to node.
+    """Edge from node to node.
 
     Attributes:
-        source: Id of the node where it begins.
-        target: Id of the node where it ends.
-        head: What is at its end: ``open``, ``filled``, ``triangle``, ``diamond``, ``crosshair`` or
+        source: Id of its first node.
+        target: Id of its last node.
+        head: The shape at its end: ``open``, ``filled``, ``triangle``, ``diamond``, ``crosshair`` or
             nothing.
-        dashed: Whether it is dashed.
-        labels: What stands beside it, one line each.
-        backwards: The target is laid out before the source, as what it rests on.
-        straight: It is to be as short and straight as can be, where others have to bend.
+        dashed: True if it is dashed.
+        labels: The lines of text beside it.
+        backwards: True if the target is laid out before the source, as a dependency.
+        straight: True if it is to be as short and straight as possible, where others bend.
         source_port: Id of the port of its source where it begins; empty for anywhere.
         target_port: Id of the port of its target where it ends.
         flows: A filled triangle at its middle shows that something flows along it.
@@ -113,11 +113,11 @@ class Edge:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cluster:
-    """A frame round nodes.
+    """Frame around nodes.
 
     Attributes:
         id: Its id within the diagram.
-        title: What it says.
+        title: Its text.
     """
 
     id: str

@@ -1,6 +1,6 @@
-"""Places of the labels of edges, where no line crosses them and no other text is.
+"""Placement of edge labels without crossing lines or overlapping texts.
 
-Graphviz keeps room for each label beside its edge, but other edges may pass through it. Such a
+Graphviz reserves room for each label beside its edge, but other edges may pass through it. Such a
 label moves along its edge to the nearest free place.
 """
 
@@ -15,10 +15,10 @@ from rgss.reports.diagrams.canvas import Point
 Segment = tuple[Point, Point]
 
 _STEPS = 16
-"""Straight pieces of a Bézier curve."""
+"""Number of straight segments that approximate a Bézier curve."""
 _CLEARANCE = 2.0
 _PLACES = 24
-"""Places along an edge that are tried."""
+"""Number of positions along an edge that are tried."""
 _DISTANCES = (4.0, 10.0, 18.0, 30.0, 50.0, 80.0)
 """Distances of a label from its edge that are tried, in pixels."""
 NEAR, FAR, FARTHEST = 30.0, 50.0, 80.0
@@ -27,7 +27,7 @@ NEAR, FAR, FARTHEST = 30.0, 50.0, 80.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Box:
-    """An upright rectangle in pixels."""
+    """Axis-aligned rectangle in pixels."""
 
     left: float
     top: float
@@ -41,12 +41,12 @@ class Box:
         return cls(left=x - width / 2, top=y - height / 2, right=x + width / 2, bottom=y + height / 2)
 
     def overlaps(self, other: Box) -> bool:
-        """Whether the two share an area."""
+        """True if the two share an area."""
         across = min(self.right, other.right) > max(self.left, other.left)
         return across and min(self.bottom, other.bottom) > max(self.top, other.top)
 
     def is_crossed_by(self, segment: Segment) -> bool:
-        """Whether a part of a segment is within the rectangle."""
+        """True if a part of a segment is within the rectangle."""
         (x, y), (u, v) = segment
         if max(x, u) <= self.left or min(x, u) >= self.right or max(y, v) <= self.top or min(y, v) >= self.bottom:
             return False
@@ -60,7 +60,7 @@ class Box:
 
 
 def flattened(curve: Sequence[Point]) -> list[Point]:
-    """Points on Bézier curves, close enough to be joined by straight lines."""
+    """Polyline that approximates Bézier curves."""
     points = [curve[0]]
     for index in range(0, len(curve) - 1, 3):
         start, first, second, end = curve[index : index + 4]
@@ -86,18 +86,18 @@ def place_labels(
     *,
     farthest: float,
 ) -> tuple[tuple[Point | None, ...], bool]:
-    """Move each label that something crosses to a free place beside its edge.
+    """Move each crossed or overlapped label to a free place beside its edge.
 
     Args:
         curves: The points of each edge.
         wanted: The centre of each edge's label; None without one.
         sizes: Width and height of each label.
         nodes: The rectangles of the nodes.
-        lines: Other straight lines that no label may cross, as frames have them.
+        lines: Other straight lines that no label may cross, such as those of frames.
         farthest: Largest distance of a label from its edge, in pixels.
 
     Returns:
-        The centres, and whether every label is free. One without a free place keeps its centre.
+        The centres, and True if every label is free. A label without a free place keeps its centre.
     """
     ways = [flattened(curve) for curve in curves]
     strokes = [segment for way in ways for segment in pairwise(way)] + list(lines)

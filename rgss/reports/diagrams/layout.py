@@ -1,8 +1,8 @@
-"""Places for the nodes and edges of a diagram, by Graphviz.
+"""Layout of the nodes and edges of a diagram, by Graphviz.
 
-Graphviz gets sizes and links, and never a text: what it computes depends on no font, and nothing
-in a requirement can reach it. The same diagram gets the same places on every machine with the
-same release of Graphviz, which the package pygraphviz carries.
+Graphviz gets sizes and links, and never a text: the layout does not depend on fonts, and no text of
+a requirement reaches Graphviz. The same diagram has the same layout on every machine with the
+same release of Graphviz, which the package pygraphviz contains.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Layout:
         nodes: The centre of each node, by its id.
         curves: For each edge, the points of its Bézier curves from source to target.
         labels: For each edge, the centre of its labels; None without one.
-        frames: Where each cluster is, by its id.
+        frames: Position and size of each cluster, by its id.
         lanes: Where each lane is, by its id.
         titles: The middle of each cluster's title, by its id.
     """
@@ -55,7 +55,7 @@ class Layout:
 
 
 def require_graphviz() -> None:
-    """Make sure that diagrams can be laid out.
+    """Check that Graphviz is available.
 
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
@@ -69,7 +69,7 @@ def require_graphviz() -> None:
 
 
 def layout(graph: Graph, sizes: Mapping[str, Size], *, spacing: float = 1.0, orthogonal: bool = False) -> Layout:
-    """Place a diagram.
+    """Lay out a diagram.
 
     Args:
         graph: The diagram.
@@ -104,7 +104,7 @@ def layout(graph: Graph, sizes: Mapping[str, Size], *, spacing: float = 1.0, ort
             continue
         drawn.add_node(
             names[node.id],
-            # What has a text above or below it is not a circle any more.
+            # With a text above or below it, a circle needs a rectangular node.
             shape="box" if node.name and node.shape in _ROUND else _SHAPES.get(node.shape, "box"),
             width=f"{width / _POINTS_PER_INCH:.4f}",
             height=f"{height / _POINTS_PER_INCH:.4f}",
@@ -153,7 +153,7 @@ def _add_edge(drawn: Any, names: Mapping[str, str], graph: Graph, index: int, *,
 
 
 def _blank(width: float, height: float) -> str:
-    """A label that holds room for a text, and no text."""
+    """Empty label that reserves the room of a text."""
     cell = f'<TD FIXEDSIZE="TRUE" WIDTH="{width:.0f}" HEIGHT="{height:.0f}"></TD>'
     return f'<<TABLE BORDER="0" CELLBORDER="0" CELLPADDING="0" CELLSPACING="0"><TR>{cell}</TR></TABLE>>'
 

@@ -17,12 +17,12 @@ _DOT, _BAR = 16.0, (70.0, 6.0)
 _AWAY = 3.0
 _FIGURE = (26.0, 44.0)
 _SMALL_SHAPES = frozenset({Shape.INITIAL, Shape.FINAL, Shape.BAR})
-"""The shapes that have no room for a text."""
+"""Shapes without room for a text."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Content:
-    """The lines of a node, and the size that they need.
+    """Lines of a node, with the size that they need.
 
     Attributes:
         stereotype: Lines of the stereotype.
@@ -31,7 +31,7 @@ class Content:
         titles: The title of each of these; empty for none.
         width: Width of the node, in pixels.
         height: Height of the node, in pixels.
-        beside: Lines that stand beside the node, for they have no room in it.
+        beside: Lines beside the node, which has no room for them.
         rightwards: Edges come from the left and leave to the right; otherwise from above and downwards.
         stub: Distance of the symbol of a small shape from the border where edges arrive and leave.
     """
@@ -48,7 +48,7 @@ class Content:
 
 
 def content_of(node: Node, line_width: float, *, rightwards: bool = False) -> Content:
-    """Break the texts of a node into lines, and measure it.
+    """Wrap the texts of a node, and measure it.
 
     Args:
         node: The node.

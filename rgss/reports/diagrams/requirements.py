@@ -1,4 +1,4 @@
-"""Requirement diagrams: one for each group of system requirements, with what they rest on and what decides."""
+"""Requirement diagrams: one for each group of system requirements, with their sources and deciding measures."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rgss.reports.diagrams.graph import Edge, Graph, Node, Shape
 from rgss.requirements import Requirement, RequirementSet, StakeholderNeed
 
 MOST_IN_GROUP = 40
-"""A group with more requirements is not drawn."""
+"""Most requirements of a group that is drawn."""
 
 _WIDTH = 300.0
 _RELATIONS = {
@@ -25,8 +25,8 @@ def requirement_diagrams(requirements: RequirementSet) -> tuple[Drawing, ...]:
     """Draw each group of system requirements that is not too large.
 
     Needs and requirements are boxes with their sentences; «deriveReqt», «trace» and «verify» are
-    arrows, and containment has a crosshair at the one that contains; what satisfies or refines a
-    requirement stands in its box.
+    arrows, and containment has a crosshair at the containing element; elements that satisfy or refine
+    a requirement are listed in its box.
 
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
@@ -107,7 +107,7 @@ def _texts(element: StakeholderNeed | Requirement, refining: Sequence[str]) -> t
 
 
 def _neighbour(requirements: RequirementSet, name: str, refining: Sequence[str]) -> Node:
-    """A need, or a requirement of another group, whose allocation stands in its own diagram."""
+    """A need, or a requirement of another group, whose allocation is shown in its own diagram."""
     element = requirements.element(name)
     if isinstance(element, StakeholderNeed):
         texts = _texts(element, refining)

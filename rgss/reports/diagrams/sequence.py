@@ -24,7 +24,7 @@ _BOUND = 150.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Row:
-    """A message with its place: the lines above its arrow, their middle, and the height of the arrow."""
+    """Message with its position: the lines above its arrow, their centre, and the height of the arrow."""
 
     message: Message
     lines: tuple[str, ...]
@@ -34,7 +34,7 @@ class _Row:
 
 
 def sequence_diagram(behaviour: Behaviour, names: Mapping[str, str], bounds: Mapping[str, str]) -> Drawing | None:
-    """Draw who asks whom for what, from top to bottom; None while the interaction is open.
+    """Sequence diagram of an interaction, from top to bottom; None while it is open.
 
     Args:
         behaviour: The sequence.
@@ -146,7 +146,7 @@ def _bound_texts(interaction: Interaction, bounds: Mapping[str, str]) -> list[tu
 def _draw_bounds(
     canvas: Canvas, interaction: Interaction, rows: list[_Row], bounds: Mapping[str, str], right: float
 ) -> float:
-    """Draw each bound in a column of its own, its text at the head, above every line; returns the new right edge."""
+    """Draw each bound in its own column, with its text at the top; returns the new right edge."""
     places = {row.message.id: row.y for row in rows}
     for timing, lines in zip(interaction.timings, _bound_texts(interaction, bounds), strict=True):
         x = right + 18

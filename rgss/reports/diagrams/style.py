@@ -1,4 +1,4 @@
-"""The look of diagrams: one style sheet, for the page and for every file."""
+"""Style sheet of diagrams, for pages and for files."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ FONT = 13.5
 SMALL = 12.0
 """Size of texts, labels and stereotypes, in pixels; diagrams are shown at full size, so it is legible there."""
 LINE = 1.3
-"""Distance of lines, in font sizes."""
+"""Line height, in font sizes."""
 
 STYLE = """\
 svg.rgss-diagram { --d-paper: #ffffff; --d-ink: #1b1f24; --d-soft: #57606a; --d-box: #f4f6f9; --d-need: #fdf3d8;

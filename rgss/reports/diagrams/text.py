@@ -1,15 +1,15 @@
-"""Text width and line breaks in a diagram, the same on every machine."""
+"""Text width and line breaks of diagrams, the same on every machine."""
 
 from __future__ import annotations
 
 import unicodedata
 
 _SLACK = 1.02
-"""The fonts that stand in for each other differ by this much."""
+"""Margin for the differences between substitute fonts."""
 _OTHER, _FULL_WIDTH, _NONE = 0.84, 1.0, 0.0
 
 # Advance widths of DejaVu Sans, which Verdana has too, in thousandths of the font size, from the
-# blank to the tilde. Of the usual fonts they are the widest, so a text fits in any of them.
+# blank to the tilde. They are the widest of the usual fonts, so that a text fits with any of them.
 _PLAIN = (
     318, 401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361, 318, 337,
     636, 636, 636, 636, 636, 636, 636, 636, 636, 636, 337, 337, 838, 838, 838, 531,
@@ -34,20 +34,20 @@ def text_width(text: str, size: float, *, bold: bool = False) -> float:
     Args:
         text: The line.
         size: The font size.
-        bold: Whether it is bold.
+        bold: True if it is bold.
     """
     widths = _BOLD if bold else _PLAIN
     return sum(_advance(character, widths) for character in text) * size * _SLACK
 
 
 def wrapped(text: str, width: float, size: float, *, bold: bool = False) -> tuple[str, ...]:
-    """Break a text into lines that fit; a word that is too long alone is broken where it must be.
+    """Wrap a text into lines that fit; a word that is longer than a line is broken.
 
     Args:
-        text: The text; any blanks and line breaks of it are one blank.
+        text: The text; any run of blanks and line breaks counts as one blank.
         width: The greatest width of a line, in the unit of the font size.
         size: The font size.
-        bold: Whether it is bold.
+        bold: True if it is bold.
     """
     lines: list[str] = []
     line = ""
@@ -64,7 +64,7 @@ def wrapped(text: str, width: float, size: float, *, bold: bool = False) -> tupl
 
 
 def shortened(text: str, width: float, size: float, *, bold: bool = False) -> str:
-    """A text on one line, cut with an ellipsis where it does not fit."""
+    """Text on one line, cut with an ellipsis if it does not fit."""
     line = " ".join(text.split())
     if text_width(line, size, bold=bold) <= width:
         return line
@@ -74,7 +74,7 @@ def shortened(text: str, width: float, size: float, *, bold: bool = False) -> st
 
 
 def _pieces(word: str, width: float, size: float, *, bold: bool) -> list[str]:
-    """A word in pieces that fit, broken after a hyphen, an underscore or a point if there is one."""
+    """Pieces of a word that fit, broken after a hyphen, an underscore or a point if there is one."""
     pieces = []
     while text_width(word, size, bold=bold) > width and len(word) > 1:
         end = 1

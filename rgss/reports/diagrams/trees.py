@@ -1,4 +1,4 @@
-"""Diagrams that are trees: the containment map, and block definition diagrams."""
+"""Tree diagrams: the containment map, and block definition diagrams."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from rgss.reports.diagrams.text import shortened, text_width
 from rgss.requirements import Block, BlockRelation, RequirementSet
 
 MOST_IN_MAP = 400
-"""A map with more requirements shows how many each group has, and not each of them."""
+"""Most requirements that a map shows one by one; a larger map shows the number in each group."""
 MOST_IN_TREE = 30
-"""A tree with more blocks is drawn in several diagrams."""
+"""Most blocks of one diagram; a larger tree is drawn in several."""
 
 _MARGIN = 14.0
 _INDENT, _ROW = 28.0, 28.0
@@ -36,7 +36,7 @@ class _Line:
 
 
 def containment_map(requirements: RequirementSet) -> Drawing:
-    """Tree of the requirements, each within what contains it: sets, kinds and groups, requirements."""
+    """Tree of the requirements by containment: sets, kinds and groups, requirements."""
     lines = list(_lines(requirements))
     canvas = Canvas(ORIGIN)
     # Where the line down from each depth begins.
@@ -73,9 +73,9 @@ def containment_map(requirements: RequirementSet) -> Drawing:
 
 
 def block_definition_diagrams(blocks: Sequence[Block]) -> tuple[Drawing, ...]:
-    """The structure: parts with a filled diamond at the whole, kinds with a triangle at what they are kinds of.
+    """Block definition diagrams: parts with a filled diamond at the whole, kinds with a triangle at the general block.
 
-    A large structure is drawn from the top down, and what a diagram has no room for in one of its own.
+    A large structure is drawn from the top down; subtrees without room are drawn in their own diagrams.
     """
     children: dict[str | None, list[Block]] = {}
     known = {block.id for block in blocks}
@@ -83,7 +83,7 @@ def block_definition_diagrams(blocks: Sequence[Block]) -> tuple[Drawing, ...]:
         children.setdefault(block.parent if block.parent in known else None, []).append(block)
     drawings = []
     queue = list(children.get(None, ()))
-    for root in queue:  # it grows while it is walked
+    for root in queue:  # The list grows during the iteration.
         shown = _shown_below(root, children)
         drawings.append(_tree(root, children, shown))
         queue.extend(
@@ -122,7 +122,7 @@ def _lines(requirements: RequirementSet) -> Iterator[_Line]:
 
 
 def _shown_below(root: Block, children: Mapping[str | None, list[Block]]) -> frozenset[str]:
-    """The blocks whose children a diagram has room for: whole levels, from the top."""
+    """Blocks whose children fit the diagram: complete levels, from the top."""
     opened: set[str] = set()
     level, count = [root], 1
     while level:
@@ -179,7 +179,7 @@ def _tree(root: Block, children: Mapping[str | None, list[Block]], opened: froze
     return Drawing(
         name=f"blocks-{root.id}",
         title=f"Block definition diagram: {root.name}",
-        description=f"{root.text} {len(order)} blocks; a diamond stands at the whole, a triangle at the general.",
+        description=f"{root.text} {len(order)} blocks; a diamond marks the whole, a triangle the general block.",
         text_alternative=" ".join(parts),
         heading=Heading(kind="bdd", element="Block", subject=root.name),
         inner=(right + _MARGIN, last + _MARGIN),
@@ -218,7 +218,7 @@ def _middles(
     children: Mapping[str | None, list[Block]],
     opened: frozenset[str],
 ) -> dict[str, float]:
-    """The middle of each block: a whole beside its first and last part, and the room of both below each other."""
+    """Vertical position of each block: a whole midway between its first and last part; siblings do not overlap."""
     rooms: dict[str, float] = {}
     for _, block in reversed(order):
         below = children[block.id] if block.id in opened else []

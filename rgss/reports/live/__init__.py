@@ -1,4 +1,4 @@
-"""Report of a running sweep: what it shows, as a JSON document, and the page that shows it."""
+"""Report of a running sweep: its JSON document, and the page that shows it."""
 
 from typing import TYPE_CHECKING
 

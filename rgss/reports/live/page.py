@@ -1,4 +1,4 @@
-"""Page of a study whose sweep runs."""
+"""HTML page of a study whose sweep is running."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from rgss.reports.page import render_page, template_text
 
 
 def live_page_to_html(study: str) -> str:
-    """A page that polls its own server for the state of a study, and shows it.
+    """HTML page that polls its server for the state of a study, and shows it.
 
     Args:
         study: The study's id.

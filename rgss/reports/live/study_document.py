@@ -1,4 +1,4 @@
-"""State of a study while its sweep runs, as a JSON document: progress, decision so far, verdicts, failures."""
+"""JSON document of a study while its sweep runs: progress, decision so far, verdicts, failures."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from rgss.reports.decision import cautions, certificate_sentence, headline, reas
 from rgss.studies import Project
 
 MOST_VARIANTS = 400
-"""Variants that the page lists; of more it counts them."""
+"""Most variants that the page lists; of more, it shows counts."""
 
 MOST_FAILURES = 200
-"""Failed trials that the page lists; of more it counts the kinds."""
+"""Most failed trials that the page lists; of more, it shows counts of the kinds."""
 
 
 def live_study_document(
@@ -30,12 +30,12 @@ def live_study_document(
     screened: ScreeningResult | None = None,
     replayable: bool = False,
 ) -> dict[str, Any]:
-    """What the evidence shows so far.
+    """State of the study by the evidence so far.
 
     Args:
         project: The project with its study.
         measured: Every variant with its verdicts.
-        made: The decision among the variants whose trials are all there; None if there is none.
+        made: The decision among the variants with all their trials; None if there is none.
         problem: Why there is no decision; empty if there is one.
         screened: The outcome of screening; None without.
         replayable: Whether the server replays trials.

@@ -35,7 +35,7 @@ _SIGNS = {
 
 
 def report_to_json(report: RegressionReport) -> dict[str, Any]:
-    """The report as plain data; quantities in the unit that stands beside them."""
+    """The report as plain data; quantities are in the unit beside them."""
     return {
         "study": report.study,
         "baseline": report.baseline,
@@ -85,7 +85,7 @@ def report_to_junit(report: RegressionReport) -> bytes:
         (
             "rgss.regress",
             f"{one.trouble.value}: {one.text}",
-            _element_of_trouble(one.trouble),
+            _element_of_error(one.trouble),
             one.trouble.value,
             one.text,
         )
@@ -120,7 +120,7 @@ def report_to_junit(report: RegressionReport) -> bytes:
 
 
 def report_to_markdown(report: RegressionReport) -> str:
-    """The report as Markdown; what comes from files shows as text, whatever it is."""
+    """The report as Markdown; content of files is escaped."""
     lines = [f"### Regression guard: {report.verdict}", "", _text(f"{report.study} against {report.baseline}"), ""]
     if report.failing:
         lines += [f"- ❌ **{one.trouble.value}**: {_text(one.text)}" for one in report.failing]
@@ -182,7 +182,7 @@ def _element_of(outcome: Outcome, *, unexplained: bool) -> str:
     return "skipped" if outcome is Outcome.INCONCLUSIVE else "system-out"
 
 
-def _element_of_trouble(trouble: FailureCause) -> str:
+def _element_of_error(trouble: FailureCause) -> str:
     return "error" if trouble is FailureCause.NOT_RUN else "failure"
 
 
@@ -200,7 +200,7 @@ def _row(one: Comparison) -> str:
 
 
 def _text(text: str) -> str:
-    """Text that Markdown shows as it is: marks are escaped, HTML is written out, lines are joined."""
+    """Text escaped for Markdown: marks and HTML are escaped, lines are joined."""
     plain = " ".join("".join(sign if sign.isprintable() else " " for sign in visible(text)).split())
     escaped = _MARKDOWN.sub(r"\\\1", plain)
     return escaped.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

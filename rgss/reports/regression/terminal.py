@@ -19,11 +19,11 @@ from rgss.reports.regression.words import (
 
 
 def report_lines(report: RegressionReport, *, everything: bool = False) -> Iterator[str]:
-    """The lines; characters that would steer a terminal are replaced.
+    """Lines of the report, without terminal control characters.
 
     Args:
         report: The report.
-        everything: Also a line for each metric that is the same, and the power of those that have enough.
+        everything: True to show metrics that are the same, and the power of those that have enough.
     """
     yield _safe(f"{report.study} against {report.baseline}: {report.verdict}")
     for failing in report.failing:

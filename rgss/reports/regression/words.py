@@ -1,4 +1,4 @@
-"""Texts of a guard's findings, the same in every form of its report."""
+"""Texts of a guard's findings, shared by all renderers."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from rgss.regression import (
 )
 
 ORDER = (Outcome.WORSE, Outcome.MISSING, Outcome.MOVED, Outcome.INCONCLUSIVE, Outcome.BETTER, Outcome.SAME)
-"""The outcomes, what matters most first."""
+"""The outcomes, the most important first."""
 
 _MOST_PHASES = 8
 
 _MOST_INPUTS = 12
-"""Changes of one kind that are listed in full; the JSON report has all of them."""
+"""Most changes of one kind that are listed; the JSON report has all of them."""
 
 
 def title_of(comparison: Comparison) -> str:
@@ -33,14 +33,14 @@ def title_of(comparison: Comparison) -> str:
 
 
 def quantity(value: float | None, unit: str) -> str:
-    """A number with its unit; a dash for what is not known."""
+    """Number with its unit; a dash for an unknown one."""
     if value is None:
         return "–"
     return f"{value:.4g}" if unit == "1" else f"{value:.4g} {unit}"
 
 
 def detail_of(comparison: Comparison) -> str:
-    """The numbers behind an outcome, in one line."""
+    """Figures behind an outcome, in one line."""
     guard = comparison.guard
     if comparison.outcome is Outcome.MISSING:
         return f"{_trials(comparison.lost)} had a value in the baseline, and none has one now"
@@ -70,7 +70,7 @@ def detail_of(comparison: Comparison) -> str:
 
 
 def behaviour_of(report: RegressionReport) -> str:
-    """The comparison bit by bit, in one line."""
+    """Result of the bit-for-bit comparison, in one line."""
     behaviour = report.behaviour
     if behaviour.changed and behaviour.machine:
         return (
@@ -88,7 +88,7 @@ def behaviour_of(report: RegressionReport) -> str:
 
 
 def reasons_of(report: RegressionReport) -> Iterator[str]:
-    """Changes that need a stated reason, one line each; metrics that moved have lines of their own."""
+    """Changes that need a stated reason, one line each; changed metrics have their own lines."""
     if report.behaviour.is_changed:
         yield behaviour_of(report)
     yield from (str(one) for one in report.inputs if one.kind is InputKind.ENGINE)
@@ -108,7 +108,7 @@ def inputs_of(report: RegressionReport) -> Iterator[str]:
 
 
 def remedy_of(report: RegressionReport) -> str:
-    """Instruction on how to state the reason of a change; empty if nothing needs one."""
+    """Instruction to state the reason of a change; empty if none is needed."""
     if report.accepted:
         return f"changed behaviour is accepted in this run: {report.accepted}"
     if report.verdict != "changed":
@@ -124,7 +124,7 @@ def power_lines(report: RegressionReport, *, everything: bool) -> Iterator[str]:
 
     Args:
         report: The report.
-        everything: Also those that reach the target.
+        everything: True to show those that reach the target too.
     """
     least: dict[tuple[str, str, bool], tuple[Comparison, Power]] = {}
     for one in report.comparisons:
@@ -161,7 +161,7 @@ def counts_of(report: RegressionReport) -> str:
 
 
 def listed(report: RegressionReport) -> Iterator[Comparison]:
-    """The comparisons, what matters most first."""
+    """The comparisons, the most important first."""
     for outcome in ORDER:
         yield from report.of(outcome)
 

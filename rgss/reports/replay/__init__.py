@@ -1,4 +1,4 @@
-"""Replay of a trial in three dimensions: a glTF file, and a page that plays it without a network."""
+"""3D replay of a trial: a glTF file, and a self-contained page that plays it."""
 
 from typing import TYPE_CHECKING
 

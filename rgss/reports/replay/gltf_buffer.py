@@ -12,10 +12,10 @@ _KINDS = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 
 
 class GltfBuffer:
-    """The buffer of a file: numbers are added to it, and an accessor for them to the file."""
+    """Buffer of a file; added numbers get an accessor in the file."""
 
     def __init__(self, document: Any) -> None:
-        """Start empty.
+        """Create an empty buffer.
 
         Args:
             document: The file, a `pygltflib.GLTF2`.
@@ -25,15 +25,15 @@ class GltfBuffer:
 
     @property
     def content(self) -> bytes:
-        """What was added so far."""
+        """The bytes added so far."""
         return bytes(self._blob)
 
     def add_floats(self, values: NDArray[np.float64], *, is_vertex: bool = False) -> int:
-        """Add numbers with their least and greatest values, which glTF demands of times and positions.
+        """Add numbers with their least and greatest values, which glTF requires for times and positions.
 
         Args:
             values: The numbers, shape (n, components) or (n,).
-            is_vertex: Whether they belong to vertices.
+            is_vertex: True if they belong to vertices.
 
         Returns:
             The accessor's index.

@@ -1,4 +1,4 @@
-"""Replay of a trial as a binary glTF 2.0 file (GLB) with one animation, which any viewer of the format plays."""
+"""Replay of a trial as a binary glTF 2.0 file (GLB) with one animation."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ _LINES, _LINE_STRIP = 1, 3
 def replay_to_glb(scene: ReplayScene, *, title: str) -> bytes:
     """A replay as a GLB file.
 
-    Every node is a child of one that turns the world, whose z is up, into that of glTF, whose y is up. The extras of
+    Every node is a child of one that rotates the world frame (z up) into that of glTF (y up). The extras of
     a node have its `kind`: body, link, object, perceived, path or graph; those of a line have its `phase`. Times are
     those of the trial.
 
     Args:
-        scene: What is seen.
+        scene: The scene of the replay.
         title: Title of the file.
     """
     import pygltflib
@@ -161,5 +161,5 @@ class _Writer:
 
 
 def _linear(value: float) -> float:
-    """Linear value of one of sRGB (IEC 61966-2-1), in which glTF has its colours."""
+    """Linear value of an sRGB value (IEC 61966-2-1); colours of glTF are linear."""
     return value / 12.92 if value <= 0.04045 else float(((value + 0.055) / 1.055) ** 2.4)

@@ -24,7 +24,7 @@ def packed_replay(
     Args:
         record: The trial.
         trace: Its course.
-        scene: What is seen of it.
+        scene: The scene of its replay.
         joints: The joints of the arm.
     """
     title = f"Variant {record.variant}, seed {record.seed}"

@@ -21,7 +21,7 @@ MOST_TRIALS = 2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PackedReplay:
-    """A replay as a page carries it: texts in base64, each compressed by gzip.
+    """Replay as embedded in a page: texts in base64, each compressed by gzip.
 
     Attributes:
         title: Title of the trial.
@@ -56,7 +56,7 @@ def replay_to_html(replays: Sequence[PackedReplay]) -> str:
 
 
 def as_context(replay: PackedReplay) -> dict[str, Any]:
-    """What the template of a replay shows."""
+    """Variables of the template of a replay."""
     return {"title": replay.title, "model": replay.model, "timeline": replay.timeline}
 
 

@@ -16,18 +16,18 @@ from rgss.scenes import Joint, JointKind
 from rgss.trials.replay import ReplayScene
 
 _DIGITS = 5
-"""Significant digits of what is plotted."""
+"""Significant digits of plotted values."""
 
 
 def timeline_of(
     record: TrialRecord, trace: TrialTrace, scene: ReplayScene, *, joints: Sequence[Joint], title: str
 ) -> dict[str, Any]:
-    """What a replay's page shows beside the scene, as plain data for JSON; unknown values are None.
+    """Timeline that a replay's page shows beside the scene, as plain data for JSON; unknown values are None.
 
     Args:
         record: The trial.
-        trace: Its course, from which the plots are taken: greatest forces and least margins from sample to sample.
-        scene: What is seen of it.
+        trace: Its course, the source of the plots: greatest forces and least margins between samples.
+        scene: The scene of its replay.
         joints: The joints of the arm.
         title: Title of the trial.
     """
@@ -74,7 +74,7 @@ def _phases(record: TrialRecord, trace: TrialTrace) -> list[dict[str, Any]]:
 
 
 def _plots(trace: TrialTrace, scene: ReplayScene, joints: Sequence[Joint]) -> list[dict[str, Any]]:
-    # The first trace sample of each interval of the replay; of forces and margins the worst of an interval counts.
+    # The first trace sample of each interval of the replay, but the worst force and margin of the interval.
     starts = np.unique(np.clip(np.searchsorted(trace.time_s, scene.time_s - 1e-9), 0, len(trace.time_s) - 1))
     if len(starts) != len(scene.time_s):
         raise AssertionError("checked before: a replay is sampled no more often than its trace")
@@ -104,7 +104,7 @@ def _plots(trace: TrialTrace, scene: ReplayScene, joints: Sequence[Joint]) -> li
 
 
 def _joint(trace: TrialTrace, place: int, joint: Joint) -> NDArray[np.float64]:
-    """Positions of a joint: degrees, or millimetres of one that slides."""
+    """Positions of a joint: degrees, or millimetres of a prismatic one."""
     factor = 1e3 if joint.kind is JointKind.PRISMATIC else math.degrees(1.0)
     positions: NDArray[np.float64] = factor * trace.joint_positions_rad[:, place]
     return positions

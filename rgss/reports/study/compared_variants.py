@@ -16,7 +16,7 @@ def comparison_rows(document: Mapping[str, Any]) -> list[dict[str, Any]]:
     """The chosen variant beside the runner-up, a row for each parameter that varies and each weighted measure.
 
     Args:
-        document: What the report shows.
+        document: The report's document.
     """
     decision, variants = document["decision"], document["variants"]
     shown = [variants["id"].index(one) for one in (decision["chosen"], decision["runner_up"]) if one is not None]
@@ -59,7 +59,7 @@ def compared_trials(document: Mapping[str, Any]) -> list[dict[str, Any]]:
     """The trials of the chosen variant and of the runner-up, each with the command that runs it again.
 
     Args:
-        document: What the report shows.
+        document: The report's document.
     """
     decision, variants, trials = document["decision"], document["variants"], document["trials"]
     shown = [variants["id"].index(one) for one in (decision["chosen"], decision["runner_up"]) if one is not None]

@@ -23,7 +23,7 @@ from rgss.reports.study.variants import (
 from rgss.studies import DEFAULT_STUDY, Project
 
 SCHEMA = 1
-"""Rises when a key goes or changes its meaning; new keys do not count."""
+"""Version of the schema; it rises when a key is removed or changes its meaning, not for new keys."""
 
 
 def report_document(
@@ -34,18 +34,18 @@ def report_document(
     *,
     planners: Plain | None = None,
 ) -> Plain:
-    """Gather what a report shows; nothing is simulated.
+    """Gather the content of a report; nothing is simulated.
 
     Args:
         project: The project with its study.
         measured: Every variant with its estimates and verdicts, by ascending id.
         made: The decision of the study, with its robustness.
         store: The evidence.
-        planners: The planners compared on the same moves, as `planner_comparison` gives them; None if they are not.
+        planners: The planners compared on the same moves, from `planner_comparison`; None without a comparison.
 
     Returns:
         A document of dictionaries, lists, texts and finite numbers. Columns have an entry for each
-        variant in the order of ``variants.id``, or are one value that all variants share.
+        variant in the order of ``variants.id``, or are a single value if all entries are equal.
 
     Raises:
         EvidenceError: The store is damaged, or an input file cannot be read.

@@ -1,4 +1,4 @@
-"""Effects of the design's factors on the measures, as a report shows them."""
+"""Effects of the design's factors on the measures, in the document of the report."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def factor_columns(measured: Sequence[VariantMeasures], effects: StudyEffects) -
 
     Args:
         measured: Every variant.
-        effects: Names the factors.
+        effects: The effects, which name the factors.
     """
     return [
         {
@@ -34,7 +34,7 @@ def effect_columns(effects: StudyEffects) -> list[Plain]:
     """The main effects of all factors on each measure, and the shares of interactions.
 
     Args:
-        effects: As the trade-off computes them.
+        effects: The effects from the trade-off.
     """
     return [_effects(one) for one in effects.measures]
 

@@ -1,4 +1,4 @@
-"""First screen of a report: what is chosen, how it stands against its limits, what is open, what would change it."""
+"""First screen of a report: the choice against its limits, open verdicts, what would change the choice."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rgss.reports.study.column_entries import entry_at
 from rgss.trace.views import value_in_words
 
 MOST_BULLETS = 6
-"""So many requirements have a chart; the verdicts below have all."""
+"""Most requirements with a chart; the verdicts below have all."""
 
 _OPEN = ("inconclusive", "stale", "not_run")
 _WORDS = {"<=": "at most", "<": "below", ">=": "at least", ">": "above", "==": "exactly"}
@@ -24,10 +24,10 @@ _LEAST_WEIGHT = 5e-4
 
 
 def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
-    """What the first screen shows; None where nothing is chosen.
+    """Content of the first screen; None if nothing is chosen.
 
     Args:
-        document: What the report shows, as `rgss.reports.study.document.report_document` gives it.
+        document: The report's document, from `rgss.reports.study.document.report_document`.
     """
     decision = document["decision"]
     chosen = decision["chosen"]
@@ -39,7 +39,7 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
     missed = [one for one in requirements if entry_at(one["verdict"], place) == "not_met"]
     units = {measure["id"]: measure for measure in document["measures"]}
     weights = {measure: one["weight"] or 0.0 for measure, one in units.items()}
-    # What is missed or open comes first, then what the trade-off weighs most.
+    # Missed and open requirements come first, then those with the greatest weights.
     ranked = sorted(
         requirements,
         key=lambda one: (one not in missed, one not in open_, -weights.get(one["measure"], 0.0), one["id"]),
@@ -58,7 +58,7 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
 
 
 def _bullet(requirement: Mapping[str, Any], measures: Mapping[str, Any], place: int) -> Plain | None:
-    """A bullet chart: places in percent of its width, and the same in words."""
+    """Bullet chart: positions in percent of its width, and the same in words."""
     measure = measures.get(requirement["measure"])
     value = None if measure is None else entry_at(measure["value"], place)
     if measure is None or value is None:
@@ -108,7 +108,7 @@ def _changes(decision: Mapping[str, Any]) -> Iterator[str]:
     if nearest is not None:
         yield nearest
     elif decision["weight_ranges"]:
-        yield "no single weight: each may be anything, the others in proportion"
+        yield "no single weight: each can have any value, with the others in proportion"
 
 
 def _nearest_weight(ranges: Sequence[Mapping[str, Any]]) -> str | None:

@@ -14,15 +14,15 @@ _COLUMNS = ("value", "low", "high", "n")
 
 
 def parted(document: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """A document without the columns of the measures that nothing weighs or demands, and these columns.
+    """Split of a document: without the columns of measures that have no weight and no limit, and these columns.
 
-    A page with many variants stands sooner without them, and adds them when it does.
+    A page with many variants is shown sooner without them, and adds them afterwards.
 
     Args:
-        document: What the report shows.
+        document: The report's document.
 
     Returns:
-        The document, and the columns that were taken from it by the measure's id.
+        The document, and the removed columns by the measure's id.
     """
     wanted = {requirement["measure"] for requirement in document["requirements"]}
     measures, later = [], {}
@@ -36,11 +36,11 @@ def parted(document: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]
 
 
 def embedded_json(document: Any) -> str:
-    """A document as JSON that may stand in a script element, whatever texts it has.
+    """A document as JSON that is safe within a script element.
 
-    Nothing in it can end the element or a line: what is not ASCII and the signs ``<``, ``>`` and
-    ``&`` are written as escapes, which JSON reads back as they were. Invisible characters are shown by
-    their code points, since the page shows the texts to people.
+    Nothing in it can end the element or a line: non-ASCII characters and ``<``, ``>`` and ``&`` are
+    written as JSON escapes. Invisible characters are replaced by their code points, since the page
+    displays the texts.
 
     Args:
         document: Dictionaries, lists, texts, finite numbers.
@@ -50,7 +50,7 @@ def embedded_json(document: Any) -> str:
 
 
 def packed_json(text: str) -> str:
-    """A JSON text that is packed with gzip and written in base 64, the same bytes every time.
+    """A JSON text compressed with gzip and encoded in base64, reproducible byte for byte.
 
     Args:
         text: The text.
@@ -59,7 +59,7 @@ def packed_json(text: str) -> str:
 
 
 def data_address(kind: str, content: bytes) -> str:
-    """A file as an address that holds it; empty if the file is.
+    """Data URL of a file; empty if the file is empty.
 
     Args:
         kind: Its media type.

@@ -9,7 +9,7 @@ from rgss.evidence import PlanOutcome
 from rgss.sweep import ComparedPlanner
 from rgss.trace.views import value_in_words
 
-PLANNERS_NOTE = "checks within which half and 90 % of all searches are solved, – where fewer are."
+PLANNERS_NOTE = "checks within which half and 90 % of all searches are solved; – if fewer are solved."
 _DASH = "–"
 
 
@@ -43,7 +43,7 @@ def planner_data(one: ComparedPlanner, limits_s: Sequence[float]) -> dict[str, A
 def planner_comparison(
     compared: Sequence[ComparedPlanner], limits_s: Sequence[float], seeds: Sequence[int]
 ) -> dict[str, Any]:
-    """The comparison as a report has it: plain data, and the table.
+    """The comparison for a report: plain data, and the table.
 
     Args:
         compared: The planners.

@@ -15,7 +15,7 @@ from rgss.trials.code import versions
 from rgss.trials.pieces import TrialSpec, digests_of
 
 MOST_SEARCHES = 20_000
-"""With more searches than this, quantiles stand for each planner's distribution, whatever is brushed."""
+"""With more searches than this, each planner's distribution is given by quantiles, independent of the brush."""
 
 _QUANTILES = 1_001
 
@@ -23,15 +23,15 @@ _QUANTILES = 1_001
 def planning_columns(project: Project, measured: Sequence[VariantMeasures]) -> Plain:
     """Planning times by planner.
 
-    Variants that share a search differ in when it was stopped; it is taken as the one with the
-    longest limit saw it. A move that was not planned, because one before it failed, has no search.
+    Variants that share a search differ in their time limits; the search with the longest limit is taken.
+    A move that was not planned, because one before it failed, has no search.
 
     Args:
         project: The project with its study.
         measured: Every variant with its trials.
 
     Returns:
-        The planners, and a row for each search: planner, planning time (None where it found no
+        The planners, and a row for each search: planner, planning time (None if it found no
         path), the longest limit, and the group of variants that share it.
     """
     records = {

@@ -25,7 +25,7 @@ def provenance_of(
         project: The project with its study.
         measured: Every variant with its trials.
         store: The evidence.
-        evidence: Its name as people see it.
+        evidence: Its name in messages.
 
     Raises:
         EvidenceError: The store is damaged, or an input file cannot be read.
@@ -61,7 +61,7 @@ def provenance_of(
 
 
 def _control(project: Project) -> list[list[str]]:
-    """The control of the joints where it is simulated, and what it was calibrated on."""
+    """The control of the joints if it is simulated, and the source of its calibration."""
     if project.study.fidelity is not Fidelity.DYNAMIC:
         return []
     controller = project.study.motion.controller
@@ -91,7 +91,7 @@ def _assumptions(project: Project) -> Iterator[tuple[str, str, str]]:
     try:
         study = load_document(project.folder / project.study.label, StudyDocument, label=project.study.label).value
     except (DocumentError, OSError):
-        # The project was read from it, so that only a change since then can bring us here.
+        # The project was read from it, so that it must have changed since then.
         study = None
     for entry in () if study is None else study.assumptions:
         yield project.study.label, entry.about, entry.rationale

@@ -1,4 +1,4 @@
-"""The trials of a report: how each ended, and which are worth looking at."""
+"""Trials of a report: outcomes, and selection of the notable ones."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from rgss.reports.plain_numbers import Plain, condensed, plain_number, plain_num
 from rgss.trace.evidence import KEY_DIGITS
 
 MOST_TIMELINES = 1_000
-"""With more trials than this, only the notable ones have a time line."""
+"""With more trials than this, only the notable ones have a timeline."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NotableTrial:
-    """A trial that is worth looking at.
+    """Trial that is worth looking at.
 
     Attributes:
         key: Its key in the evidence.
-        record: What it left behind.
-        why: Why it is looked at, in a few words.
+        record: Its record.
+        why: The reason, in a few words.
     """
 
     key: str
@@ -34,8 +34,8 @@ def notable_trials(measured: Sequence[VariantMeasures], chosen: int | None) -> t
 
     The deciding trial is the first success of the chosen variant in the order of the seeds, or its
     first trial if none succeeded. A kind of failure is shown by its first trial, in the order of
-    variants and seeds, in which a state was completed, so that there is something to see; by its
-    first trial at all if there is none.
+    variants and seeds, in which a state was completed, so that it shows motion; otherwise by its first
+    trial.
 
     Args:
         measured: Every variant with its trials, by ascending id.
@@ -61,11 +61,11 @@ def notable_trials(measured: Sequence[VariantMeasures], chosen: int | None) -> t
 
 
 def trial_columns(measured: Sequence[VariantMeasures], notable: Sequence[NotableTrial]) -> Plain:
-    """Every trial with how it ended, and the time lines of as many as a page can hold.
+    """Every trial with its outcome, and the timelines of as many as fit a page.
 
     Args:
         measured: Every variant with its trials.
-        notable: The trials whose time line is always there.
+        notable: The trials that always have a timeline.
     """
     rows = [
         (place, key, record)

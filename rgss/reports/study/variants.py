@@ -1,4 +1,4 @@
-"""The variants of a report: their parameters, measures, verdicts and places, column by column."""
+"""Variants of a report: parameters, measures, verdicts and ranks, column by column."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ from rgss.tradeoff.robustness import Support
 def variant_columns(measured: Sequence[VariantMeasures], decision: Decision, found: Robustness) -> Plain:
     """Entries of all variants in a report, by ascending id.
 
-    A column is a list with an entry for each variant, or one value that all of them have.
+    A column is a list with an entry for each variant, or a single value if all are equal.
 
     Args:
         measured: Every variant with its estimates, by ascending id.
-        decision: What was decided.
-        found: How robust that is.
+        decision: The decision.
+        found: Its robustness.
     """
     ranks = {one.variant: place for place, one in enumerate(decision.ranking, start=1)}
     values = {one.variant: one.value for one in decision.infeasible}
@@ -51,12 +51,12 @@ def variant_columns(measured: Sequence[VariantMeasures], decision: Decision, fou
 
 
 def parameter_columns(project: Project, measured: Sequence[VariantMeasures], found: Robustness) -> list[Plain]:
-    """The design parameters, those first that a factor sets, with whether they vary.
+    """The design parameters, those of factors first, each marked if it varies.
 
     Args:
         project: The project.
         measured: Every variant.
-        found: Says which factor sets which parameters.
+        found: The robustness, which has the parameters of each factor.
     """
     setters = {name: factor.id for factor in found.effects.factors for name in factor.parameters}
     columns = []
@@ -83,7 +83,7 @@ def measure_columns(project: Project, measured: Sequence[VariantMeasures]) -> li
     A measure that follows from the design alone has no interval and no trials.
 
     Args:
-        project: The project, whose weights and definitions are given along.
+        project: The project with the weights and definitions.
         measured: Every variant with its estimates.
     """
     weights = project.study.trade_off.weighting.weights
@@ -91,12 +91,12 @@ def measure_columns(project: Project, measured: Sequence[VariantMeasures]) -> li
 
 
 def requirement_columns(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> list[Plain]:
-    """The requirements that a measure decides, with the verdict on each variant.
+    """The requirements with a criterion, with the verdict on each variant.
 
     Args:
         project: The project.
         measured: Every variant with its verdicts.
-        decision: Says how many better variants each requirement excludes.
+        decision: The decision, which has the number of better variants that each requirement excludes.
     """
     excluded = {one.requirement: one.excluded for one in decision.deciding_requirements}
     return [
@@ -107,11 +107,11 @@ def requirement_columns(project: Project, measured: Sequence[VariantMeasures], d
 
 
 def weight_columns(project: Project, found: Robustness) -> Plain:
-    """The weights, and what each variant is worth in each measure: all that a ranking needs.
+    """The weights, and the value of each variant in each measure: the inputs of a ranking.
 
     Args:
-        project: The project, whose value functions are shown.
-        found: Holds weights and worths.
+        project: The project with the value functions.
+        found: The robustness, which has weights and values.
     """
     anchors = {one.measure: one for one in project.study.values}
     return {

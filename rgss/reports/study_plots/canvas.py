@@ -16,7 +16,7 @@ from rgss.reports.study_plots.plotted import PlottedDesigns, Role
 
 INK, FAINT, GRID = "#21252b", "#6b727c", "#d5dae0"
 LIMIT = "#b02418"
-# Okabe and Ito's colours, which most people with a colour deficiency can tell apart; each role has a shape too.
+# Okabe and Ito's colours, which most people with a colour deficiency can distinguish; each role has a shape too.
 SERIES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#21252b", "#8c6d1f")
 MARKS: dict[Role, dict[str, Any]] = {
     Role.UNJUDGED: {"marker": "o", "s": 30, "facecolor": "#9db8cc", "edgecolor": INK, "linewidth": 0.6},
@@ -52,7 +52,7 @@ class StudyFigure(Figure):
         return self.alt_text or super().__repr__()
 
     def _repr_mimebundle_(self, **_kinds: Any) -> tuple[dict[str, str], dict[str, dict[str, str]]]:
-        """PNG with its alternative text, as Jupyter shows it."""
+        """PNG with its alternative text, for Jupyter."""
         picture = io.BytesIO()
         self.savefig(picture, format="png", metadata={"Software": None, "Description": self.alt_text})
         data = {"image/png": base64.b64encode(picture.getvalue()).decode("ascii"), "text/plain": repr(self)}
@@ -74,7 +74,7 @@ def new_figure(width_in: float, height_in: float, title: str) -> StudyFigure:
 
 
 def set_alt_text(figure: StudyFigure, *sentences: str) -> None:
-    """Describe a figure in sentences; empty ones are left out."""
+    """Set the alternative text of a figure from sentences; empty ones are omitted."""
     figure.alt_text = ". ".join(one.rstrip(".") for one in sentences if one) + "."
 
 
@@ -93,12 +93,12 @@ def dress(axes: Iterable[Axes], *, grid: str = "both") -> None:
 
 
 def role_handles(designs: PlottedDesigns, *, lines: bool = False, front: str = "") -> list[Line2D]:
-    """Entries of a legend for the roles that designs have, the chosen one first.
+    """Legend entries for the roles of designs, the chosen one first.
 
     Args:
         designs: The designs.
-        lines: Whether designs are drawn as lines.
-        front: Words for the nondominated ones, which say in which measures.
+        lines: True if designs are drawn as lines.
+        front: Label of the nondominated ones, with the measures.
     """
     handles = []
     for role in reversed(Role):
@@ -130,14 +130,14 @@ def role_handles(designs: PlottedDesigns, *, lines: bool = False, front: str = "
 def legend_below(
     figure: Figure, handles: Sequence[Any], designs: PlottedDesigns, *notes: str, columns: int = 4
 ) -> None:
-    """Put a legend outside of the axes, where it covers no data, beneath the study's name and what must be known.
+    """Put a legend outside of the axes, where it covers no data, with the study's name and notes.
 
     Args:
         figure: The figure.
         handles: Entries of the legend.
         designs: The designs that it shows.
-        notes: What a reader must know besides; empty ones are left out.
-        columns: Entries side by side.
+        notes: Further notes; empty ones are omitted.
+        columns: Number of entries side by side.
     """
     legend = figure.legend(
         handles=handles,

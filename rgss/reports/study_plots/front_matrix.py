@@ -1,4 +1,4 @@
-"""Matrix of scatter plots: the designs that no other dominates in some measures, for each pair of these."""
+"""Matrix of scatter plots of the nondominated designs, for each pair of some measures."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ def front_figure(measures: Sequence[PlottedMeasure], designs: PlottedDesigns, fr
 
     Args:
         measures: Two or more measures.
-        designs: The designs; those that no other dominates have the role of the front, or a better one.
-        front: The designs that no other dominates.
+        designs: The designs; nondominated ones have the role of the front, or a better one.
+        front: The nondominated designs.
     """
     size = len(measures) - 1
     across = max(6.4, _PANEL_IN * size + 1.2)
@@ -65,7 +65,7 @@ def with_front(designs: PlottedDesigns, front: Sequence[int]) -> PlottedDesigns:
 
     Args:
         designs: The designs.
-        front: The designs that no other dominates in these.
+        front: The nondominated designs in these measures.
     """
     best = set(front)
     roles = {}

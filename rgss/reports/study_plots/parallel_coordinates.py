@@ -1,4 +1,4 @@
-"""Parallel coordinates: a line for each design through all measures, the better end of each above."""
+"""Parallel coordinates: a line for each design through all measures, with the better end at the top."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from rgss.reports.study_plots.scatter import finite_span
 
 _LINE_WORDS = 14
 _SHIFT = 0.022
-"""Lines of designs that coincide are apart by this part of the height."""
+"""Offset between the lines of coinciding designs, as a share of the height."""
 
 
 def parallel_figure(measures: Sequence[PlottedMeasure], designs: PlottedDesigns, flat: Sequence[str]) -> StudyFigure:
@@ -33,7 +33,7 @@ def parallel_figure(measures: Sequence[PlottedMeasure], designs: PlottedDesigns,
     Args:
         measures: The measures, none of which is the same for all designs.
         designs: The designs.
-        flat: Measures that are left out because all designs have the same value.
+        flat: Measures that are omitted because all designs have the same value.
     """
     note = f"the same for all designs: {', '.join(flat)}" if flat else ""
     figure = new_figure(max(7.4, 1.35 * len(measures) + 1.0), 5.4, "Designs over all measures")
@@ -88,7 +88,7 @@ def _span(measure: PlottedMeasure, designs: PlottedDesigns) -> tuple[float, floa
 
 def _height(measure: PlottedMeasure, value: float, span: tuple[float, float]) -> float:
     share = (value - span[0]) / ((span[1] - span[0]) or 1.0)
-    # Rounded, so that noise in the last digit does not part lines that coincide.
+    # Rounded, so that noise in the last digit does not separate coinciding lines.
     return round(1.0 - share if measure.sign < 0 else share, 9)
 
 

@@ -29,8 +29,8 @@ class PhaseBar:
 
     Attributes:
         phase: Its name.
-        planning_s: Time of its planning; 0 where nothing is planned.
-        duration_s: Simulated time; 0 where it did not run.
+        planning_s: Time of its planning; 0 if nothing is planned.
+        duration_s: Simulated time; 0 if it did not run.
     """
 
     phase: str
@@ -64,7 +64,7 @@ def timeline_figure(trials: Sequence[TrialBars], designs: PlottedDesigns) -> Stu
     """A row for each trial, a bar for each of its states.
 
     Args:
-        trials: The trials; beyond `MOST_TRIALS` those that failed come first, and the rest are counted.
+        trials: The trials; of more than `MOST_TRIALS` the failed ones are drawn first, and the rest are counted.
         designs: The designs of the study.
     """
     drawn = list(trials)

@@ -16,8 +16,8 @@ class Role(str, Enum):
 
     Attributes:
         UNJUDGED: There is no decision yet.
-        INFEASIBLE: It misses a demand.
-        FEASIBLE: It meets every demand, and another design dominates it.
+        INFEASIBLE: It misses a requirement.
+        FEASIBLE: It meets every requirement, and another design dominates it.
         FRONT: No feasible design dominates it.
         RUNNER_UP: The best that is not tied.
         TIED: As good as the chosen one, or within the practical margin of it.
@@ -92,7 +92,7 @@ class PlottedMeasure:
         return words[self.better]
 
     def value(self, variant: int) -> float:
-        """Estimated value of a variant; NaN where there is none."""
+        """Estimated value of a variant; NaN if there is none."""
         estimate = self.estimates.get(variant)
         return math.nan if estimate is None or estimate.value is None else estimate.value
 
@@ -104,7 +104,7 @@ class PlottedMeasure:
         return estimate.low, estimate.high
 
     def known(self, variants: Iterable[int]) -> list[int]:
-        """Those variants that have a value."""
+        """The given variants that have a value."""
         return [variant for variant in variants if math.isfinite(self.value(variant))]
 
 
@@ -113,9 +113,9 @@ class PlottedDesigns:
     """Designs of a plot.
 
     Attributes:
-        study: Words for the study, such as ``pick_place, contact fidelity``.
+        study: Label of the study, such as ``pick_place, contact fidelity``.
         roles: Role of each variant, in ascending order of ids.
-        note: Why there is no decision; empty if there is one.
+        note: Reason why there is no decision; empty if there is one.
     """
 
     study: str
@@ -128,7 +128,7 @@ class PlottedDesigns:
 
     @property
     def feasible(self) -> list[int]:
-        """Variants that meet every demand; none before a decision."""
+        """Variants that meet every requirement; none before a decision."""
         return [variant for variant, one in self.roles.items() if one not in (Role.INFEASIBLE, Role.UNJUDGED)]
 
     def summary(self) -> str:

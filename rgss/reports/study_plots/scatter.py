@@ -27,11 +27,11 @@ from rgss.reports.study_plots.plotted import Limit, PlottedDesigns, PlottedMeasu
 from rgss.tradeoff.problem import nondominated
 
 _CELLS = 90
-"""Marks closer than this part of an axis count as one place."""
+"""Distance, as a share of an axis, below which marks count as coinciding."""
 _NAMED = (Role.CHOSEN, Role.TIED, Role.RUNNER_UP, Role.FRONT)
 _LONGEST_LABEL = 20
 _NEAR = 0.35
-"""A limit is drawn if it is no farther from the data than this part of their span."""
+"""Greatest distance of a drawn limit from the data, as a share of their span."""
 _OFFSETS = ((7, 6), (7, -12), (-7, 6), (-7, -12), (0, 13), (0, -19), (16, -3), (-16, -3), (20, 16), (-20, 16))
 
 Place = tuple[float, float]
@@ -44,7 +44,7 @@ def pareto_figure(x: PlottedMeasure, y: PlottedMeasure, designs: PlottedDesigns,
         x: Measure along the horizontal axis.
         y: Measure along the vertical axis.
         designs: The designs.
-        front: Words for the nondominated designs, which say in which measures.
+        front: Label of the nondominated designs, with the measures.
     """
     shown = y.known(x.known(designs.roles))
     missing = len(designs.roles) - len(shown)
@@ -73,10 +73,10 @@ def pareto_figure(x: PlottedMeasure, y: PlottedMeasure, designs: PlottedDesigns,
 
 
 def nondominated_of(measures: Sequence[PlottedMeasure], variants: Iterable[int]) -> list[int]:
-    """Those variants that no other dominates in all of some measures; a variant without a value is left out.
+    """Nondominated variants in some measures; a variant without a value is omitted.
 
     Args:
-        measures: The measures, of which each has a preferred direction.
+        measures: The measures, each with a preferred direction.
         variants: The variants.
     """
     known = list(variants)
@@ -89,14 +89,14 @@ def nondominated_of(measures: Sequence[PlottedMeasure], variants: Iterable[int])
 
 
 def front_line(ax: Axes, x: PlottedMeasure, y: PlottedMeasure, designs: PlottedDesigns) -> list[int]:
-    """Draw the front of two measures as steps, and give its variants; none where no direction is preferred."""
+    """Draw the front of two measures as steps; returns its variants, none if a measure has no preferred direction."""
     feasible = [variant for variant, role in designs.roles.items() if role not in (Role.INFEASIBLE, Role.UNJUDGED)]
     if x.better.value == "none" or y.better.value == "none":
         return []
     ends = nondominated_of((x, y), feasible)
     corners = sorted({(x.value(variant), y.value(variant)) for variant in ends})
     if len(corners) > 1:
-        # Between two of the front a design may be as bad as the worse of both and is not dominated.
+        # Between two designs of the front, one with the worse value of both is not yet dominated.
         where = "post" if x.sign < 0 else "pre"
         across, up = zip(*corners, strict=True)
         ax.step(across, up, where=where, color="#0072b2", linewidth=1.2, zorder=1.5)  # type: ignore[arg-type]
@@ -113,10 +113,10 @@ def scatter_designs(
         x: Measure along the horizontal axis.
         y: Measure along the vertical axis.
         designs: The designs.
-        intervals: Whether the intervals of chosen, tied and nondominated designs are drawn.
+        intervals: True to draw the intervals of chosen, tied and nondominated designs.
 
     Returns:
-        The variants at each place, marks that cannot be told apart together.
+        The variants at each place; coinciding marks are grouped.
     """
     shown = y.known(x.known(designs.roles))
     for order, role in enumerate(Role):
@@ -143,8 +143,8 @@ def draw_limit(ax: Axes, limit: Limit, *, vertical: bool, words: bool = True) ->
     Args:
         ax: The axes, with its data.
         limit: The limit.
-        vertical: Whether it is a vertical line.
-        words: Whether it is named.
+        vertical: True for a vertical line.
+        words: True to label it.
     """
     low, high = sorted(ax.get_xlim() if vertical else ax.get_ylim())
     reach = _NEAR * (high - low)
@@ -171,10 +171,10 @@ def draw_limit(ax: Axes, limit: Limit, *, vertical: bool, words: bool = True) ->
 
 
 def label_places(ax: Axes, places: dict[Place, list[int]], designs: PlottedDesigns) -> None:
-    """Name the designs that count, and how many coincide at a place; no label covers another or a mark.
+    """Label the important designs, and the number that coincide at a place, without overlaps.
 
     Args:
-        ax: The axes, whose layout is settled here.
+        ax: The axes, whose layout is fixed here.
         places: The variants at each place.
         designs: The designs.
     """
@@ -243,6 +243,6 @@ def _label(variants: Sequence[int], designs: PlottedDesigns) -> str:
 
 
 def finite_span(values: Iterable[float]) -> tuple[float, float]:
-    """Least and greatest of some numbers that are finite; 0 and 1 where there are none."""
+    """Least and greatest of the finite numbers; 0 and 1 if there are none."""
     known = [value for value in values if math.isfinite(value)]
     return (min(known), max(known)) if known else (0.0, 1.0)

@@ -31,9 +31,9 @@ class InputBar:
 
     Attributes:
         id: Its name.
-        low: Words for the low end of its range.
-        high: Words for the high end.
-        lead_low: Lead of the chosen design at the low end; NaN where it misses a requirement.
+        low: Text of the low end of its range.
+        high: Text of the high end.
+        lead_low: Lead of the chosen design at the low end; NaN if it misses a requirement there.
         lead_high: Lead at the high end.
     """
 
@@ -46,7 +46,7 @@ class InputBar:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WeightRange:
-    """A weight, and the range in which the choice stays.
+    """A weight, and the range in which the choice stays the same.
 
     Attributes:
         measure: Id of its measure.
@@ -70,7 +70,7 @@ def tornado_figure(bars: Sequence[InputBar], lead: float, designs: PlottedDesign
 
     Args:
         bars: The inputs, the largest swing first.
-        lead: Lead as the study has it.
+        lead: Lead with the values of the study.
         designs: The designs.
         left_out: Number of inputs that are not drawn.
     """

@@ -22,7 +22,7 @@ from rgss.reports.study_plots.plotted import PlottedDesigns, PlottedMeasure, Rol
 from rgss.reports.study_plots.scatter import draw_limit
 
 _MOST_NAMED = 40
-"""With more designs, the axis names some of them alone."""
+"""With more designs, the axis labels only some of them."""
 
 
 def spread_figure(
@@ -34,7 +34,7 @@ def spread_figure(
         measure: The measure.
         designs: The designs.
         groups: The designs of each box.
-        grouped_by: Words for what the boxes are of.
+        grouped_by: Label of the grouping.
     """
     known = measure.known(designs.roles)
     missing = len(designs.roles) - len(known)
@@ -124,7 +124,7 @@ def _draw_boxes(
 
 
 def _sideways(values: Sequence[float]) -> list[float]:
-    """Shifts that set equal values side by side, so that none hides another."""
+    """Horizontal shifts that place equal values side by side."""
     rounded = [float(f"{value:.6g}") for value in values]
     counts = {value: rounded.count(value) for value in set(rounded)}
     seen: dict[float, int] = {}

@@ -11,12 +11,12 @@ from rgss.trace.views import Chain, Impact
 
 
 def tables_of(report: TraceReport, file_format: str, *, gaps_only: bool = False, table: str = "") -> tuple[Table, ...]:
-    """The tables of a report as a format writes them.
+    """Tables of a report for a format.
 
     Args:
         report: The report.
         file_format: Name of a registered format that consists of tables.
-        gaps_only: Only what is open.
+        gaps_only: True for gaps only.
         table: Name of the only table; empty for all.
 
     Raises:
@@ -40,7 +40,7 @@ def trace_files(
         report: The report of the project.
         found: The chain or the impact of an id; None for the report itself.
         file_format: Name of a registered format.
-        gaps_only: Only what is open.
+        gaps_only: True for gaps only.
         table: Name of the only table; empty for all.
 
     Raises:

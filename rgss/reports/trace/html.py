@@ -21,7 +21,7 @@ from rgss.reports.trace.sections import (
 from rgss.trace.views import Chain, Impact, verdict_in_words
 
 MOST_ROWS = 2_000
-"""As many rows of a table a page shows; of a longer one those with gaps, with a word about the others."""
+"""Most rows of a table on a page; of a longer one, the rows with gaps and a note on the others are shown."""
 
 
 def report_to_html(
@@ -35,9 +35,9 @@ def report_to_html(
 
     Args:
         report: The report.
-        gaps_only: Leave out the matrices of links, and of the verification matrix what is met.
-        drawings: The diagrams, as `rgss.reports.diagrams.diagrams.drawings_for_page` gives them.
-        drawings_notice: What there is to say of the diagrams, such as why some are missing.
+        gaps_only: True to omit the matrices of links, and met requirements in the verification matrix.
+        drawings: The diagrams, from `rgss.reports.diagrams.diagrams.drawings_for_page`.
+        drawings_notice: A note on the diagrams, such as why some are missing.
 
     Raises:
         DefinitionError: The package ``jinja2`` is not installed.
@@ -63,7 +63,7 @@ def trace_context(
         report: The report.
         gaps_only: As for `report_to_html`, as are the next two.
         drawings: The diagrams.
-        drawings_notice: What there is to say of them.
+        drawings_notice: A note on them.
     """
     needs, elements = need_rows(report, most=MOST_ROWS), element_rows(report, most=MOST_ROWS)
     anchors = anchors_of(report, most=MOST_ROWS, gaps_only=gaps_only)
@@ -103,10 +103,10 @@ def chain_to_html(chain: Chain) -> str:
 
 
 def impact_to_html(impact: Impact, report: TraceReport) -> str:
-    """Write what a change touches as one HTML page.
+    """Write the impact of a change as one HTML page.
 
     Args:
-        impact: What it touches.
+        impact: The impact.
         report: The report of the same project, for the texts.
 
     Raises:
@@ -125,13 +125,13 @@ def impact_to_html(impact: Impact, report: TraceReport) -> str:
     }
     return render_page(
         "trace/impact.html.j2",
-        title=f"What a change to {impact.id} touches",
+        title=f"Impact of a change to {impact.id}",
         groups=[
-            group("Stakeholder requirements to hold it against", impact.needs),
+            group("Stakeholder requirements to compare with", impact.needs),
             group("System requirements", impact.requirements),
             group("Blocks and behaviours", impact.elements),
             group("Measures", impact.measures),
-            group("Verdicts to reach anew", list(verdicts_by_id), verdicts),
+            group("Verdicts to renew", list(verdicts_by_id), verdicts),
             group("Trials that they depend on", impact.trials),
             group("Tests to run again", impact.tests),
             group("Reviews to renew", impact.reviews),

@@ -1,7 +1,7 @@
 """A traceability report, a chain and an impact as plain data for JSON.
 
-The shape is stated by ``rgss/reports/schemas/trace.schema.json``; `SCHEMA` names its version in
-every document. What is not known is null; ids are those of the project's files.
+Its schema is ``rgss/reports/schemas/trace.schema.json``; `SCHEMA` is the version in every document.
+Unknown values are null; ids are those of the project's files.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from rgss.trace.evidence import TraceEvidence, TrialEvidence, VerificationRow
 from rgss.trace.views import Chain, ChainStep, Impact
 
 SCHEMA = "rgss-trace-1"
-"""The name of the schema, with the version of its shape."""
+"""Name and version of the schema."""
 
 
 def json_schema() -> dict[str, Any]:
-    """The JSON Schema that every document of this module keeps."""
+    """The JSON Schema of every document of this module."""
     text = resources.files("rgss.reports").joinpath("schemas/trace.schema.json").read_text(encoding="utf-8")
     schema: dict[str, Any] = json.loads(text)
     return schema
@@ -31,7 +31,7 @@ def report_to_json(report: TraceReport, *, gaps_only: bool = False) -> dict[str,
 
     Args:
         report: The report.
-        gaps_only: Leave out the matrices of links, and of the verification matrix what is met.
+        gaps_only: True to omit the matrices of links, and met requirements in the verification matrix.
     """
     return {
         "schema": SCHEMA,

@@ -14,19 +14,19 @@ from rgss.trace.views import CoverageMetric, TraceMatrix, coverage_metrics, trac
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MatrixPart:
-    """One matrix of links with what a reader needs to read it.
+    """Matrix of links with its titles and texts.
 
     Attributes:
         name: Its name in file names and options, such as ``system-stakeholder``.
         title: Its title.
-        rows_are: What its rows are, in the plural.
-        columns_are: What its columns are, in the plural.
-        relation: How a row stands to a column that it is linked to.
+        rows_are: Kind of its rows, in the plural.
+        columns_are: Kind of its columns, in the plural.
+        relation: Relation of a row to a linked column.
         matrix: The links.
-        row_texts: What each row says, by its id.
-        column_texts: What each column says, by its id.
-        columns_required: Whether a column without a link is a gap.
-        split_at: Index of the column at which a second sort of columns begins; None if there is one sort.
+        row_texts: Text of each row, by its id.
+        column_texts: Text of each column, by its id.
+        columns_required: True if a column without a link is a gap.
+        split_at: Index of the column at which a second kind of columns begins; None if there is one kind.
     """
 
     name: str
@@ -43,11 +43,11 @@ class MatrixPart:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gap:
-    """Something that is open.
+    """Gap: an element that lacks a link, evidence or a met verdict.
 
     Attributes:
         id: Id of the element.
-        text: What the element says.
+        text: Text of the element.
         metrics: The coverage that it lacks.
     """
 
@@ -57,7 +57,7 @@ class Gap:
 
     @property
     def lacks(self) -> tuple[str, ...]:
-        """List of what it lacks; that it is not met is left out where there is no evidence."""
+        """The missing coverage; "not met" is omitted if there is no evidence."""
         names = [metric.id for metric in self.metrics]
         return tuple(
             metric.lack for metric in self.metrics if metric.id != "system-met" or "system-evidence" not in names
@@ -71,12 +71,12 @@ class TraceReport:
     Attributes:
         title: The title of the report.
         model: The project's requirements, architecture and measures.
-        definitions: The measures as they are defined; None if only their links are known.
-        evidence: What is known beyond the files.
+        definitions: The definitions of the measures; None if only their links are known.
+        evidence: The evidence.
         matrices: The three matrices of links.
         verification: The verification matrix.
-        metrics: How complete the project is.
-        gaps: What is open and must not be, element by element.
+        metrics: The coverage of the project.
+        gaps: The gaps, element by element.
     """
 
     title: str
@@ -90,20 +90,20 @@ class TraceReport:
 
     @property
     def is_complete(self) -> bool:
-        """True if nothing is open that a project must have."""
+        """True if there are no gaps."""
         return not any(metric.required and metric.missing for metric in self.metrics)
 
 
 def trace_report(
     model: TraceModel, evidence: TraceEvidence, *, title: str, definitions: MeasureSet | None = None
 ) -> TraceReport:
-    """Gather everything that a traceability report shows.
+    """Gather the content of a traceability report.
 
     Args:
         model: The project's requirements, architecture and measures.
-        evidence: What is known beyond its files.
+        evidence: The evidence.
         title: The title of the report.
-        definitions: The measures as they are defined, for their names.
+        definitions: The definitions of the measures, for their names.
     """
     matrices = trace_matrices(model)
     metrics = coverage_metrics(model, matrices, evidence)

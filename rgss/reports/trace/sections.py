@@ -1,4 +1,4 @@
-"""The sections of a traceability page, cell by cell, as its template walks them."""
+"""Sections of a traceability page, cell by cell, for its template."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from rgss.trace.evidence import VerificationRow
 from rgss.trace.views import end_in_words, estimate_in_words, value_in_words, verdict_in_words
 
 MOST_CELLS, WIDEST_GRID = 30_000, 160
-"""A matrix with more cells or columns is shown as a list of links."""
+"""Most cells or columns of a matrix that is shown as a grid, not as a list of links."""
 
 WIDEST_WITH_TEXTS = 24
-"""A matrix with more columns shows ids alone; the texts come with the pointer and the keyboard."""
+"""Most columns of a matrix with texts; a wider one shows ids, with the texts on hover and focus."""
 
 WIDEST_PRINTED = 40
-"""A matrix with more columns does not fit on paper, where it is a list of links."""
+"""Most columns of a matrix that fits on paper; a wider one is printed as a list of links."""
 
 MOST_DETAILED = 1_000
-"""With more system requirements than this, rationale and links are left to the other formats."""
+"""With more system requirements than this, rationale and links are only in the other formats."""
 
 _MOST_MISSING = 60
 _SIGNS: Mapping[Verdict | None, str] = {
@@ -38,7 +38,7 @@ _SIGNS: Mapping[Verdict | None, str] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Section:
-    """A section of a page: where it is, and what it is called."""
+    """Section of a page: anchor and title."""
 
     anchor: str
     title: str
@@ -54,14 +54,14 @@ def anchors_of(report: TraceReport, *, most: int, gaps_only: bool) -> dict[str, 
 
 
 def metric_rows(report: TraceReport) -> list[dict[str, Any]]:
-    """The coverage metrics; of long lists of missing ids the first."""
+    """The coverage metrics, with the first of the missing ids."""
     return [
         {
             "title": metric.title,
             "covered": metric.covered,
             "total": metric.total,
             "share": metric.share,
-            # Rounded down, so that only what is complete reads 100 %.
+            # Rounded down, so that only complete coverage reads 100 %.
             "percent": f"{int(metric.share * 1000) / 10:g} %",
             "required": metric.required,
             "gap": metric.required and bool(metric.missing),
@@ -73,7 +73,7 @@ def metric_rows(report: TraceReport) -> list[dict[str, Any]]:
 
 
 def matrix_section(part: MatrixPart, *, most_rows: int) -> dict[str, Any]:
-    """A matrix as a grid, or as a list of links where the grid would not fit."""
+    """Matrix as a grid, or as a list of links if the grid would not fit."""
     matrix = part.matrix
     grid = len(matrix.columns) <= WIDEST_GRID and len(matrix.rows) * len(matrix.columns) <= MOST_CELLS
     everything = list(zip(matrix.rows, matrix.linked, strict=True))
@@ -132,7 +132,7 @@ def verification_section(report: TraceReport, *, most_rows: int, gaps_only: bool
 
 
 def need_rows(report: TraceReport, *, most: int) -> list[dict[str, Any]]:
-    """The stakeholder requirements; none where they are too many for a page."""
+    """The stakeholder requirements; none if they are too many for a page."""
     needs = report.model.requirements.stakeholder
     if len(needs) > most:
         return []
@@ -159,7 +159,7 @@ def need_rows(report: TraceReport, *, most: int) -> list[dict[str, Any]]:
 
 
 def element_rows(report: TraceReport, *, most: int) -> list[dict[str, Any]]:
-    """Blocks and behaviours with what they satisfy; none where they are too many for a page."""
+    """Blocks and behaviours with the requirements they satisfy; none if they are too many for a page."""
     elements = report.model.requirements.architecture.elements
     if len(elements) > most:
         return []
@@ -180,7 +180,7 @@ def element_rows(report: TraceReport, *, most: int) -> list[dict[str, Any]]:
 
 
 def _kept(report: TraceReport, most: int, *, gaps_only: bool) -> list[VerificationRow]:
-    """The rows of the verification matrix that a page shows: all, or where they are too many those with gaps."""
+    """Rows of the verification matrix on a page: all, or those with gaps if there are too many."""
     rows = [row for row in report.verification if row.has_gap or not gaps_only]
     return rows if len(rows) <= most else [row for row in rows if row.has_gap][:most]
 

@@ -1,4 +1,4 @@
-"""A traceability report as tables: for Markdown, CSV, Excel and the terminal."""
+"""Tables of a traceability report, for Markdown, CSV, Excel and the terminal."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from rgss.trace.evidence import KEY_DIGITS, TestEvidence, TrialEvidence, Verific
 from rgss.trace.views import Chain, Impact, end_in_words, estimate_in_words, verdict_in_words
 
 LINKED = "x"
-"""What a cell of a matrix holds where row and column are linked."""
+"""Cell of a matrix whose row and column are linked."""
 
 
 def report_tables(report: TraceReport, *, widest_grid: int, gaps_only: bool = False) -> tuple[Table, ...]:
@@ -16,8 +16,8 @@ def report_tables(report: TraceReport, *, widest_grid: int, gaps_only: bool = Fa
 
     Args:
         report: The report.
-        widest_grid: A matrix with more columns is written as a list of links, row by row.
-        gaps_only: Leave out the matrices of links, and of the verification matrix what is met.
+        widest_grid: Most columns of a matrix that is written as a grid, not as a list of links.
+        gaps_only: True to omit the matrices of links, and met requirements in the verification matrix.
     """
     matrices = () if gaps_only else tuple(matrix_table(part, widest_grid=widest_grid) for part in report.matrices)
     return (
@@ -29,7 +29,7 @@ def report_tables(report: TraceReport, *, widest_grid: int, gaps_only: bool = Fa
 
 
 def coverage_table(report: TraceReport) -> Table:
-    """Table of the coverage, with what is not covered."""
+    """Table of the coverage, with the uncovered elements."""
     return Table(
         name="coverage",
         title="Coverage",
@@ -62,7 +62,7 @@ def gap_table(report: TraceReport) -> Table:
 
 
 def matrix_table(part: MatrixPart, *, widest_grid: int) -> Table:
-    """A matrix as a grid of marks, or as a list of links where that grid would be too wide.
+    """Matrix as a grid of marks, or as a list of links if the grid would be too wide.
 
     Args:
         part: The matrix.
@@ -92,7 +92,7 @@ def matrix_table(part: MatrixPart, *, widest_grid: int) -> Table:
 
 
 def matrix_note(part: MatrixPart) -> str:
-    """Number of links of a matrix, and what has none."""
+    """Number of links of a matrix, with the rows and columns without a link."""
     matrix = part.matrix
     note = f"{len(matrix.rows)} {part.rows_are}, {len(matrix.columns)} {part.columns_are}, {matrix.link_count} links."
     if matrix.empty_rows:
@@ -144,11 +144,11 @@ def chain_table(chain: Chain) -> Table:
 def impact_table(impact: Impact) -> Table:
     """Impact of a change, one row for each element."""
     groups: tuple[tuple[str, tuple[str, ...]], ...] = (
-        ("stakeholder requirement to hold it against", impact.needs),
+        ("stakeholder requirement to compare with", impact.needs),
         ("system requirement", impact.requirements),
         ("block or behaviour", impact.elements),
         ("measure", impact.measures),
-        ("verdict to reach anew", tuple(verdict.requirement for verdict in impact.verdicts)),
+        ("verdict to renew", tuple(verdict.requirement for verdict in impact.verdicts)),
         ("trial that a verdict depends on", impact.trials),
         ("test to run again", impact.tests),
         ("review to renew", impact.reviews),
@@ -160,7 +160,7 @@ def impact_table(impact: Impact) -> Table:
     }
     return Table(
         name="impact",
-        title=f"What a change to {impact.id} touches",
+        title=f"Impact of a change to {impact.id}",
         heads=("what", "id", "note"),
         rows=[
             (what, name, notes.get(name, "") if what.startswith("verdict") else "")

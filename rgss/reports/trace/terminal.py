@@ -1,4 +1,4 @@
-"""A traceability report as tables that fit a terminal: ids, marks and numbers, and few words."""
+"""Traceability report as tables that fit a terminal: ids, marks and numbers."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ def terminal_tables(report: TraceReport, *, gaps_only: bool = False, table: str 
 
     Args:
         report: The report.
-        gaps_only: Leave out the matrices of links, and of the verification matrix what is met.
-        table: Name of the only table; empty for all, and then the gaps stand by themselves only
-            where they alone are wanted, since the coverage names them.
+        gaps_only: True to omit the matrices of links, and met requirements in the verification matrix.
+        table: Name of the only table; empty for all, where the table of gaps is included only with
+            `gaps_only`, since the coverage names the gaps.
 
     Raises:
         DefinitionError: There is no such table.
@@ -90,7 +90,7 @@ def found_lines(found: Chain | Impact) -> list[str]:
 
 
 def table_lines(tables: Sequence[Table]) -> list[str]:
-    """Tables as aligned lines of text, each under its title; what cannot be printed is replaced."""
+    """Tables as aligned lines of text, each under its title; control characters are replaced."""
     lines: list[str] = []
     for table in tables:
         if lines:
@@ -104,7 +104,7 @@ def table_lines(tables: Sequence[Table]) -> list[str]:
 
 
 def chain_lines(chain: Chain) -> list[str]:
-    """A chain as indented lines: the id, what is above it, what is below it."""
+    """Chain as indented lines: the id, the elements above it, the elements below it."""
     note = f" [{chain.note}]" if chain.note else ""
     lines = [_safe(f"{chain.id} ({chain.kind.value}){note}")]
     lines += [f"  {_safe(' '.join(chain.text.split()))}"] if chain.text.strip() else []
@@ -121,16 +121,16 @@ def impact_lines(impact: Impact) -> list[str]:
         for one in impact.verdicts
     ]
     groups = (
-        ("Stakeholder requirements to hold it against", impact.needs),
+        ("Stakeholder requirements to compare with", impact.needs),
         ("System requirements", impact.requirements),
         ("Blocks and behaviours", impact.elements),
         ("Measures", impact.measures),
-        ("Verdicts to reach anew", verdicts),
+        ("Verdicts to renew", verdicts),
         ("Trials that they depend on", [key[:KEY_DIGITS] for key in impact.trials]),
         ("Tests to run again", impact.tests),
         ("Reviews to renew", impact.reviews),
     )
-    lines = [_safe(f"What a change to {impact.id} ({impact.kind.value}) touches")]
+    lines = [_safe(f"Impact of a change to {impact.id} ({impact.kind.value})")]
     for title, names in groups:
         lines += ["", f"{title} ({len(names)})"]
         separator = "\n" if title.startswith("Tests") else ", "
@@ -179,5 +179,5 @@ def _short(text: str) -> str:
 
 
 def _safe(text: str) -> str:
-    """Text that comes from a file must not steer the terminal."""
+    """Text of a file with terminal control characters escaped."""
     return "".join(character if character.isprintable() else "�" for character in text)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 HIGHEST_RATE_HZ = 50.0
-"""What viewers show; the format counts in hundredths of a second."""
+"""Highest frame rate that viewers show; the format counts in hundredths of a second."""
 
 _LAST_FRAME_MS = 1500
 _COLOURS = 255
@@ -31,7 +31,7 @@ class CaptionedPicture:
 
     Attributes:
         picture: Its colours, shape (height, width, 3).
-        caption: What is written in its lower left corner.
+        caption: The text in its lower left corner.
     """
 
     picture: NDArray[np.uint8]
@@ -46,12 +46,12 @@ def write_film(
     rate_hz: float,
     on_frame: Callable[[], None] = lambda: None,
 ) -> None:
-    """Write an animated GIF that runs for ever and rests on its last frame.
+    """Write an animated GIF that loops, with a pause on its last frame.
 
     Args:
         path: The file.
-        frame_at: Gives the frame of an index; it is requested a few of them twice.
-        count: How many frames there are.
+        frame_at: Function from an index to its frame; a few frames are requested twice.
+        count: Number of frames.
         rate_hz: Frames a second, at most 50.
         on_frame: Called after each frame.
 
@@ -60,7 +60,7 @@ def write_film(
     """
     from PIL import Image
 
-    # One palette for all, so that what stands still stays the same from frame to frame.
+    # One palette for all, so that static parts do not change from frame to frame.
     every = max(1, count // _PALETTE_FRAMES)
     palette = _palette([captioned_image(frame_at(index)) for index in range(0, count, every)])
 
@@ -85,7 +85,7 @@ def write_film(
 
 
 def captioned_image(frame: CaptionedPicture) -> Image:
-    """A frame with its caption, which a light edge keeps legible on any ground."""
+    """A frame with its caption, which has a light outline to be legible on any background."""
     from PIL import Image, ImageDraw
 
     image = Image.fromarray(frame.picture)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _COLUMNS = 4
 _LEAST_COLUMNS = 3
-"""The headline needs their width, however few states there are."""
+"""Least number of columns, whose width the headline needs."""
 _EMPTY = (236, 238, 241)
 
 
@@ -29,14 +29,14 @@ def write_filmstrip(path: Path, record: TrialRecord, pictures: Mapping[str, NDAr
     Args:
         path: The file.
         record: The trial.
-        pictures: What each phase that ran looked like at its end, all of one size.
+        pictures: Picture of the end of each phase that ran, all of one size.
 
     Raises:
         OSError: The file cannot be written.
     """
     image = filmstrip(record, pictures)
     with replaced_file(path) as part:
-        # A palette of the picture's own halves the file.
+        # An adaptive palette halves the file.
         image.quantize(256).save(part, format="PNG", optimize=True)
 
 
@@ -58,12 +58,12 @@ def still_png(picture: NDArray[np.uint8]) -> bytes:
 def filmstrip(record: TrialRecord, pictures: Mapping[str, NDArray[np.uint8]]) -> Image:
     """Rows of up to four panels: title, outcome, time and picture of each state that was entered.
 
-    The panel of the state that failed has a red frame; the states that the trial did not get to are
-    named below in a line.
+    The panel of the failed state has a red frame; the states that the trial did not reach are
+    named in a line below.
 
     Args:
         record: The trial.
-        pictures: What each phase that ran looked like at its end, all of one size; at least one.
+        pictures: Picture of the end of each phase that ran, all of one size; at least one.
     """
     from PIL import Image, ImageDraw
 
@@ -108,7 +108,7 @@ def filmstrip(record: TrialRecord, pictures: Mapping[str, NDArray[np.uint8]]) ->
 
 
 def _not_run(record: TrialRecord, width: int, size: int) -> list[str]:
-    """Lines that name the states that the trial did not get to; none if it got to all."""
+    """Lines that name the states that the trial did not reach; none if it reached all."""
     missing = [
         f"{number} {words(phase.phase)}"
         for number, phase in enumerate(record.phases, start=1)

@@ -23,11 +23,11 @@ OUTCOME_INK = {
 
 @lru_cache(maxsize=8)
 def font(size: int, *, bold: bool = False) -> FreeTypeFont:
-    """The typeface of all pictures, which comes with Matplotlib and so is the same on every machine.
+    """Typeface of all pictures, which Matplotlib contains, so that it is the same on every machine.
 
     Args:
         size: Height of the letters in pixels.
-        bold: Whether they are bold.
+        bold: True if they are bold.
     """
     from matplotlib import get_data_path
     from PIL import ImageFont
@@ -37,7 +37,7 @@ def font(size: int, *, bold: bool = False) -> FreeTypeFont:
 
 
 def words(name: str) -> str:
-    """A name of an outcome as words: ``move_to_grasp`` as "move to grasp"."""
+    """Name of an outcome as words: ``move_to_grasp`` as "move to grasp"."""
     return name.replace("_", " ")
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-# Okabe and Ito's colours, which most people with a colour deficiency can tell apart.
+# Okabe and Ito's colours, which most people with a colour deficiency can distinguish.
 _SERIES_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00")
 _LIMIT_COLOUR = "#b02418"
 _BANDS = ("#eef2f6", "#ffffff")
@@ -133,7 +133,7 @@ def _shade_phases(ax: Axes, record: TrialRecord, trace: TrialTrace) -> None:
 
 
 def _name_phases(ax: Axes, trace: TrialTrace) -> None:
-    """Name the phases above the plots, slanted so that the short ones have room too."""
+    """Name the phases above the plots, slanted to leave room for short phases."""
     for number, span in enumerate(trace.spans, start=1):
         ax.annotate(
             f"{number} {words(span.phase)}",

@@ -32,10 +32,10 @@ class _Encoding:
     container_options: Mapping[str, str]
 
 
-# Leaves out the release that wrote the file, and the random identifier of a WebM segment.
+# Omits the release that wrote the file, and the random identifier of a WebM segment.
 _REPEATABLE: Mapping[str, str] = MappingProxyType({"fflags": "+bitexact"})
 
-# Constant quality; one thread, since the bytes of some encoders depend on how the rows are shared out.
+# Constant quality; one thread, since the bytes of some encoders depend on the number of threads.
 _ENCODINGS: Mapping[str, _Encoding] = MappingProxyType(
     {
         ".webm": _Encoding(
@@ -50,7 +50,7 @@ _ENCODINGS: Mapping[str, _Encoding] = MappingProxyType(
             container="mp4",
             codec="libx264",
             options=MappingProxyType({"crf": "21", "preset": "medium", "threads": "1"}),
-            # The index comes first, so that a page need not load the whole file to begin.
+            # The index comes first, so that playback can start before the whole file is loaded.
             container_options=MappingProxyType({**_REPEATABLE, "movflags": "+faststart"}),
         ),
     }
@@ -65,7 +65,7 @@ def write_video(
     rate_hz: float,
     on_frame: Callable[[], None] = lambda: None,
 ) -> None:
-    """Write a video that can be paused and searched, VP9 in WebM or H.264 in MP4 by the suffix of the file.
+    """Write a seekable video, VP9 in WebM or H.264 in MP4 by the suffix of the file.
 
     The same frames give the same bytes with the same release of PyAV on processors of the same kind: one thread
     encodes, and the file holds neither a date nor a random identifier. Frames of odd width or height get one more
@@ -73,7 +73,7 @@ def write_video(
 
     Args:
         path: The file, which ends in ``.webm`` or ``.mp4``.
-        frame_at: Gives the frame of an index; called once for each, in order.
+        frame_at: Function from an index to its frame; called once for each, in order.
         count: Number of frames.
         rate_hz: Frames a second.
         on_frame: Called after each frame.
@@ -95,11 +95,11 @@ def write_video(
         stream.width, stream.height = first.width, first.height
         stream.pix_fmt = "yuv420p"
         stream.time_base = 1 / rate
-        # The matrix that frames are converted by; without it some players guess another from 720 rows on.
+        # The colour matrix of the conversion; without it some players assume another one from 720 rows on.
         stream.codec_context.colorspace = av.video.reformatter.Colorspace.SMPTE170M
         stream.codec_context.color_range = av.video.reformatter.ColorRange.MPEG
         stream.codec_context.thread_count = 1
-        # A player seeks to the key frame before; one each second makes the slider answer at once.
+        # A player seeks to the preceding key frame; one each second makes seeking fast.
         stream.codec_context.gop_size = max(1, round(rate_hz * _KEY_FRAME_S))
         stream.codec_context.flags |= av.codec.context.Flags.bitexact
         for index in range(count):

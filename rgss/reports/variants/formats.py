@@ -17,8 +17,8 @@ class VariantFormat:
 
     Attributes:
         name: Its name in options.
-        write: Pieces of the text, from the design space and the variants that are listed.
-        is_data: Whether the text is the content of a file, which is printed as it is.
+        write: Function from the design space and the listed variants to the pieces of the text.
+        is_data: True if the text is the content of a file, which is printed unchanged.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Design variants as a table for people, as wide as a terminal is."""
+"""Table of design variants that fits the width of a terminal."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _GAP = 2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Column:
-    """A column: its head and its cells."""
+    """Column: head and cells."""
 
     head: str
     cells: list[str]
@@ -33,13 +33,13 @@ class _Column:
 def variant_table_lines(designs: DesignSpace, variants: Sequence[DesignVariant]) -> Iterator[str]:
     """Lines of a table of variants with their parameters.
 
-    If the columns of the CSV file fit, these are shown. If they do not, what is the same in all
-    designs is written below the table, and if need be the names of the parameters too, so that the
-    heads are their ids; columns that still find no room go on in another table.
+    If the columns of the CSV file fit, these are shown. Otherwise constant parameters are listed below
+    the table, and if necessary ids replace the names of the parameters, which are listed below too;
+    columns that still do not fit are printed in another table.
 
     Args:
-        designs: The design space, whose designs show what is the same in all.
-        variants: Those that are listed.
+        designs: The design space, which determines the constant parameters.
+        variants: The listed variants.
     """
     every = designs.expand()
     definitions = designs.parameters

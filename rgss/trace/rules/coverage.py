@@ -137,7 +137,10 @@ RULES: tuple[ModelRule, ...] = (
         id="trace.mop-without-moe",
         of_elements=False,
         severity=Severity.WARNING,
-        explanation="A measure of performance contributes to a measure of effectiveness; otherwise it decides nothing.",
+        explanation=(
+            "A measure of performance contributes to a measure of effectiveness; otherwise it has no effect on the "
+            "decision."
+        ),
         check=_contributing_to_nothing,
     ),
     ModelRule(

@@ -74,7 +74,7 @@ def _page() -> Iterator[str]:
             notes = " Cannot be set." if rule.fixed else ""
             yield f"| `{rule.id}` | {rule.severity.value} | {rule.explanation}{notes} |"
         yield ""
-    yield "## Words that the rules look for\n"
+    yield "## Terms of the wording rules\n"
     for family in FAMILIES:
         for rule in family.rules:
             if isinstance(rule, SentenceRule) and rule.terms:
@@ -96,23 +96,23 @@ finding has its place as `file:line:column`. A check never writes.
   `rules: {wording.R19: {severity: info, reason: "…"}}`. A setting that changes nothing is a finding.
 - **Exemptions.** An element may break a rule for a stated reason:
   `exempt: [{rule: wording.R7, reason: "…"}]`. An exemption that exempts nothing is a finding.
-- **Evidence.** `rgss check --evidence` also holds the verdicts to the stored evidence, and the marks
-  `@pytest.mark.verifies("…")` to the result of the tests in `.rgss/junit.xml`.
-- **Reviews.** `rgss check --review ID --reviewer NAME` stamps that somebody has read an element, with
-  the digests of its content and of what it rests on, into `reviews.yaml` beside `rules.yaml`. When an
+- **Evidence.** `rgss check --evidence` also compares the verdicts with the stored evidence, and the marks
+  `@pytest.mark.verifies("…")` with the result of the tests in `.rgss/junit.xml`.
+- **Reviews.** `rgss check --review ID --reviewer NAME` records in `reviews.yaml`, beside `rules.yaml`,
+  that somebody has read an element, with the digests of its content and of its upstream elements. When an
   upstream text changes afterwards, the link to it is suspect until the element is reviewed again.
 
 Numbers such as R7 are those of the INCOSE *Guide to Writing Requirements*, version 3.1; explanations
-and word lists are our own. Sentences follow the EARS patterns (Mavin and others, 2009): *The SYSTEM
+and word lists are those of rgss. Sentences follow the EARS patterns (Mavin and others, 2009): *The SYSTEM
 shall …* alone, or after `While` a state, `When` an event, `Where` an option, `If` something unwanted
 `then`, or several of these. Words that mean the same, such as `Upon` or `In the event of`, are
 understood; `wording.ears-keyword` notes them.
 
 ## Verdicts
 
-`rgss measure` judges each requirement with a criterion for each variant; `rgss measure --verdicts`
-lists the verdicts. Requirements that are verified by test are judged by the tests that are marked
-with them.
+`rgss measure` gives a verdict on each requirement with a criterion for each variant;
+`rgss measure --verdicts` lists them. The verdict on a requirement that is verified by test follows
+from the tests that are marked with it.
 
 | verdict | by trials | by tests |
 |---|---|---|
@@ -124,14 +124,14 @@ with them.
 A verdict becomes stale when a digest differs, and the cause is named:
 
 - *model*, *code*, *engines*: a trial that the verdict needs has evidence only under other inputs,
-  other source of the pieces that make it, or another engine. `rgss sweep` makes it anew.
-- *requirement*: its sentence, its criterion, or how it is verified is another one than when the
-  verdict was recorded. *measure*: the definition of its measure, or of any measure, input or
+  other source of the pieces that make it, or another engine. `rgss sweep` runs it again.
+- *requirement*: its sentence, its criterion or its verification changed since the verdict was
+  recorded. *measure*: the definition of its measure, or of any measure, input or
   constant below it. *model*, also without trials: a value of the design or a component behind it.
-  `rgss measure --record` judges anew by the evidence that is there, and records that.
+  `rgss measure --record` gives and records new verdicts by the stored evidence.
 
 Recorded verdicts are in `.rgss/verdicts.json` beside the evidence. A verdict that was never
 recorded cannot be older than its requirement; a recorded one that its evidence contradicts is a
-finding. A test run that `pytest --junitxml=FILE` writes notes the digest of what was tested and of
-each requirement, and is stale once one of them differs.
+finding. A test run that `pytest --junitxml=FILE` writes contains the digests of the tested code and
+of each requirement, and is stale once one of them differs.
 """

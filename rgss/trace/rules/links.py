@@ -59,7 +59,7 @@ RULES: tuple[ModelRule, ...] = (
         id="trace.dangling-id",
         fixed=True,
         severity=Severity.ERROR,
-        explanation="A measure traces to stakeholder requirements, and contributes to measures, that are there.",
+        explanation="A measure traces to stakeholder requirements, and contributes to measures, that exist.",
         check=_dangling,
     ),
     ModelRule(

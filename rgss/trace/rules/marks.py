@@ -44,7 +44,7 @@ RULES: tuple[MarkRule, ...] = (
         id="trace.unknown-mark",
         of_elements=False,
         severity=Severity.ERROR,
-        explanation="A test is marked with system requirements that are there.",
+        explanation="A test is marked with existing system requirements.",
         check=_unknown,
     ),
 )

@@ -82,8 +82,8 @@ RULES: tuple[ModelRule, ...] = (
         id="review.changed",
         severity=Severity.WARNING,
         explanation=(
-            "An element has the content that was reviewed. How its text is wrapped, where it stands, the order "
-            "of its links and its exemptions are not part of that."
+            "The content of an element is unchanged since its review. The wrapping of its text, its position, the "
+            "order of its links and its exemptions do not count."
         ),
         check=_changed,
     ),
@@ -91,8 +91,8 @@ RULES: tuple[ModelRule, ...] = (
         id="review.suspect-link",
         severity=Severity.WARNING,
         explanation=(
-            "What an element rests on says what it said when the element was reviewed. Otherwise the link between "
-            "them is suspect: the element may have to change too, and only a reader can tell."
+            "The upstream elements of an element are unchanged since its review. Otherwise the link between them is "
+            "suspect: the element may have to change too, which only a reader can decide."
         ),
         check=_suspect,
     ),

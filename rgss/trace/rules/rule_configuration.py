@@ -14,7 +14,7 @@ UNKNOWN_EXEMPTION = ConfigurationRule(
     id="exempt.unknown-rule",
     of_elements=False,
     severity=Severity.ERROR,
-    explanation="An element is exempt from rules that are there, and from which an exemption is possible.",
+    explanation="An element is exempt from existing rules that allow exemptions.",
 )
 UNUSED_EXEMPTION = ConfigurationRule(
     id="exempt.unused",
@@ -29,7 +29,7 @@ UNKNOWN_SETTING = ConfigurationRule(
     id="settings.unknown-rule",
     of_elements=False,
     severity=Severity.ERROR,
-    explanation="rules.yaml sets rules that are there, and that can be set.",
+    explanation="rules.yaml sets existing rules that can be set.",
 )
 UNUSED_SETTING = ConfigurationRule(
     id="settings.unused",

@@ -171,7 +171,7 @@ class TestRefusals:
     @pytest.mark.parametrize(
         ("options", "said"),
         [
-            (["--beside", "28"], "--beside is given, but no replay that it is for (add --replay FILE.html)"),
+            (["--beside", "28"], "--beside needs a replay (add --replay FILE.html)"),
             (["--beside", "65", "--replay", "x.html"], "--beside must be another variant than 65 (give its id)"),
         ],
     )
@@ -251,7 +251,7 @@ class TestRefusals:
     def test_options_for_no_picture(self, capsys, arguments, needed):
         line = refused(capsys, *arguments)
 
-        assert line == f"{arguments[0]} is given, but no picture that it is for (add {needed})"
+        assert line == f"{arguments[0]} needs a picture (add {needed})"
 
     @pytest.mark.parametrize(
         ("absent", "line"),
@@ -270,5 +270,5 @@ class TestRefusals:
     def test_fidelities_that_have_nothing_to_show(self, capsys, tmp_path, fidelity):
         line = refused(capsys, "--gif", str(tmp_path / "a.gif"), "--fidelity", fidelity)
 
-        assert line == f"there are no pictures of a trial of {fidelity} fidelity (add --fidelity contact)"
+        assert line == f"pictures need contact fidelity, got {fidelity} (add --fidelity contact)"
         assert list(tmp_path.iterdir()) == []

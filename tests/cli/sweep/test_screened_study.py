@@ -112,7 +112,7 @@ def test_a_supposition_that_would_screen_otherwise_says_so(rgss, swept, screenin
     assert not {*more} & {*screening["survivors"]}
     assert told.output.splitlines()[-1] == (
         f"  would go on under these suppositions, and is in no comparison above: {', '.join(map(str, more))} "
-        "(change the study's file so, and run 'rgss sweep')"
+        "(make that change in the study's file and run 'rgss sweep')"
     )
     same = rgss("trade", "--brief", "--what-if", "SYS-005.threshold=24 s", "--json", "--project", swept).document
     assert same["screening"]["would_go_on"] == []

@@ -100,7 +100,7 @@ def test_an_interrupted_sweep_on_a_cluster_stops_at_once_and_keeps_what_was_fini
     os.killpg(process.pid, signal.SIGINT)
     output, errors = process.communicate(timeout=PATIENCE_S)
 
-    assert (process.returncode, output, errors) == (130, "", "rgss: interrupted; what was finished is kept\n")
+    assert (process.returncode, output, errors) == (130, "", "rgss: interrupted; finished trials are stored\n")
     assert 0 < stored(folder / ".rgss" / "evidence.sqlite") < 60
     gate.set()
     wait_until(lambda: not multiprocessing.active_children())

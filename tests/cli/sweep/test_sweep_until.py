@@ -145,14 +145,14 @@ def test_a_study_with_a_budget_goes_on_until_decided_of_itself(rgss, folder, mon
         (
             "Not proven at an error rate of 0.05 over all looks, a stricter standard than the probability above: that "
             "variants 1, 3 are worth at most 0.05 more than variant 2; that variant 2, which has 12 replicates, meets "
-            "SYS-024 (about 96 replicates). If trials go on as so far, some 250 trials more settle the decision; to "
+            "SYS-024 (about 96 replicates). If trials go on as so far, some 250 more trials settle the decision; to "
             f"go on where it stopped, type 'rgss sweep --project {folder} --budget 300', or raise until_decided.budget."
         )
     ]
     *_, budget, reserve = rgss("sweep", "--dry-run", "--project", folder).output.splitlines()
     assert budget.startswith("Then up to ")
     assert reserve == (
-        "Then up to 300 trials more while the probability of good selection is below 0.9 (until_decided.reserve)."
+        "Then up to 300 more trials while the probability of good selection is below 0.9 (until_decided.reserve)."
     )
     assert len(asked) == 2
 
@@ -189,7 +189,7 @@ def test_what_was_spent_of_the_reserve_is_said():
             },
             (
                 f"{UNPROVEN} that variant 2 keeps every requirement within the slack. If trials go on as so far, some "
-                "400 trials more settle the decision (up to 400 of a variant, more than the cap of 200); to go on "
+                "400 more trials settle the decision (up to 400 of a variant, more than the cap of 200); to go on "
                 "where it stopped, type 'rgss sweep --cap 400', or raise until_decided.cap."
             ),
         ),

@@ -70,7 +70,7 @@ def test_a_part_that_is_not_computed(analysed, part):
 
     assert any(said in line for line in lines)
     (line,) = [one for one in lines if one.startswith("Not computed: ")]
-    assert line == f"Not computed: {part.words}: the solver gave no answer. To mend it: ask for less."
+    assert line == f"Not computed: {part.words}: the solver gave no answer. Remedy: ask for less."
     assert line in section
     assert section[-1] == END
     assert len(set(whole) & set(lines)) > 0.5 * len(set(whole))
@@ -86,7 +86,7 @@ def test_what_is_not_computed_is_a_finding(monkeypatch, rgss, with_evidence, tmp
     report = rgss("report", "--no-film", "--out", tmp_path / "report.html", "--project", with_evidence)
     line = (
         "Not computed: regions of weights, acceptability and confidence, effects of the factors: the solver gave no "
-        "answer. To mend it: ask for less."
+        "answer. Remedy: ask for less."
     )
 
     assert (told.status, told.errors) == (1, "")

@@ -67,7 +67,7 @@ def test_the_page_has_its_parts_in_order(page):
     assert f"Variant {document['chosen']} has the highest value" in text
     assert re.search(r"^Closest limits: SYS-\d+ \(.+\) at .+ inside; SYS-\d+ ", text, re.MULTILINE)
     assert "All assumed costs together may be off by ±" in text
-    assert "Rank reversal: none, whichever variant is taken away." in text
+    assert "Rank reversal: none, whichever variant is removed." in text
 
 
 def test_the_page_says_what_the_document_says(page):
@@ -231,7 +231,10 @@ def test_a_file_without_a_place_for_the_section(rgss, with_evidence, tmp_path, c
     ("words", "message"),
     [
         (["--into", "README.md"], "rgss: --into needs --section (the section is what goes into the file)"),
-        (["--section", "--json"], "rgss: --section is of the study as it is (leave --what-if and --json away)"),
+        (
+            ["--section", "--json"],
+            "rgss: --section excludes --what-if and --json (omit them: the section shows the study itself)",
+        ),
     ],
 )
 def test_options_that_do_not_go_together(rgss, with_evidence, words, message):

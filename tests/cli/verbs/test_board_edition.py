@@ -23,7 +23,7 @@ def test_the_board_edition_names_the_choice_and_runs_nothing(with_evidence, tmp_
 def test_a_pdf_of_the_whole_report_is_refused(with_evidence, tmp_path, capsys):
     words = ["report", "--project", str(with_evidence), "--pdf", "--no-film", "--out", str(tmp_path / "a.html")]
     assert main(words) == 2
-    assert "--pdf is given without --board" in capsys.readouterr().err
+    assert "--pdf needs --board" in capsys.readouterr().err
 
 
 def test_a_pdf_without_a_browser_is_refused_before_anything_is_made(with_evidence, tmp_path, capsys, monkeypatch):

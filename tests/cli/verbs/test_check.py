@@ -223,7 +223,7 @@ def test_verdicts_are_recorded_and_then_stale(rgss, judged):
 
     told = rgss("measure", "--project", judged)
     assert "72 verdicts are stale, for this changed since they were made: requirement\n" in told.output
-    assert told.output.endswith("'rgss measure --record' judges anew by the evidence that is there.\n")
+    assert told.output.endswith("'rgss measure --record' gives verdicts by the stored evidence.\n")
     told = rgss("check", "--evidence", "--project", judged)
     assert told.status == 1
     assert "'SYS-024' has stale evidence for any of the 72 variants: the requirement has changed since" in told.output
@@ -275,7 +275,7 @@ def test_a_verdict_of_one_variant_says_why_it_is_stale(rgss, judged):
 def test_only_all_variants_are_recorded(rgss, judged):
     told = rgss("measure", "--record", "--variant", 7, "--project", judged)
 
-    assert (told.status, told.complaint) == (2, "rgss: --record is of all variants (leave --variant away)")
+    assert (told.status, told.complaint) == (2, "rgss: --record needs all variants (omit --variant)")
     assert not (judged / ".rgss" / "verdicts.json").exists()
 
 

@@ -111,7 +111,7 @@ def test_a_project_has_no_part_in_it(rgss):
     told = rgss("completion", "zsh", "--project", "x")
 
     assert told.status == 2
-    assert told.complaint == "rgss: --project has no part in completion (rgss completion zsh)"
+    assert told.complaint == "rgss: --project has no effect on completion (rgss completion zsh)"
 
 
 def test_without_the_package(rgss, monkeypatch):

@@ -156,7 +156,7 @@ def test_damaged_rows_are_told_line_by_line_and_mended(rgss, spoilt):
     assert ledger.endswith(": ledger trials: the 216 rows are not those that were put")
     assert summary == "3 damages; sound: 214 trials, 0 pieces, 0 inputs, 0 failures."
     assert advice == (
-        "To mend it: 'rgss evidence verify --mend' takes these rows away, and 'rgss sweep' makes them anew."
+        "To repair it: 'rgss evidence verify --mend' removes these rows, and 'rgss sweep' makes them again."
     )
     assert [each["what"] for each in rgss("evidence", "verify", "--json", "--project", spoilt).document["damages"]] == [
         "trial",
@@ -166,7 +166,7 @@ def test_damaged_rows_are_told_line_by_line_and_mended(rgss, spoilt):
 
     told = rgss("evidence", "verify", "--mend", "--project", spoilt)
     assert told.status == 1
-    assert told.output.splitlines()[-1] == "2 damaged rows taken away; 'rgss sweep' makes anew what was in them."
+    assert told.output.splitlines()[-1] == "2 damaged rows removed; 'rgss sweep' makes their contents again."
     assert rgss("evidence", "verify", "--project", spoilt).status == 0
     assert count(spoilt) == 214
 
@@ -184,11 +184,11 @@ def test_rows_that_were_deleted_are_told_by_every_command_until_they_are_mended(
     assert told.status == 1
     assert told.output.splitlines()[1:] == [
         "1 damage; sound: 215 trials, 0 pieces, 0 inputs, 0 failures.",
-        "To mend it: 'rgss evidence verify --mend' goes on with the rows that are there.",
+        "To repair it: 'rgss evidence verify --mend' keeps the rows that exist.",
     ]
     told = rgss("evidence", "verify", "--mend", "--project", spoilt)
     assert told.output.splitlines()[-1] == (
-        "The ledger is written anew for the rows that are there; 'rgss sweep' makes anew what it needs of others."
+        "The ledger is rewritten for the rows that exist; 'rgss sweep' makes the others again as needed."
     )
     assert rgss("evidence", "verify", "--project", spoilt).status == 0
     assert count(spoilt) == 215
@@ -214,7 +214,7 @@ def test_a_damaged_file_is_told_and_its_sound_rows_saved(rgss, spoilt):
     assert (told.status, told.errors) == (1, "")
     assert ": pages: " in told.output
     assert told.output.splitlines()[-1] == (
-        "To mend it: 'rgss evidence verify --mend' saves the sound rows in a new file."
+        "To repair it: 'rgss evidence verify --mend' saves the sound rows in a new file."
     )
     told = rgss("evidence", "verify", "--mend", "--json", "--project", spoilt)
     assert told.status == 1
@@ -304,7 +304,7 @@ def test_no_garbage(rgss, with_evidence):
     told = rgss("evidence", "gc", "--project", with_evidence)
 
     assert (told.status, told.errors) == (0, "")
-    assert told.output == "The studies name everything that is in the evidence; there is nothing to remove.\n"
+    assert told.output == "The studies name everything that is stored; there is nothing to remove.\n"
 
 
 def test_garbage_is_shown_and_removed_only_on_demand(rgss, spoilt):
@@ -319,7 +319,7 @@ def test_garbage_is_shown_and_removed_only_on_demand(rgss, spoilt):
         told = rgss("evidence", *words, "--project", spoilt)
         assert (told.status, told.errors) == (0, "")
         first, trials, inputs, failures, last = told.output.splitlines()
-        assert first == "No study of the project, as it and the code are now, names:"
+        assert first == "With the present inputs and code, no study of the project names:"
         assert trials == "  216 trials (216 contact) of 72 variants"
         assert (inputs, failures) == ("  1 set of inputs", "  1 failure of the run")
         assert last.endswith("'rgss evidence gc --apply' removes it.")

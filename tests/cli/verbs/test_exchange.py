@@ -101,7 +101,7 @@ def test_a_table_is_reported_applied_and_then_no_change(rgss, folder, table):
             {"measure": "t_none", "comparison": "<", "threshold": "1 s", "success": ""},
             "after the import: ",
         ),
-        ({"derived_from": "SYS-999"}, "SYS-002: derived_from: there is no element 'SYS-999'"),
+        ({"derived_from": "SYS-999"}, "SYS-002: derived_from: unknown element 'SYS-999'"),
         ({"status": "frozen"}, "SYS-002: status: 'frozen' is not one of"),
         ({"id": "SYS-001"}, "'SYS-001' is already in line"),
     ],
@@ -124,7 +124,7 @@ def test_a_file_of_strictdoc_is_taken_in_and_a_reqif_of_ours_takes_it_out_again(
     told = rgss("import", "reqif", strictdoc, "--project", folder, "--as", "system", *DEFAULTS, "--apply")
     assert told.status == 0
     assert "added system SUP-2" in told.output
-    assert "note: the attribute 'ReqIF.Name' is left aside" in told.output
+    assert "note: the attribute 'ReqIF.Name' is not imported" in told.output
     assert rgss("import", "reqif", strictdoc, "--project", folder).status == 0
     kept = rgss("import", "reqif", exports / "rgss.reqif", "--project", folder, "--apply")
     assert kept.output.splitlines()[-1] == (
@@ -244,8 +244,8 @@ def test_an_import_that_takes_nothing_says_why(rgss, untouched, exports, tmp_pat
     told = rgss("import", "reqif", path, "--project", untouched)
 
     assert (told.status, told.errors) == (1, "")
-    assert told.output.splitlines()[-1] == "Nothing of the file was taken: the notes above say why."
-    assert "left aside: they have no id or no text" in told.output
+    assert told.output.splitlines()[-1] == "Nothing of the file was imported: the notes above say why."
+    assert "not imported: they have no id or no text" in told.output
 
 
 def test_what_a_text_loses_is_a_finding(rgss, folder, exports, tmp_path):
@@ -259,6 +259,6 @@ def test_what_a_text_loses_is_a_finding(rgss, folder, exports, tmp_path):
     assert told.status == as_json.status == 1
     loss, last = told.output.splitlines()
     assert loss.startswith(f"{path}:")
-    assert loss.endswith("the attachment 'a.png' is left out [exchange.loss]")
+    assert loss.endswith("the attachment 'a.png' is omitted [exchange.loss]")
     assert last == "No changes."
-    assert [each["message"].endswith("'a.png' is left out") for each in as_json.document["losses"]] == [True]
+    assert [each["message"].endswith("'a.png' is omitted") for each in as_json.document["losses"]] == [True]

@@ -116,5 +116,5 @@ def test_a_project_that_is_there_is_none_to_make(rgss, tmp_path):
     told = rgss("init", "--project", tmp_path)
 
     assert told.status == 2
-    assert told.complaint == f"rgss: --project names a project that is there (rgss init {tmp_path})"
+    assert told.complaint == f"rgss: --project names an existing project (rgss init {tmp_path})"
     assert list(Path(tmp_path).iterdir()) == []

@@ -71,4 +71,4 @@ def test_a_study_without_a_workload(project, measured):
 def test_verdicts_of_one_case_are_not_recorded(rgss, folder):
     told = rgss("measure", "--case", "cup", "--record", "--project", folder)
     assert (told.status, told.output) == (2, "")
-    assert "--record is of all trials" in told.errors
+    assert "--record needs all trials" in told.errors

@@ -206,8 +206,8 @@ def test_a_damaged_baseline_is_not_replaced_unseen(rgss, with_baseline):
     [
         (("--jobs", "0"), "rgss: --jobs must be at least 1 (omit it for one process a core)"),
         (("--reason", "x"), "rgss: --reason needs --update (without it nothing is changed)"),
-        (("--update",), "rgss: --update needs a reason (say with --reason why the numbers may move)"),
-        (("--update", "--reason", " "), "rgss: --update needs a reason (say with --reason why the numbers may move)"),
+        (("--update",), "rgss: --update needs a reason (state with --reason why the numbers change)"),
+        (("--update", "--reason", " "), "rgss: --update needs a reason (state with --reason why the numbers change)"),
         (
             ("--update", "--reason", "x", "--junit", "j"),
             "rgss: --update and --junit exclude each other (compare in a run of its own)",
@@ -218,7 +218,7 @@ def test_a_damaged_baseline_is_not_replaced_unseen(rgss, with_baseline):
         ),
         (
             ("--accept-change", " "),
-            "rgss: --accept-change needs a reason (say why behaviour may change)",
+            "rgss: --accept-change needs a reason (state why behaviour changes)",
         ),
         (
             ("--update", "--reason", "x", "--accept-change", "y"),

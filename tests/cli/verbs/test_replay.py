@@ -111,7 +111,7 @@ def test_another_result_is_a_finding_that_says_what_changed(capsys, folder):
     edit(folder, "designs/grasping_system.yaml", "d4: 0.04 m/s", "d4: 0.05 m/s")
     assert replay(folder, TRIAL) == 1
     lines = capsys.readouterr().out.splitlines()
-    assert lines[1] == "  other inputs than then: execution, trial"
+    assert lines[1] == "  changed inputs: execution, trial"
     assert lines[2] == "7 values differ:"
     assert lines[3].split() == ["value", "then", "now"]
     assert lines[5].split()[0] == "phases[grasp].duration_s"
@@ -137,7 +137,7 @@ def test_of_many_differences_the_first_are_shown(capsys, folder):
     edit(folder, "designs/grasping_system.yaml", "d4: 0.04 m/s", "d4: 0.05 m/s")
     assert replay(folder, TRIAL) == 1
     lines = capsys.readouterr().out.splitlines()
-    assert lines[1] == "  other inputs than then: timing, execution, trial"
+    assert lines[1] == "  changed inputs: timing, execution, trial"
     count = int(lines[2].split()[0])
     assert count > 12
     assert lines[-1] == f"… and {count - 12} more (--json shows them)"

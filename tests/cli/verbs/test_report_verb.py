@@ -200,7 +200,7 @@ def test_too_little_evidence_names_the_sweep_that_is_missing(with_evidence, tmp_
         ),
         (("--film-size", "9x9"), "--film-size: 9x9 is out of range (give from 200 to 2000 pixels each way)"),
         (("--film-rate", "99"), "--film-rate: 99 is out of range (give from 1 to 50)"),
-        (("--no-film", "--film-rate", "5"), "--film-rate is given with --no-film (leave one of them away)"),
+        (("--no-film", "--film-rate", "5"), "--film-rate is given with --no-film (omit one of them)"),
     ],
 )
 def test_a_film_that_cannot_be_is_told_before_anything_is_done(with_evidence, tmp_path, rgss, options, problem):
@@ -266,8 +266,8 @@ def test_an_infeasible_study_leads_with_what_conflicts_and_what_mends_it(infeasi
         text.index(words)
         for words in (
             "none meets every requirement by its estimates",
-            "What cannot be met together",
-            "What would mend it",
+            "Requirements that cannot be met together",
+            "Repairs",
         )
     )
     assert headline < together < mend < text.index("All variants</h2>")
@@ -319,10 +319,10 @@ def test_what_cannot_be_filmed_is_said(side):
         project.with_fidelity("kinematic"), notable, look=report_pictures.SMALL
     )
     assert pictures == ()
-    assert notice == "Trials of kinematic fidelity have nothing to film; those with contact have."
+    assert notice == "Films need trials at contact fidelity; those of this study are kinematic."
     assert report_pictures.trial_pictures(project, [], look=report_pictures.SMALL) == (
         (),
-        "There are no trials to look at.",
+        "There are no trials to film.",
     )
 
 

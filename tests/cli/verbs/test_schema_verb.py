@@ -89,8 +89,8 @@ def test_a_broken_file_keeps_all_as_they_are(rgss, folder):
     ("words", "complaint"),
     [
         (["sceen"], "rgss schema: argument DOCUMENT: invalid choice: 'sceen' (did you mean 'scene'?)"),
-        (["--headers"], "rgss: --headers goes with --out and no DOCUMENT (rgss schema --out schemas --headers)"),
-        (["scene", "--out", "x", "--headers"], "rgss: --headers goes with --out and no DOCUMENT (rgss schema"),
+        (["--headers"], "rgss: --headers needs --out and no DOCUMENT (rgss schema --out schemas --headers)"),
+        (["scene", "--out", "x", "--headers"], "rgss: --headers needs --out and no DOCUMENT (rgss schema"),
         (["--project", "x"], "rgss: --project goes with --headers (omit it; schemas are alike in all projects)"),
         (["--out", "x", "--headers", "--project", "y"], "rgss: 'y' is not a project: it has no folder requirements/"),
         (["--out", "a\0b"], "rgss: cannot write 'a\\x00b': "),

@@ -199,7 +199,7 @@ def test_results_of_tests_decide(rgss, folder, tmp_path):
     [
         (["SYS-999"], "'SYS-999' is not an id of the requirements, the architecture, the measures"),
         (["--impact"], "--impact needs an id (rgss trace SYS-004 --impact)"),
-        (["SYS-004", "--gaps"], "--gaps does not go with an id (leave one of them away)"),
+        (["SYS-004", "--gaps"], "--gaps does not go with an id (omit one of them)"),
         (["SYS-004", "--table", "gaps"], "--table does not go with an id"),
         (["SYS-004", "--diagrams", "x"], "--diagrams does not go with an id"),
         (["--json", "-o", "x.json"], "--json prints JSON (for a file use -o FILE.json"),
@@ -208,7 +208,7 @@ def test_results_of_tests_decide(rgss, folder, tmp_path):
         (["--format", "csv"], "a CSV file holds one table (choose one with --table (coverage, gaps,"),
         (["-o", "x.csv"], "a CSV file holds one table"),
         (["--format", "html", "--table", "gaps"], "--table does not go with html, which holds everything"),
-        (["-o", "x.yaml"], f"'x.yaml' does not end in {ENDINGS} (name the file so)"),
+        (["-o", "x.yaml"], f"'x.yaml' does not end in {ENDINGS} (use that suffix)"),
         (["-o", "x.html", "--format", "md"], "'x.html' does not end in .md"),
         (["-o", "x"], "no format is given for the folder 'x'"),
         (["-o", "no/such/x.html"], "'no/such/x.html' cannot be written: there is no folder no/such"),

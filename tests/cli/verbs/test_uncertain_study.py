@@ -75,5 +75,5 @@ def test_replay_of_a_trial_that_was_drawn_otherwise_says_so(rgss, uncertain):
     told = rgss("replay", "65/1", "--project", uncertain)
 
     assert told.status == 1
-    assert "other inputs than then: plan" in told.output
+    assert "changed inputs: plan" in told.output
     assert "0.003 then, 0.004 now" in told.output

@@ -101,6 +101,6 @@ def test_a_lack_of_memory_is_a_reason_and_a_mistake_is_not():
 
     assert parts.compute(Part.EFFECTS, hungry, 7) == 7
     (line,) = not_computed_lines(parts.missing)
-    assert line.startswith("Not computed: effects of the factors: it needs more memory than there is. To mend it: ")
+    assert line.startswith("Not computed: effects of the factors: it needs more memory than there is. Remedy: ")
     with pytest.raises(ZeroDivisionError):
         parts.compute(Part.COSTS, lambda: 1 // 0, 7)

@@ -254,5 +254,5 @@ def test_the_last_weights_have_no_proportions(shipped):
     with pytest.raises(DefinitionError, match=r"the other weights are 0 in all, so 0.5 cannot be shared in proportion"):
         suppose(only, ["weight.C_total=0.5"])
     assert suppose(only, ["weight.C_total=0.5", "weight.S=0.5"]).project.study.trade_off.weighting.weights["S"] == 0.5
-    with pytest.raises(DefinitionError, match=r"given sum to 0.5 \(give weights that sum to 1, or leave one out\)"):
+    with pytest.raises(DefinitionError, match=r"given sum to 0.5 \(give weights that sum to 1, or omit one\)"):
         suppose(shipped, [f"weight.{name}=0.1" for name in ("P_max", "C_total", "t_e", "t_p", "S")])

@@ -121,7 +121,7 @@ def test_demands_of_the_study(shipped, measured):
         ("chance:SYS-005.probability=120 %", "must be above 0 and at most 1, got 1.2"),
         ("tail:SYS-034=9 s", "unknown input 'tail:SYS-034'"),
         ("tail:SYS-033=9 kg", "tail:SYS-033.threshold"),
-        ("evidence:t_p=3", "demands that a measure is known and has no number"),
+        ("evidence:t_p=3", "requires that a measure is known, and has no threshold to suppose"),
         ("tail:SYS-033=9 s", None),
     ],
 )

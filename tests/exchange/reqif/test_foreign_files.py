@@ -45,8 +45,8 @@ def test_rich_text_keeps_its_meaning(text, read, tool):
     assert cell(foreign, "SYS-2") == "at 6 s and 10^3 N/m^2figure"
     line = text[: text.index(OLD)].count("\n") - 3
     assert [(loss.line, loss.severity.value, loss.message) for loss in foreign.losses] == [
-        (line, "warning", "SYS-2: ReqIF.Text: the attachment 'a.png' is left out"),
-        (line, "warning", "SYS-2: ReqIF.Text: the struck-out text '5' is left out"),
+        (line, "warning", "SYS-2: ReqIF.Text: the attachment 'a.png' is omitted"),
+        (line, "warning", "SYS-2: ReqIF.Text: the struck-out text '5' is omitted"),
     ]
 
 
@@ -63,7 +63,7 @@ def test_an_object_under_two_parents_is_reported(text, read):
 
     assert cell(foreign, "BLK-gripper", "parent") == "BLK-guest"
     assert [loss.message for loss in foreign.losses] == [
-        "BLK-gripper: it stands under 'BLK-guest' and under 'BLK-arm'; 'BLK-guest' is kept"
+        "BLK-gripper: it is under 'BLK-guest' and under 'BLK-arm'; 'BLK-guest' is kept"
     ]
 
 

@@ -149,18 +149,18 @@ def test_any_text_survives(text, tmp_path_factory):
 
 
 def test_a_file_of_strictdoc_is_imported(project, refused):
-    wishes = {"part": Part.SYSTEM, "defaults": DEFAULTS}
+    assumed = {"part": Part.SYSTEM, "defaults": DEFAULTS}
     foreign = read_reqif(STRICTDOC, part=Part.SYSTEM)
     assert foreign.notes == (
         (
-            "1 objects of type 'SECTION' are left aside: "
+            "1 objects of type 'SECTION' are not imported: "
             "they have no id or no text among their attributes 'ReqIF.ChapterName'"
         ),
-        "1 objects of type 'TEXT' are left aside: they have no id or no text among their attributes 'ReqIF.Text'",
-        "the attribute 'ReqIF.Name' is left aside: there is none of that name here",
+        "1 objects of type 'TEXT' are not imported: they have no id or no text among their attributes 'ReqIF.Text'",
+        "the attribute 'ReqIF.Name' is not imported: rgss has none of that name",
     )
-    assert {change.kind for change in project.compare(foreign, **wishes)} == {ChangeKind.ADDED}
-    project.apply(foreign, **wishes)
+    assert {change.kind for change in project.compare(foreign, **assumed)} == {ChangeKind.ADDED}
+    project.apply(foreign, **assumed)
     first, second = (project.requirements.requirement(name) for name in ("SUP-1", "SUP-2"))
     assert first.text == "The gripper shall close its fingers within 2 s\nat a load of <b>0.5 kg</b> & more."
     assert (first.group.value, first.status.value, first.owner) == ("gripper", "draft", "gripper engineer")
@@ -178,12 +178,12 @@ def test_what_a_foreign_file_leaves_open_is_asked_for(project, refused):
         for name in ("owner", "priority", "source")
     ]
     lines = refused(project.compare, read_reqif(STRICTDOC))
-    assert "it is not said what the new element 'SUP-1' is (give --as stakeholder or --as system)" in lines[0]
+    assert "the new element 'SUP-1' has no part (give --as stakeholder or --as system)" in lines[0]
 
 
 def test_relations_between_what_cannot_be_linked_are_told(project):
     foreign = read_reqif(STRICTDOC, part=Part.STAKEHOLDER)
-    assert foreign.notes[-1].startswith("1 relations of type 'Parent' are left aside")
+    assert foreign.notes[-1].startswith("1 relations of type 'Parent' are not imported")
 
 
 def test_layout_of_another_tool_becomes_lines(exported, as_xml, project):
@@ -260,8 +260,8 @@ def test_xml_that_is_refused_or_no_reqif_is_one_line_each(as_xml, refused, text,
         ("<SPEC-OBJECT-TYPE-REF>", "<SPEC-OBJECT-TYPE-REF>_", "the SPEC-OBJECT-TYPE-REF '__"),
         ("<ENUM-VALUE-REF>", "<ENUM-VALUE-REF>_", "is XML, but not ReqIF that can be read"),
         ("<ATTRIBUTE-DEFINITION-XHTML-REF>", "<ATTRIBUTE-DEFINITION-XHTML-REF>_", "but not ReqIF that can be read"),
-        ("<SOURCE>\n<SPEC-OBJECT-REF>", "<SOURCE>\n<SPEC-OBJECT-REF>_", "which is not there"),
-        ("<SPEC-RELATION-TYPE-REF>", "<SPEC-RELATION-TYPE-REF>_", "which is not there"),
+        ("<SOURCE>\n<SPEC-OBJECT-REF>", "<SOURCE>\n<SPEC-OBJECT-REF>_", "which does not exist"),
+        ("<SPEC-RELATION-TYPE-REF>", "<SPEC-RELATION-TYPE-REF>_", "which does not exist"),
         (
             "<OBJECT>\n<SPEC-OBJECT-REF>",
             "<OBJECT>\n<SPEC-OBJECT-REF>_",

@@ -115,7 +115,7 @@ def test_numbers_truth_values_and_other_sheets_of_a_workbook(project, written):
         book.create_sheet("notes")["A1"] = "mine"
 
     foreign = read_excel(changed_book(written / "t.xlsx", change))
-    assert foreign.notes == ("the sheet 'notes' is left aside",)
+    assert foreign.notes == ("the sheet 'notes' is not imported",)
     (found,) = project.compare(foreign)
     assert [(each.attribute.name, each.old, each.new) for each in found.attributes] == [("threshold", "25 s", "25")]
 
@@ -141,8 +141,8 @@ def test_markup_stays_text(project, written):
         (b"system,SYS-2,,gripper", b"system,SYS-2,design,gripper", "SYS-2: a system requirement has no 'kind'"),
         (b"system,SYS-2,,gripper", b"system,SYS-2,gripper", "24 cells are expected, 23 found"),
         (b"SYS-2", b"", "an element without an id"),
-        (b"BLK-arm; SEQ-lift", b"BLK-leg", "SYS-1: satisfied_by: there is no element 'BLK-leg'"),
-        (b",SYS-1,The gripper", b",SYS-9,The gripper", "SYS-2: parent: there is no element 'SYS-9'"),
+        (b"BLK-arm; SEQ-lift", b"BLK-leg", "SYS-1: satisfied_by: unknown element 'BLK-leg'"),
+        (b",SYS-1,The gripper", b",SYS-9,The gripper", "SYS-2: parent: unknown element 'SYS-9'"),
         (b"25 s,", b"fast,", "SYS-1: threshold: "),
         (b"<=", b"~", "SYS-1: comparison: '~' is not one of"),
         (b"Simulation", b"Simu\x07lation", "SYS-1: facility: a control character is not text"),
@@ -236,7 +236,7 @@ def test_columns_that_are_too_many_are_named(project, tmp_path, refused):
     text = csv_text(project.content)
     (tmp_path / "t.csv").write_text(text.replace("\r\n", ",text,mine\r\n", 1), encoding="utf-8", newline="")
     twice, unknown = refused(read_csv, tmp_path / "t.csv")
-    assert "column 'text' stands twice (keep one) [exchange.column]" in twice
+    assert "duplicate column 'text' (keep one) [exchange.column]" in twice
     assert "unknown column 'mine' (columns: part, id, " in unknown
 
 

@@ -105,7 +105,7 @@ def test_what_would_change_it():
     assert shown["changes"] == ["the weight of time of nearly 0: then variants 1–3"]
     free = [{"measure": "time", "weight": 0.4, "low": 0.0, "high": 1.0, "below": [], "above": []}]
     shown = first_screen_content(changed(modelling={"rows": []}, weight_ranges=free))
-    assert shown["changes"] == ["no single weight: each may be anything, the others in proportion"]
+    assert shown["changes"] == ["no single weight: each can have any value, with the others in proportion"]
     assert first_screen_content(changed(modelling={"rows": []}, weight_ranges=[]))["changes"] == []
 
 

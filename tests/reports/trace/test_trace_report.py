@@ -135,9 +135,9 @@ def test_an_impact_as_a_table(model, story):
     rows = impact_table(impact_of(model, story.evidence(), "SYS-2")).rows
 
     assert rows == [
-        ("stakeholder requirement to hold it against", "STK-1", ""),
+        ("stakeholder requirement to compare with", "STK-1", ""),
         ("block or behaviour", "BLK-finger", ""),
-        ("verdict to reach anew", "SYS-2", "met"),
+        ("verdict to renew", "SYS-2", "met"),
         ("test to run again", "tests/test_gripper.py::test_it_opens[fast]", ""),
     ]
 
@@ -189,7 +189,7 @@ def test_the_lines_of_a_chain_and_of_an_impact(model, story):
     assert chain[0] == "SYS-1 (system requirement) [met by variant 7; asked for: P >= 800 g]"
     assert "  is decided by P [0.865 kg (0.86 to 0.87), 2 trials]" in chain
     assert f"    is observed in {story.KEYS[1][:12]}: variant 7, seed 1, contact: success" in "\n".join(chain)
-    assert impact[0] == "What a change to SYS-1 (system requirement) touches"
+    assert impact[0] == "Impact of a change to SYS-1 (system requirement)"
     assert "  SYS-1 (met, 3 variants), SYS-2 (met), SYS-3 (not run)" in impact
 
 

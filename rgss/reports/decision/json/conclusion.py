@@ -9,7 +9,7 @@ Plain = dict[str, object]
 
 
 def conclusion_to_json(made: StudyDecision) -> Plain:
-    """Turn what the verdicts and the posterior draws show into plain values.
+    """Conclusion from the verdicts and the posterior draws as plain values.
 
     Args:
         made: The decision.

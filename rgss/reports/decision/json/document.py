@@ -16,7 +16,7 @@ from rgss.reports.failure_drivers import cases_to_json, drivers_to_json
 from rgss.tradeoff import PortfolioDecision
 
 SCHEMA = 3
-"""Rises when a key goes or changes its meaning; new keys do not count."""
+"""Version of the schema; it rises when a key is removed or changes its meaning, not for new keys."""
 
 
 def trade_document(made: StudyDecision) -> dict[str, Any]:

@@ -34,7 +34,7 @@ def robustness_to_json(found: Robustness) -> Plain:
 
     Returns:
         A document that `json.dumps` takes as it is, even with ``allow_nan=False``. Alternatives go
-        by their variants' ids; what has no end is None.
+        by their variants' ids; an unbounded end is None.
     """
     return {
         "weights": dict(zip(found.measures, found.weights.tolist(), strict=True)),
@@ -55,7 +55,7 @@ def robustness_to_json(found: Robustness) -> Plain:
 
 
 def not_computed_to_json(found: Robustness) -> Plain:
-    """Why each part that is missing was not computed, by its place in the document: a part of `robustness_to_json`."""
+    """Reasons of the parts that were not computed, by their place in the document: a part of `robustness_to_json`."""
     return {part.value: {"reason": why.reason, "remedy": why.remedy} for part, why in found.not_computed.items()}
 
 

@@ -26,7 +26,7 @@ def assumption_lines(found: RobustnessFindings) -> Iterator[str]:
         titles = ["assumption", "is", "stays best from", "to", "below wins", "above wins"]
         yield from aligned_table(titles, [_row(found, one) for one in found.decisive], right=(1, 2, 3))
     if found.harmless:
-        yield f"Alone, none of these changes the choice, however far it is followed: {', '.join(found.harmless)}."
+        yield f"None of these alone changes the choice, however far it moves: {', '.join(found.harmless)}."
     if found.simulated:
         yield f"The trials were simulated with {', '.join(found.simulated)}; what they showed is held."
     yield from _costs(found)
@@ -38,7 +38,7 @@ def _row(found: RobustnessFindings, one: AssumptionFinding) -> list[str]:
     if span is None:
         return [*cells, *[UNKNOWN] * 4]
     about = "" if span.exact else "≈ "
-    # Where nothing changed as far as a scan went, the end of the scan is not an end of the range.
+    # If nothing changed up to the end of the scan, that end is not a bound of the range.
     low = amount(span.lowest, unit) if span.exact else f"≤ {amount(span.lowest, unit)}"
     high = "∞" if math.isinf(span.highest) else f"≥ {amount(span.highest, unit)}"
     return [

@@ -1,4 +1,4 @@
-"""Conflicts of requirements that leave nothing to choose, and the cheapest repairs, for a terminal."""
+"""Conflicts of requirements of an infeasible decision, and the cheapest repairs, for a terminal."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ MOST_LISTED = 6
 
 
 def conflict_lines(decision: Decision) -> Iterator[str]:
-    """Lines on what each requirement excludes, on conflicts between requirements, and on the cheapest repairs.
+    """Lines on the variants that each requirement excludes, on conflicts, and on the cheapest repairs.
 
     Args:
-        decision: A decision by which nothing is chosen.
+        decision: A decision without a choice.
     """
     yield "No variant meets every requirement."
     conflicts = decision.conflicts
@@ -57,7 +57,7 @@ def _minimal(conflicts: Conflicts) -> Iterator[str]:
 
 
 def _joint_repairs(conflicts: Conflicts) -> Iterator[str]:
-    """Limits that have to move together, where no requirement alone is enough."""
+    """Limits that have to move together, if no requirement alone is enough."""
     joint = [repair for repair in conflicts.joint_repairs if len(repair.requirements) > 1]
     if not joint:
         return

@@ -15,7 +15,7 @@ from rgss.tradeoff.robustness import Acceptability, Support
 from rgss.tradeoff.weights import Drawing
 
 LEAST_SHOWN = 0.005
-"""Variants that are first in a smaller share of the draws are left to --json."""
+"""Least share of draws in which a shown variant is first; --json has the others."""
 
 MOST_GROUPS = 10
 

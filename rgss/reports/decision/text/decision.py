@@ -16,7 +16,7 @@ from rgss.tradeoff.programs import Certificate
 
 
 def choice_lines(made: StudyDecision) -> Iterator[str]:
-    """The chosen variant beside the runner-up, with reasons; or the conflicts that leave nothing to choose.
+    """The chosen variant beside the runner-up, with reasons; or the conflicts of an infeasible decision.
 
     Args:
         made: The decision.
@@ -38,7 +38,7 @@ def choice_lines(made: StudyDecision) -> Iterator[str]:
 
 
 def certificate_lines(certificate: Certificate) -> Iterator[str]:
-    """The certificate, and the checks that disagree or are by another solver.
+    """Lines on the certificate, and on checks that disagree or are by another solver.
 
     Args:
         certificate: The certificate of the decision.

@@ -10,7 +10,7 @@ from rgss.trace.views import share_in_words, value_in_words
 from rgss.tradeoff.robustness import Effect
 
 LEAST_INTERACTION = 0.005
-"""Interactions with a smaller share are left to --json."""
+"""Least share of a shown interaction; --json has the others."""
 
 
 def effects_lines(effects: Iterable[MeasureEffects]) -> Iterator[str]:
@@ -56,7 +56,7 @@ def _sampled(title: str, one: MeasureEffects) -> Iterator[str]:
     yield f"{title}: {one.designs} designs of a sample"
     rows = []
     for factor, index in one.sampled.items():
-        # Shares below 0 come from chance.
+        # An estimated share below 0 is sampling noise.
         share, low, high = (share_in_words(max(0.0, each)) for each in (index.share, index.low, index.high))
         rows.append([factor, share, f"{low} – {high}"])
     yield from aligned_table(["factor", "share alone", "interval of 95 %"], rows, right=(1,))

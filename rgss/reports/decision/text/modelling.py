@@ -11,7 +11,7 @@ from rgss.reports.plain_text import aligned_table
 
 
 def modelling_lines(made: StudyDecision) -> Iterator[str]:
-    """The table and what it says.
+    """Lines of the table and its summary.
 
     Args:
         made: The decision.
@@ -22,7 +22,7 @@ def modelling_lines(made: StudyDecision) -> Iterator[str]:
 
 
 def drivers_lines(made: StudyDecision) -> Iterator[str]:
-    """Lines on the draws that go with failures, and the success of each case; none where nothing was drawn.
+    """Lines on the drivers of failures, and the success of each case; empty if nothing was drawn.
 
     Args:
         made: The decision.

@@ -22,7 +22,7 @@ def decision_lines(made: StudyDecision, *, effects: bool = False) -> Iterator[st
 
     Args:
         made: The decision.
-        effects: Whether the effects of each level on the measures of effectiveness are shown too.
+        effects: True to show the effects of each level on the measures of effectiveness too.
     """
     yield from (f"Study {made.study}: {made.variants} variants, {made.trials} trials", *seeds_sentences(made.seeds), "")
     if made.what_if is not None:

@@ -1,4 +1,4 @@
-"""Runners-up, and what would change the decision, for a terminal."""
+"""Closest rivals, and what would change the decision, for a terminal."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def _reversals(found: RobustnessFindings) -> str:
     if analysis.reversals:
         removed = variants_text(found.variants(tuple(one.removed for one in analysis.reversals)))
         return f"Rank reversal: the order of the others changes without {removed}."
-    none = "Rank reversal: none, whichever variant is taken away."
+    none = "Rank reversal: none, whichever variant is removed."
     if found.is_missing(Part.STRETCHED):
         return f"{none} Of values stretched over the sample it was not computed."
     count = len(analysis.stretched)

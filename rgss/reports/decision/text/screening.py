@@ -8,7 +8,7 @@ from rgss.decision import ScreenedVariant, ScreeningResult
 
 
 def screening_lines(result: ScreeningResult) -> list[str]:
-    """Number of designs that go on, and the reason for each that does not.
+    """Number of promoted designs, and the reason for each other one.
 
     Args:
         result: The outcome of screening.
@@ -34,7 +34,7 @@ def reopened_lines(variants: Sequence[int]) -> list[str]:
         return []
     ids = ", ".join(map(str, variants))
     text = f"  would go on under these suppositions, and is in no comparison above: {ids}"
-    return [f"{text} (change the study's file so, and run 'rgss sweep')"]
+    return [f"{text} (make that change in the study's file and run 'rgss sweep')"]
 
 
 def _by_reason(variants: Sequence[ScreenedVariant]) -> Mapping[str, list[int]]:

@@ -10,14 +10,14 @@ from rgss.reports.plain_text import aligned_table
 
 PAGE_WIDTH = 80
 MOST_BARS = 15
-"""So many inputs are drawn; the others are left to --json."""
+"""Most inputs that are drawn; --json has the others."""
 
 _NARROWEST, _WIDEST = 16, 40
 _LOW, _HIGH, _BASE, _ZERO, _MISSED, _TO_MISSED = "▒", "█", "│", "┊", "✕", "─"
 
 
 def tornado_lines(tornado: Tornado) -> Iterator[str]:
-    """The bars, what they mean, and where the choice changes.
+    """The bars, their legend, and the values at which the choice changes.
 
     Args:
         tornado: The sensitivity of a choice.
@@ -60,7 +60,7 @@ def _bars(tornado: Tornado, bars: tuple[TornadoBar, ...]) -> Iterator[str]:
 
 
 class _Scale:
-    """Places leads in a line of characters."""
+    """Scale that maps leads to columns of characters."""
 
     def __init__(self, *, least: float, most: float, width: int) -> None:
         self._least, self._span, self._width = least, (most - least) or 1.0, width

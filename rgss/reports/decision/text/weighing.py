@@ -1,4 +1,4 @@
-"""Weights from pairwise answers, and the questions to ask, for a terminal."""
+"""Weights from pairwise answers, and the questionnaire, for a terminal."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ def weighing_lines(
         study: The study's id.
         elicited: The groups whose weights follow from answers.
         by: Those of stakeholders, by name.
-        stated: The weights where none follow from answers; None where some do.
+        stated: The weights if none follow from answers; None if some do.
     """
     if stated is not None:
-        yield f"Study {study} states its weights; 'rgss weigh --questions' prints what to ask instead."
+        yield f"Study {study} states its weights; 'rgss weigh --questions' prints questions to answer instead."
         yield from aligned_table(
             ["measure", "weight"], [[name, f"{weight:.3f}"] for name, weight in stated.items()], right=(1,)
         )

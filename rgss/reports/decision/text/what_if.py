@@ -11,7 +11,7 @@ from rgss.trace.views import value_in_words
 
 
 def what_if_lines(what_if: WhatIf) -> Iterator[str]:
-    """The suppositions, what follows from them, and the decision before and after.
+    """Lines on the suppositions, their consequences, and the decision before and after.
 
     Args:
         what_if: The effect of suppositions.

@@ -68,7 +68,7 @@
       }
       version = state.version;
     } catch {
-      put("notice", "The server does not answer; what is shown is its last answer. Start 'rgss serve' again.");
+      put("notice", "The server does not answer; its last answer is shown. Start 'rgss serve' again.");
     }
     setTimeout(look, PERIOD_MS);
   };

@@ -20,7 +20,7 @@
       shown += row.hidden ? 0 : 1;
     }
     const filtered = words.length > 0 || gaps;
-    // What fits is shown, also where it was folded.
+    // Matching rows are shown, also within folded sections.
     if (filtered) for (const fold of all("details.fold:not([open])")) fold.open = all("[data-row]", fold).some((row) => !row.hidden);
     count.textContent = filtered ? `${shown} of ${rows.length} rows and diagrams` : "";
     for (const none of all("[data-none]")) {
@@ -45,7 +45,7 @@
     // A link to a row that the filter hides shows it again.
     const reveal = () => {
       let name = "";
-      try { name = decodeURIComponent(location.hash.slice(1)); } catch { /* an address that names nothing */ }
+      try { name = decodeURIComponent(location.hash.slice(1)); } catch { /* an invalid fragment */ }
       const target = document.getElementById(name);
       const row = target && target.closest("[data-row]");
       if (row && row.hidden) {
@@ -59,9 +59,9 @@
     filter();
   }
 
-  // ------------------------- what is scrolled to must not end below sticky heads
+  // ------------------------- scroll targets must not end below sticky heads
   const makeRoom = () => {
-    // All are measured before any is changed, so that the page is laid out once.
+    // All sizes are read before any is changed, so that the page is laid out once.
     const rooms = all(".scroll").map((box) => {
       const table = box.querySelector("table");
       const first = table.classList.contains("matrix") ? table.tBodies[0].querySelector("th") : null;

@@ -9,7 +9,7 @@ const replayPlots = (() => {
     return one;
   };
 
-  // A step of 1, 2 or 5 times a power of ten that divides a range into about `count`.
+  // Tick step: 1, 2 or 5 times a power of ten that divides a range into about `count`.
   const roundStep = (range, count) => {
     const raw = range / count, power = 10 ** Math.floor(Math.log10(raw));
     return power * [1, 2, 5, 10].find((factor) => factor * power >= raw * 0.999);
@@ -41,7 +41,7 @@ const replayPlots = (() => {
 
     draw() {
       const { timelines, end } = this;
-      // Drawn for the width that there is, so that letters keep their size.
+      // Drawn for the available width, so that the text keeps its size.
       this.width = Math.max(280, Math.round(this.svg.getBoundingClientRect().width) || 640);
       this.svg.setAttribute("viewBox", `0 0 ${this.width} ${HEIGHT}`);
       this.scale();

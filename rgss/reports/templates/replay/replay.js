@@ -1,5 +1,5 @@
 "use strict";
-// The player of a replay: play, pause, scrub, speed, chapters, what is shown, the viewpoint; by mouse, touch and keys.
+// Player of a replay: play, pause, scrub, speed, chapters, layers, viewpoint; by mouse, touch and keys.
 const replays = (() => {
   const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
   const SHOWN = [["forces", "Contact forces"], ["path", "Planned path"], ["graph", "Planner's tree"], ["perceived", "Perceived pose"]];
@@ -95,7 +95,7 @@ const replays = (() => {
     drawPlots() {
       this.plotPlace.replaceChildren();
       this.plots = this.timelines[0].plots.map((_, index) => new replayPlots.Plot(this.plotPlace, this.timelines, index, this.end, (time) => this.seek(time)));
-      // Their width is known when all have their places.
+      // Their width is known after layout.
       for (const plot of this.plots) plot.draw();
       let width = this.plotPlace.clientWidth;
       if (this.watch) return;

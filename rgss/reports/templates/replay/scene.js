@@ -37,7 +37,7 @@ const replayScene = (() => {
     return low;
   };
 
-  // The index of the phase that runs at a time, of the last one after the end; -1 without motion.
+  // The index of the phase at a time, the last one after the end; -1 without motion.
   const phaseAt = (phases, time) => phases.reduce((found, one, place) => one.start_s !== null && time >= one.start_s - 1e-9 ? place : found, -1);
 
   class Trial {
@@ -103,7 +103,7 @@ const replayScene = (() => {
     }
 
     showLines() {
-      // Of the graphs that of the current phase alone: all at once hide the robot.
+      // Only the planner's tree of the current phase is shown: all at once hide the robot.
       for (const line of this.kinds.path) { line.visible = this.showsPath !== false; line.userData.tube.opacity = line.userData.current ? 1 : 0.3; }
       for (const line of this.kinds.graph) line.visible = this.showsGraph !== false && line.userData.current;
     }
@@ -115,7 +115,7 @@ const replayScene = (() => {
       if (what === "perceived") for (const node of this.kinds.perceived) node.visible = on;
     }
 
-    // Transparent, and without the fixed bodies: what another trial is compared with.
+    // The ghost of the second trial: transparent, and without the fixed bodies.
     beGhost(on) {
       for (const node of this.kinds.body) node.visible = !on;
       for (const kind of ["link", "object"]) for (const top of this.kinds[kind]) top.traverse((node) => {
@@ -221,7 +221,7 @@ const replayScene = (() => {
       const target = follows ? first.placeOf(first.hand) : first.world.localToWorld(new three.Vector3(...first.timeline.middle_m));
       const towards = new three.Vector3(Math.cos(rise) * Math.cos(turn), Math.cos(rise) * Math.sin(turn), Math.sin(rise));
       const turned = towards.applyQuaternion(first.world.getWorldQuaternion(new three.Quaternion()));
-      // A narrow picture is taken from farther away, so that it shows as much from left to right.
+      // In a narrow picture the camera is farther away, so that the width of the scene fits.
       const narrow = Math.max(1, (follows ? 1 : 1.5) / this.camera.aspect);
       this.camera.position.copy(target).addScaledVector(turned, distance * narrow);
       this.controls.target.copy(target);

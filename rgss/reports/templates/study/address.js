@@ -1,16 +1,16 @@
-// ------------------------- filters, weights and choices in the address, so that a view can be sent
+// ------------------------- filters, weights and choices in the URL, so that a view can be shared
 const addressNow = () => {
   const [, anchor, query] = /^#?([^?]*)\??(.*)$/s.exec(location.hash);
   return { anchor, query: new URLSearchParams(query), sent: query !== "" };
 };
-// Each part of a view writes what differs from how the page opens, and reads it; what is absent is as it opens.
+// Each part of a view writes its differences from the initial state into the URL, and reads them from it.
 const views = [];
 const inAddress = (write, read) => views.push({ write, read });
 let writing = 0, reading = false;
 const tellAddress = () => {
   if (reading) return;
   clearTimeout(writing);
-  // A browser allows some hundred changes of an address in half a minute.
+  // A browser allows about a hundred changes of the URL in half a minute.
   writing = setTimeout(() => {
     const query = new URLSearchParams();
     for (const { write } of views) write(query);

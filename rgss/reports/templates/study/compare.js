@@ -1,4 +1,4 @@
-// ------------------------------ variants side by side, and how the measures are distributed
+// ------------------------------ variants side by side, and distributions of the measures
 const MOST_COMPARED = 12;
 
 const startCompare = () => {
@@ -36,7 +36,7 @@ const startCompare = () => {
   const draw = () => {
     const places = compared();
     const lacking = wanted().filter((text) => !placeOf.has(Number(text)));
-    note.textContent = lacking.length ? `There is no variant ${lacking.join(", ")} here.` : places.length < 2 ? "Name two variants or more." : wanted().length > MOST_COMPARED ? `The first ${MOST_COMPARED} are shown.` : "★ is the best of these, where they differ.";
+    note.textContent = lacking.length ? `Unknown variant ${lacking.join(", ")}.` : places.length < 2 ? "Name two variants or more." : wanted().length > MOST_COMPARED ? `The first ${MOST_COMPARED} are shown.` : "★ is the best of these, where they differ.";
     if (!places.length) { host.replaceChildren(); return; }
     specification = {
       label: "Variants side by side", size: 200,
@@ -68,7 +68,7 @@ const startDistributions = () => {
   const by = byId("distribution-by");
   const level = (one) => (place) => show(at(one.values, place), one.unit);
   const groupings = new Map([["", () => "shown variants"], ["stands", (place) => KINDS[kindOf[place]].name], ...varying.filter((one) => new Set(one.values).size <= 8).map((one) => [one.id, level(one)])]);
-  options(by, [["", "nothing"], ["stands", "how they stand"], ...varying.filter((one) => groupings.has(one.id)).map((one) => [one.id, one.name])]);
+  options(by, [["", "nothing"], ["stands", "role in the decision"], ...varying.filter((one) => groupings.has(one.id)).map((one) => [one.id, one.name])]);
   const rows = () => {
     const groupOf = groupings.get(by.value);
     const groups = new Map();
@@ -93,7 +93,7 @@ const startDistributions = () => {
     const traces = [];
     measures.forEach((measure, index) => {
       const number = index === 0 ? "" : String(index + 1), from = 1 - each * (index + 1);
-      // Each measure has its own scale, with its name and its better end below it.
+      // Each measure has its own scale, with its name and its preferred direction below it.
       layout[`xaxis${number}`] = { anchor: `y${number}`, title: { text: plotText(withBetter(measure)), standoff: 4, font: { size: 12 } }, automargin: false };
       layout[`yaxis${number}`] = { anchor: `x${number}`, domain: [from + each * 0.5, from + each * 0.98], showticklabels: false, type: "category", automargin: false };
       for (const row of found.filter((one) => one.measure === measure)) {
@@ -113,7 +113,7 @@ const startDistributions = () => {
     label: "Distributions of the measures over the shown variants",
     columns: [{ head: "measure", cell: (row) => withUnit(row.measure.id, row.measure.unit) }, { head: "of", cell: (row) => row.name }, { head: "variants", number: true, cell: (row) => String(row.values.length) },
       ...[["least", 0], ["quarter", 0.25], ["median", 0.5], ["three quarters", 0.75], ["most", 1]].map(([head, share]) => ({ head, number: true, cell: (row) => show(quantile(row.values, share)) }))],
-    rows, source: "Counted here over the estimates of the shown variants, which their evidence shows.",
+    rows, source: "Computed here from the estimates of the shown variants; their evidence is below.",
   });
   by.addEventListener("change", () => { redraw(); update(); });
   onShown(update);

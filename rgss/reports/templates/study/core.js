@@ -1,17 +1,17 @@
-// ------------------------------------------------- data, numbers, elements, what is shown
+// ------------------------------------------------- data, numbers, elements, selection
 const variants = data.variants;
 const total = variants.id.length;
 const byId = (id) => document.getElementById(id);
 
-// A column is a list with an entry for each variant, or one value that all share.
+// A column is a list with an entry for each variant, or a single value if all are equal.
 const at = (column, place) => (Array.isArray(column) ? column[place] : column);
 const known = (value) => value !== null && value !== undefined;
 const placeOf = new Map(variants.id.map((id, place) => [id, place]));
 const measureOf = new Map(data.measures.map((measure) => [measure.id, measure]));
 
-// How a variant stands, from what cannot be chosen to what is.
+// Roles of a variant in the decision, from infeasible to chosen.
 const INFEASIBLE = 0, FEASIBLE = 1, FRONT = 2, CHOSEN = 3;
-// Colours after Okabe and Ito; form, dashes and words say the same.
+// Colours by Okabe and Ito; shapes, dashes and labels repeat the information.
 const KINDS = [
   { name: "misses a requirement", colour: "#8a8a8a", symbol: "x-thin-open", dash: [5, 4], width: 1 },
   { name: "meets every requirement", colour: "#009e73", symbol: "circle-open", dash: [], width: 1 },
@@ -44,7 +44,7 @@ const estimate = (measure, place) => {
   return show(at(measure.value, place), measure.unit) + (spread ? ` (${spread})` : "");
 };
 
-// Texts go in as text, never as markup.
+// Texts are inserted as text nodes, never as markup.
 const element = (tag, attributes = {}, ...children) => {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -55,12 +55,12 @@ const element = (tag, attributes = {}, ...children) => {
   return made;
 };
 const variantLink = (id) => element("a", { href: `#variant-${id}` }, String(id));
-// The place where a figure of a variant stands with its evidence.
+// The anchor of a variant's figure with its evidence.
 const figureAddress = (id, name) => `#variant-${id}/${encodeURIComponent(name)}`;
 const options = (select, entries) => {
   select.replaceChildren(...entries.map(([value, text]) => element("option", { value }, text)));
 };
-// Plotly reads a little markup in texts.
+// Plotly interprets some markup in texts, which is escaped.
 const plotText = (text) => String(text).replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
 
 // ------------------------------------------------------------------ the brush
@@ -69,7 +69,7 @@ const shownMask = new Uint8Array(total).fill(1);
 let shownPlaces = Array.from(shownMask.keys());
 const watchers = [];
 const onShown = (watcher) => watchers.push(watcher);
-// Who is told when measures arrive that were not there to begin with.
+// Callbacks after the deferred measures are loaded.
 const arrivals = [];
 let waiting = false;
 const countShown = () => {

@@ -1,4 +1,4 @@
-// ---------------------------------------------- the document: as it is, or packed with gzip
+// ---------------------------------------------- the document: plain, or compressed with gzip
 (() => {
   const holder = document.getElementById("report-data");
   if (holder.type === "application/json") {
@@ -11,7 +11,7 @@
     for (let place = 0; place < signs.length; place += 1) bytes[place] = signs.charCodeAt(place);
     return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).json();
   };
-  // What no plot needs to begin with is unpacked once the page stands.
+  // Data that no initial plot needs is decompressed after the page is shown.
   const later = () => new Promise((tell) => {
     const whenIdle = window.requestIdleCallback ?? setTimeout;
     whenIdle(() => tell(unpacked(document.getElementById("report-later").textContent)));

@@ -13,7 +13,7 @@ const saveText = (name, type, text) => {
   save(name, href);
   setTimeout(() => URL.revokeObjectURL(href), 10000);
 };
-// A text that a spreadsheet would compute is kept a text.
+// A text that a spreadsheet would evaluate as a formula is kept a text.
 const csvCell = (value) => {
   if (typeof value === "number") return String(value);
   const text = String(value ?? "");
@@ -29,7 +29,7 @@ const csvOf = ({ columns, rows }) => {
   const lines = [columns.map((column) => csvCell(textOf(column.head))), ...rows().map((row) => columns.map((column) => csvCell(figure(column, row))))];
   return `${lines.map((line) => line.join(",")).join("\r\n")}\r\n`;
 };
-// A picture in SVG as one of points, twice as fine as a screen's.
+// An SVG picture rasterised at twice the resolution of a screen.
 const savePng = (name, svgAddress, width, height) => {
   const picture = new Image();
   picture.addEventListener("load", () => {
@@ -44,7 +44,7 @@ const savePng = (name, svgAddress, width, height) => {
 };
 const svgAddress = (text) => `data:image/svg+xml,${encodeURIComponent(text)}`;
 
-// ways: {svg() → a promise of [address, width, height], csv} for what is shown in the host.
+// ways: {svg() → a promise of [address, width, height], csv} for the content of the host.
 const downloadsFor = (host, id, { svg = null, csv = false }) => {
   const button = (text, act) => {
     const made = element("button", { type: "button", "aria-label": `Save ${id} as ${text}` }, text);
@@ -60,7 +60,7 @@ const downloadsFor = (host, id, { svg = null, csv = false }) => {
   host.after(bar);
 };
 
-// What draws on a canvas, written as SVG: only what the parallel coordinates use.
+// Canvas context that writes SVG: only the methods that the parallel coordinates use.
 const svgPen = (width, height) => {
   const marks = [];
   let path = "";
@@ -84,7 +84,7 @@ const svgPen = (width, height) => {
   };
 };
 
-// The tornado stands in the page as SVG; a file of it carries the colours that the page's style gives it.
+// The tornado is inline SVG; its file includes the colours of the page's style sheet.
 const startTornado = () => {
   const host = byId("tornado"), drawn = host?.querySelector("svg"), table = byId("tornado-table");
   if (!drawn || !table) return;

@@ -27,7 +27,7 @@ const trialLinks = (place) => {
 const standsOn = (measure, place) => {
   const used = at(measure.n, place), trials = trialsOf(place).length;
   if (!measure.from_trials) return "the design alone";
-  if (!used) return "nothing: no trial tells";
+  if (!used) return "nothing: no trial has a value";
   return element("span", { class: "many" }, used === trials ? "" : `${used} of these trials: `, ...trialLinks(place));
 };
 let tables = [];
@@ -58,13 +58,13 @@ const showVariant = (place) => {
   const measures = pagedTable(hosts[1], {
     label: `Measures of variant ${id}`,
     key: (one) => one.id,
-    source: `What stands on the design alone is computed from ${data.design_space} and ${data.catalogue}; “rgss measure” computes it again.`,
+    source: `Measures that depend on the design alone are computed from ${data.design_space} and ${data.catalogue}; “rgss measure” computes it again.`,
     columns: [
       { head: "measure", cell: (one) => one.id },
       { head: "name", cell: (one) => one.name },
       { head: "value", number: true, cell: (one) => show(at(one.value, place), one.unit) },
       { head: "interval", number: true, cell: (one) => interval(one, place) },
-      { head: "stands on", cell: (one) => standsOn(one, place) },
+      { head: "depends on", cell: (one) => standsOn(one, place) },
       { head: "assumptions", cell: (one) => element("span", { class: "many" }, one.assumptions.join(", ")) },
     ],
     rows: () => data.measures.filter((one) => known(at(one.value, place))),
@@ -90,14 +90,14 @@ const showVariant = (place) => {
       { head: "seed", number: true, cell: (trial) => String(data.trials.seed[trial]) },
       { head: "outcome", cell: outcomeOf },
       { head: "run it again and compare", cell: (trial) => element("code", {}, replayOf(trial)) },
-      { head: "run it and look", cell: (trial) => element("code", {}, runOf(trial)) },
+      { head: "run it", cell: (trial) => element("code", {}, runOf(trial)) },
     ],
     rows: () => trialsOf(place),
   });
   tables = [design, measures, requirements, trials];
   for (const update of tables) update();
 };
-// The row of a figure, a requirement or a trial of the variant that is shown; null if it has none.
+// The row of a figure, a requirement or a trial of the shown variant; null if it has none.
 const rowNamed = (name) => {
   for (const update of tables) {
     const row = update.reveal(name);
@@ -129,11 +129,11 @@ const startEvidence = () => {
   };
   choice.addEventListener("change", () => {
     const place = placeOf.get(Number(choice.value));
-    if (place === undefined) byId("variant-note").textContent = `There is no variant ${choice.value} here.`;
+    if (place === undefined) byId("variant-note").textContent = `Unknown variant ${choice.value}.`;
     else showVariant(place);
   });
   addEventListener("hashchange", fromAddress);
-  // The same link again changes no address.
+  // Following the same link again does not change the URL.
   addEventListener("click", (event) => {
     const link = event.target.closest?.('a[href^="#variant-"]');
     if (link && link.hash === `#${addressNow().anchor}`) { event.preventDefault(); fromAddress(); }

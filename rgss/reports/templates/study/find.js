@@ -1,4 +1,4 @@
-// ------------------------------------------ contents, a search over everything, sorted tables
+// ------------------------------------------ contents, full-text search, sorted tables
 const MOST_FOUND = 8, LEAST_SORTED = 6;
 
 const startContents = () => {
@@ -10,7 +10,7 @@ const startContents = () => {
   wide.addEventListener("change", fit);
   fit();
   menu.addEventListener("click", (event) => { if (event.target.closest("a") && !wide.matches) menu.open = false; });
-  // The section at a fifth of the window's height is marked.
+  // The section at a fifth of the window's height is marked as current.
   const inSight = new Set();
   const watcher = new IntersectionObserver((entries) => {
     for (const { target, isIntersecting } of entries) inSight[isIntersecting ? "add" : "delete"](target);
@@ -20,14 +20,14 @@ const startContents = () => {
       if (link.hash.slice(1) === now.id) link.setAttribute("aria-current", "true");
       else link.removeAttribute("aria-current");
     }
-    // The list alone is scrolled, never the page.
+    // Only the list is scrolled, never the page.
     const link = menu.querySelector("[aria-current]");
     if (link && wide.matches) list.scrollTop = link.offsetTop - list.clientHeight / 2;
   }, { rootMargin: "-20% 0px -75% 0px" });
   for (const section of sections) watcher.observe(section);
 };
 
-// What a link leads to is shown, also within what is folded.
+// The target of a link is shown, also within folded sections.
 const unfold = (target) => {
   for (let details = target.closest("details"); details; details = details.parentElement.closest("details")) details.open = true;
 };
@@ -36,7 +36,7 @@ const startUnfolding = () => {
     const target = byId(named(addressNow().anchor));
     if (target === null) return;
     unfold(target);
-    // What was folded or not yet drawn moves the rest; the target is sought again once that is done.
+    // Unfolding and drawing move the rest of the page, after which it scrolls to the target again.
     const seek = () => {
       const { top, bottom } = target.getBoundingClientRect();
       if (bottom < 0 || top > innerHeight * 0.7) target.scrollIntoView();
@@ -52,7 +52,7 @@ const startUnfolding = () => {
   follow();
 };
 
-// Tables of the template, which the page's scripts did not write, get the same sorting.
+// Tables of the template, which no script wrote, get the same sorting.
 const startSorting = () => {
   for (const table of document.querySelectorAll("main table:not(.matrix)")) {
     const body = table.tBodies[0];
@@ -64,8 +64,8 @@ const startSorting = () => {
   }
 };
 
-// ------------------------------------------------------- the search over everything
-// A word with signs within is found whole and by its parts; a verdict of two words is one.
+// ------------------------------------------------------- full-text search
+// A word with punctuation is found as a whole and by its parts; a verdict of two words is one word.
 const SIGNS = /[^\p{L}\p{N}_.=-]+/u;
 const wholeWords = (text) => wordsOf(text).join(" ").split(SIGNS).map((word) => word.replace(/^[.=-]+|[.=-]+$/g, "")).filter(Boolean);
 const withParts = (text) => wholeWords(text).flatMap((word) => (word in VERDICTS ? [word] : [word, ...word.split(/[_.=-]/).filter((part) => part && part !== word)]));
@@ -111,7 +111,7 @@ const startFind = () => {
     index = new FindAndSort.MiniSearch({ fields: ["title", "text"], storeFields: ["kind", "title", "text", "to"], tokenize: withParts, searchOptions: { tokenize: wholeWords, combineWith: "AND", boost: { title: 3 } } });
     index.addAll(everything());
   };
-  // What has the very words comes alone; else what begins with them, or is spelled nearly so.
+  // Exact matches if there are any; otherwise prefix and fuzzy matches.
   const sought = (text) => {
     const exact = index.search(text);
     return exact.length ? exact : index.search(text, { prefix: true, fuzzy: (word) => (word.length > 4 ? 0.25 : false) });

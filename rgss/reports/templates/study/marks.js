@@ -1,4 +1,4 @@
-// ------------------------------------------------------- marks that coincide, axes in words
+// ------------------------------------------------------- coinciding marks, titles of axes
 // Variants whose marks would cover each other are one mark, that of the most prominent, with their number.
 const coinciding = (places, horizontal, vertical) => {
   const ends = (measure) => {
@@ -15,7 +15,7 @@ const coinciding = (places, horizontal, vertical) => {
   }
   return groups;
 };
-// Numbers in words: 28 to 33, 36.
+// Ranges of numbers: 28 to 33, 36.
 const inRuns = (numbers) => {
   const runs = [];
   for (const one of numbers.slice().sort((left, right) => left - right)) {
@@ -34,7 +34,7 @@ const together = (measure, group) => {
   return show(low, measure.unit) === show(high, measure.unit) ? show(low, measure.unit) : `${show(low)} to ${show(high, measure.unit)}`;
 };
 const withBetter = (measure) => withUnit(measure.id, measure.unit) + ({ higher: ", higher is better", lower: ", lower is better" }[measure.better] ?? "");
-// How many variants a mark is, beside it where no other such number is; where there is no room, its hover alone tells.
+// The number of variants at a mark, beside it if there is room; otherwise only on hover.
 const countLabels = (groups, horizontal, vertical, size, host) => {
   const span = (measure) => {
     const values = groups.map(([place]) => at(measure.value, place));

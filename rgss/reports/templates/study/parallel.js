@@ -57,7 +57,7 @@ const axes = (() => {
 
 const parallel = (() => {
   const host = byId("parallel");
-  // The axes take the room that the page has, if they have enough of it to be read.
+  // The axes fill the width of the page, with a least distance that keeps them legible.
   const gaps = Math.max(1, axes.length - 1);
   const STEP = Math.min(MOST_STEP, Math.max(LEAST_STEP, Math.floor((host.clientWidth - 2 * SIDE) / gaps)));
   const width = 2 * SIDE + STEP * (axes.length - 1);
@@ -69,7 +69,7 @@ const parallel = (() => {
   const yUnknown = HEIGHT - BOTTOM + 22;
   const heightAt = (axis, place) => (Number.isNaN(axis.position[place]) ? yUnknown : y(axis.position[place]));
 
-  // Each piece begins its dashes at its axis, so that lines upon each other stay dashed.
+  // Dashes start at each axis, so that coinciding lines stay dashed.
   const line = (pen, place) => {
     pen.beginPath();
     for (let index = 0; index + 1 < axes.length; index += 1) {
@@ -78,7 +78,7 @@ const parallel = (() => {
     }
     pen.stroke();
   };
-  // Of many variants it is drawn how many go from here to there, not each.
+  // With many variants, the number of lines between two positions is drawn, not each line.
   const density = (pen, places) => {
     for (let index = 0; index + 1 < axes.length; index += 1) {
       const counts = new Map();

@@ -1,10 +1,10 @@
-// -------------------------------------------------- plots: drawn when they come into sight
+// -------------------------------------------------- plots: drawn when they become visible
 const MOST_POINTS = 400, MOST_SCATTERED = 2000;
 const drawings = [];
-// What figures stand on that come from all variants at once.
+// Source of figures that are computed from all variants together.
 const ANALYSED = `From all trials of the study in ${data.evidence}; “rgss trade${data.study_file === data.default_study ? "" : ` ${data.study_file}`}” computes them again.`;
 
-// The library is carried as a text, and run when the first plot comes near.
+// The library is embedded as text, and run when the first plot is about to become visible.
 const needPlotly = () => {
   if (typeof Plotly !== "undefined") return;
   document.head.append(element("script", {}, document.querySelector("script.held").textContent));
@@ -13,7 +13,7 @@ const needPlotly = () => {
 const layoutOf = (more) => {
   const style = getComputedStyle(document.documentElement);
   const ink = style.getPropertyValue("--ink").trim(), line = style.getPropertyValue("--line").trim();
-  // A title keeps off the ticks, and so off the edge of the picture.
+  // Distance of a title from the ticks, and so from the edge of the picture.
   const spaced = (one) => (one.title ? { ...one, title: { standoff: 12, ...one.title } } : one);
   const axis = (one) => ({ gridcolor: line, zerolinecolor: line, linecolor: ink, automargin: true, fixedrange: false, ...spaced(one) });
   const { xaxis = {}, yaxis = {}, ...rest } = more;
@@ -25,13 +25,13 @@ const layoutOf = (more) => {
     ...Object.fromEntries(Object.entries(rest).map(([name, one]) => [name, /^[xy]axis\d/.test(name) ? axis(one) : one])), xaxis: axis(xaxis), yaxis: axis(yaxis),
   };
 };
-// make() → {traces, layout} or null where there is nothing to draw.
+// make() → {traces, layout}, or null if there is nothing to draw.
 const plot = (id, make) => {
   const host = byId(`${id}-plot`);
   let near = false, stale = true;
   const draw = (always = false) => {
     stale = true;
-    // What is out of sight is drawn when it comes near, so that a brush answers at once.
+    // Invisible plots are drawn when they are about to become visible, so that a brush responds fast.
     if (!near && !always) return;
     stale = false;
     needPlotly();
@@ -75,7 +75,7 @@ const plot = (id, make) => {
   drawings.push({ redraw, drawForPaper: () => { if (stale) draw(true); }, host });
   return redraw;
 };
-// Colour and hatching, so that bars are told apart without colours too.
+// Colour and hatching, so that bars can be distinguished without colours too.
 const SHAPES = ["", "/", "x", "-", "\\", "+", ".", "|"];
 const filling = (colour, index) => ({ color: colour, pattern: { shape: SHAPES[index % SHAPES.length], fillmode: "replace", bgcolor: colour, fgcolor: "#ffffff", size: 7, solidity: 0.15 } });
 const markerOf = (kind, size = 9) => ({ color: KINDS[kind].colour, symbol: KINDS[kind].symbol, size: kind === CHOSEN ? size + 7 : size, line: { width: 1.5, color: KINDS[kind].colour } });
@@ -199,7 +199,7 @@ const startPareto = () => {
   }));
 };
 
-// ------------------------------------------------------------- what the weights make
+// ------------------------------------------------------------- contributions of the measures
 const startWeights = () => {
   const shownRanking = drawSliders();
   const parts = (row) => weighted.map((one, index) => normalised()[index] * (at(one.worth, row.place) ?? 0));
@@ -212,10 +212,10 @@ const startWeights = () => {
   });
   rankingWatchers.push(redraw);
   const update = tableIn("weights-table", {
-    label: "What each measure adds at these weights",
+    label: "Contribution of each measure at these weights",
     columns: [{ head: "rank", cell: (row) => String(row.rank) }, { head: "variant", number: true, cell: (row) => variantLink(variants.id[row.place]) },
       ...weighted.map((one, index) => ({ head: one.id, number: true, cell: (row) => parts(row)[index].toFixed(4), to: (row) => figureAddress(variants.id[row.place], one.id) })), { head: "value", number: true, cell: (row) => row.value.toFixed(4), to: (row) => figureAddress(variants.id[row.place], "value") }],
-    rows: shownRanking, size: 20, source: "Computed here: the weight times what the variant's figure is worth, which its evidence shows.",
+    rows: shownRanking, size: 20, source: "Computed here: the weight times the value of the variant's figure.",
   });
   rankingWatchers.push(update);
   onShown(update);
@@ -226,7 +226,7 @@ const startAcceptability = () => {
   const found = data.decision.acceptability;
   const note = byId("acceptability-note");
   if (found === null) {
-    note.textContent = data.decision.not_computed.find((line) => line.includes("acceptability")) || "Acceptability was not analysed, for the choice is not made by weighted value or nothing is feasible.";
+    note.textContent = data.decision.not_computed.find((line) => line.includes("acceptability")) || "Acceptability was not analysed, since the choice is not made by weighted value or nothing is feasible.";
   } else {
     const noise = found.with_noise ? " and the noise of the replicates" : "";
     note.textContent = `The share of ${found.iterations.toLocaleString("en-US")} draws of ${found.elicited ? "the elicited" : "all"} weights${noise} in which no variant is better.` + (found.drawn_by === "hit_and_run" ? " The weights are drawn by random walks (hit-and-run)." : "") + (found.more ? ` ${found.more} more come first in some draws.` : "");
@@ -278,7 +278,7 @@ const startEffects = () => {
       return { traces: [{ type: "bar", x: one.shares.map((share) => plotText(share.factor)), y: one.shares.map((share) => share.share), marker: { color: KINDS[FRONT].colour }, error_y: { type: "data", symmetric: false, array: one.shares.map((share) => share.high - share.share), arrayminus: one.shares.map((share) => share.share - share.low) } }], layout: { xaxis: { type: "category" }, yaxis: { title: { text: "share of the variance" }, rangemode: "tozero" } } };
     }
     const traces = [], found = rows();
-    // Where two rows of names have no room, the legend alone tells the factors apart.
+    // Without room for two rows of names, only the legend distinguishes the factors.
     const narrow = byId("effects-plot").clientWidth < 640;
     const across = (those) => (narrow ? those.map((row) => found.indexOf(row)) : [those.map((row) => plotText(row.factor)), those.map((row) => plotText(row.level))]);
     one.main.forEach((term, index) => {

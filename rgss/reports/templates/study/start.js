@@ -27,14 +27,14 @@ startFind();
 startAddress();
 parallel.draw();
 
-// Colours come from the style, which follows the reader's scheme; paper is always light.
+// Colours come from the style sheet, which follows the reader's colour scheme; print is always light.
 const redrawAll = () => {
   parallel.draw();
   for (const { redraw } of drawings) redraw();
 };
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawAll);
 addEventListener("beforeprint", () => {
-  // The page's own script has opened what was closed, but tells of it too late for the paper.
+  // The page's own script has opened the closed details, but their events come too late for printing.
   for (const refresh of refreshers) refresh();
   for (const { drawForPaper, host } of drawings) {
     drawForPaper();
@@ -48,7 +48,7 @@ addEventListener("afterprint", () => {
 });
 performance.mark("rgss-report");
 const ready = () => { document.documentElement.dataset.ready = "yes"; };
-// Measures that nothing weighs or demands come last where there are many variants.
+// With many variants, measures without a weight and a limit come last.
 if (later === null) ready();
 else {
   later().then((columns) => {

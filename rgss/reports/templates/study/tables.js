@@ -1,10 +1,10 @@
 // ----------------------------------- tables of any length: a page of rows and a search
 const PAGE_ROWS = 100, LEAST_SOUGHT = 8;
 
-// Words that are looked for; a verdict of two words is one.
+// Search words; a verdict of two words is one word.
 const wordsOf = (text) => text.toLowerCase().replace(/\bnot (met|run)\b/g, "not_$1").split(/\s+/).filter(Boolean);
 
-// The number that a text begins with; the text if it begins with none; null for a dash.
+// The leading number of a text; the text if it has none; null for a dash.
 const numberOf = (text) => {
   const plain = text.trim().replace(/^< /, "").replace(/,(?=\d{3})/g, "").replace("−", "-");
   if (plain === "" || plain === "–") return null;
@@ -14,7 +14,7 @@ const collator = new Intl.Collator("en", { numeric: true });
 const sorter = FindAndSort.createNewSortInstance({
   comparer: (one, other) => (typeof one === "number" && typeof other === "number" ? one - other : collator.compare(String(one), String(other))),
 });
-// Heads with a button each: a first press sorts upwards, a second downwards, a third as it was.
+// A button in each head: a first press sorts ascending, a second descending, a third restores the order.
 const sortable = (heads, changed) => {
   let by = -1, down = false;
   const mark = () => heads.forEach((head, index) => {
@@ -22,7 +22,7 @@ const sortable = (heads, changed) => {
     else head.removeAttribute("aria-sort");
   });
   heads.forEach((head, index) => {
-    // A head that is a link keeps it beside the button.
+    // The link of a head is kept beside the button.
     const linked = head.querySelector("a") !== null;
     const button = element("button", { type: "button", class: "sort", "aria-label": linked ? `Sort by ${head.textContent}` : null }, ...(linked ? [] : head.childNodes));
     if (linked) head.append(" ", button);
@@ -35,7 +35,7 @@ const sortable = (heads, changed) => {
       changed();
     });
   });
-  // What has no value comes last in either direction.
+  // Missing values come last in either direction.
   const apply = (rows, sortedBy) => {
     if (by < 0) return rows;
     const value = sortedBy(by);
@@ -47,8 +47,8 @@ const sortable = (heads, changed) => {
   return { heads, apply };
 };
 
-// columns: [{head, cell(row) → text or node, number, to(row) → where its evidence stands, sort(row) → what it is sorted by}];
-// rows() → list of rows; search(row, word) → whether the row has it; key(row) → what a link names it by; source: what all its figures stand on.
+// columns: [{head, cell(row) → text or node, number, to(row) → link to its evidence, sort(row) → sort key}];
+// rows() → list of rows; search(row, word) → true if the row has it; key(row) → its name in links; source: origin of its figures.
 const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROWS, key = null, source = "" }) => {
   let first = 0;
   let found = [];
@@ -78,7 +78,7 @@ const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROW
       const line = element("tr", key ? { "data-key": key(row) } : {});
       columns.forEach((column, index) => {
         const said = column.cell(row);
-        // Only the row's own head is in the order of the tabulator: it leads to the same evidence.
+        // Only the row's head is in the tab order: it leads to the same evidence.
         const cell = column.to && typeof said === "string" && /\d/.test(said) ? element("a", { href: column.to(row), tabindex: -1, class: "quiet" }, said) : said;
         const tag = index === 0 ? "th" : "td";
         const attributes = index === 0 ? { scope: "row" } : { class: column.number ? "number" : null };
@@ -139,11 +139,11 @@ const byRank = () => shownPlaces.slice().sort((one, other) => {
 });
 const varying = data.parameters.filter((parameter) => parameter.varies);
 const effectiveness = data.measures.filter((measure) => measure.kind === "moe" || measure.weight !== null);
-// Columns of parameters and measures of a variant, each figure with the way to its evidence.
+// Columns of parameters and measures of a variant, each figure with a link to its evidence.
 const parameterColumns = varying.map((one) => ({ head: withUnit(one.name, one.unit), number: true, cell: (place) => show(at(one.values, place)), sort: (place) => at(one.values, place), to: (place) => figureAddress(variants.id[place], one.id) }));
 const effectivenessColumns = effectiveness.map((one) => ({ head: withUnit(one.id, one.unit), title: one.name, number: true, cell: (place) => show(at(one.value, place)), sort: (place) => at(one.value, place), to: (place) => figureAddress(variants.id[place], one.id) }));
 const valueColumn = { head: "value", number: true, cell: (place) => show(variants.value[place]), sort: (place) => variants.value[place], to: (place) => figureAddress(variants.id[place], "value") };
-// What can be found of a variant: how it stands, gripper=three and the like, and its verdicts, alone or as SYS-1=met.
+// Search terms of a variant: its role, levels such as gripper=three, and its verdicts, alone or as SYS-1=met.
 const saidOf = (() => {
   const texts = new Map();
   return (place) => {
@@ -158,7 +158,7 @@ const saidOf = (() => {
     return texts.get(place);
   };
 })();
-// A whole number names a variant, a verdict those that have it; other words stand in what is said of it.
+// A whole number matches a variant's id, a verdict its verdicts; other words match its search terms.
 const finds = (place, word) => {
   if (/^\d+$/.test(word)) return String(variants.id[place]) === word;
   const { text, verdicts } = saidOf(place);

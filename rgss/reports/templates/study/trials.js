@@ -1,7 +1,7 @@
-// ----------------------------------------------------- planning times, failures, time lines
+// ----------------------------------------------------- planning times, failures, timelines
 const startPlanning = () => {
   const planning = data.planning;
-  byId("planning-note").textContent = "Each search once, however many variants share it, as the variant with the longest limit saw it. A curve that ends below 100 % found no path in the other searches." + (planning.thinned ? " There are so many that quantiles stand for them, of all variants whatever is brushed." : "");
+  byId("planning-note").textContent = "Each search once, however many variants share it, with the longest limit of these. A curve that ends below 100 % found no path in the other searches." + (planning.thinned ? " There are so many that quantiles stand for them, of all variants whatever is brushed." : "");
   const searchesOf = (index) => {
     const planner = planning.planners[index];
     if (planning.thinned) return { count: planner.searches, times: planner.quantiles_s.length ? planner.quantiles_s : planner.quartiles_s, solved: planner.solved };
@@ -24,7 +24,7 @@ const startPlanning = () => {
   plot("planning", () => {
     const found = rows();
     if (!found.length) return null;
-    // The last search may end beyond the limit, by what its last check is charged; no curve turns back.
+    // The last search may exceed the limit by the charge of its last check; no curve turns back.
     const end = found.reduce((most, row) => Math.max(most, row.planner.longest_limit_s, row.times[row.times.length - 1] ?? 0), 0);
     return { traces: found.map((row, index) => ({ x: [0, ...row.times, end], y: [0, ...row.times.map((_, place) => ((place + 1) / row.times.length) * (row.solved / row.count)), row.solved / row.count], mode: "lines", name: plotText(row.planner.name), line: { shape: "hv", color: PALETTE[index % PALETTE.length], dash: DASHES[index % DASHES.length], width: 2.5 }, hovertemplate: "%{x:.3g} s: %{y:.0%}<extra>%{fullData.name}</extra>" })),
       layout: { xaxis: { title: { text: "planning time [s]" }, rangemode: "tozero" }, yaxis: { title: { text: "searches that had found a path" }, tickformat: ".0%", range: [0, 1.02] } } };
@@ -64,7 +64,7 @@ const startFailures = () => {
       layout: { barmode: "stack", height: 200 + 46 * kinds.length, yaxis: { type: "category", autorange: "reversed" }, xaxis: { title: { text: "trials" }, rangemode: "tozero" } } };
   });
   const update = tableIn("failures-table", {
-    label: "What ended trials of the shown variants",
+    label: "Failures of trials of the shown variants",
     columns: [{ head: "failure", cell: (row) => trials.failures[row.failure] }, { head: "in the phase", cell: (row) => trials.phases[row.phase] ?? "–" }, { head: "trials", number: true, cell: (row) => String(row.count), to: (row) => figureAddress(variants.id[trials.variant[row.example]], trials.key[row.example]) },
       { head: "of variant", number: true, cell: (row) => variantLink(variants.id[trials.variant[row.example]]) }, { head: "see the first", cell: (row) => element("code", {}, replayOf(row.example)) }],
     rows: () => counted().rows,

@@ -1,9 +1,9 @@
-// ----------------------------------------------------- the weights, and who would win
+// ----------------------------------------------------- weights, and the resulting ranking
 const TIE = 1e-9;
 const weighted = data.weights.measures;
 let raw = weighted.map((one) => one.weight);
 
-// Weights that sum to one: what one gains the others lose in proportion; those at 0 return as they were.
+// Weights that sum to one: the gain of one is taken from the others in proportion; zeros are restored as they were.
 const lastAbove = raw.slice();
 const moveWeight = (index, to) => {
   const there = raw.some((weight, other) => other !== index && weight > 0) ? raw : lastAbove;
@@ -26,7 +26,7 @@ const worth = (place, weights) => {
   }
   return value;
 };
-// As the trade-off ranks: of those within a tie of the best the smallest id first, or the largest, then the rest.
+// Same ranking as the trade-off: ties with the best first, by smallest or largest id, then the rest.
 const ranked = (weights, places) => {
   const found = [];
   for (const place of places) {
@@ -66,7 +66,7 @@ const drawSliders = () => {
     slider.addEventListener("input", () => { moveWeight(index, Number(slider.value)); rankAnew(); });
     rankingWatchers.push(() => {
       const share = normalised()[index];
-      // The one that is moved is left where the hand has it.
+      // The slider that is dragged keeps its position.
       if (Math.abs(Number(slider.value) - share) > 0.005) slider.value = String(share);
       told.textContent = share.toFixed(3);
       slider.setAttribute("aria-valuetext", `${share.toFixed(3)} of the weight`);

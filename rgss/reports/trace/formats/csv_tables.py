@@ -27,7 +27,7 @@ def _found(found: Chain | Impact, report: TraceReport) -> bytes:  # noqa: ARG001
 def _file(table: Table) -> bytes:
     from rgss.reports.table_files import to_csv
 
-    # By its mark, spreadsheets recognise UTF-8.
+    # Spreadsheets recognise UTF-8 by its byte order mark.
     return to_csv(table).encode("utf-8-sig")
 
 

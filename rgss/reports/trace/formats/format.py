@@ -16,7 +16,7 @@ class Selection:
     """Part of a report.
 
     Attributes:
-        gaps_only: Only what is open.
+        gaps_only: True for gaps only.
         table: Name of the only table; empty for all.
     """
 
@@ -30,16 +30,16 @@ class TraceFormat:
 
     Attributes:
         name: Its name in options.
-        suffix: The ending of its files.
-        title: A file of it, in words, such as ``an Excel file``.
-        write_report: Writes a part of a report. Raises `DefinitionError` for an unknown table or a
+        suffix: The suffix of its files.
+        title: Name of a file of it, such as ``an Excel file``.
+        write_report: Function that writes a part of a report. Raises `DefinitionError` for an unknown table or a
             missing package.
-        write_found: Writes a chain or an impact; the report of the same project gives the texts.
-        widest_grid: A matrix with more columns is written as a list of links; 0 for a format
-            without tables, which always holds everything.
-        tables_of_a_file: How many tables a file holds: 1, or 0 for any number.
-        is_printable: Whether it is text that can be printed.
-        is_for_terminals: Whether it is for people at a terminal, not for programs.
+        write_found: Function that writes a chain or an impact, with the texts of the project's report.
+        widest_grid: Most columns of a matrix that is written as a grid, not as a list of links; 0 for a format
+            without tables, which always contains everything.
+        tables_of_a_file: Number of tables in a file: 1, or 0 for any number.
+        is_printable: True if it is text that can be printed.
+        is_for_terminals: True if it is for a terminal, not for programs.
     """
 
     name: str

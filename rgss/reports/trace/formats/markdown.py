@@ -25,7 +25,7 @@ def _found(found: Chain | Impact, report: TraceReport) -> bytes:  # noqa: ARG001
     from rgss.reports.table_files import to_markdown
     from rgss.trace.views import Chain
 
-    title = f"Chain of {found.id}" if isinstance(found, Chain) else f"What a change to {found.id} touches"
+    title = f"Chain of {found.id}" if isinstance(found, Chain) else f"Impact of a change to {found.id}"
     return to_markdown([found_table(found)], title=title).encode("utf-8")
 
 

@@ -17,7 +17,7 @@ def selected_tables(report: TraceReport, selection: Selection, *, widest_grid: i
     Args:
         report: The report.
         selection: The part of it.
-        widest_grid: A matrix with more columns is a list of links.
+        widest_grid: Most columns of a matrix that is a grid, not a list of links.
 
     Raises:
         DefinitionError: There is no such table.

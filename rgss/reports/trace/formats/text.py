@@ -33,7 +33,7 @@ TEXT = TraceFormat(
     title="a text file",
     write_report=_report,
     write_found=_found,
-    # The terminal's tables are lists of links.
+    # On a terminal, matrices are lists of links.
     widest_grid=1,
     is_for_terminals=True,
 )

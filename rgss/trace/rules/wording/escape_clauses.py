@@ -55,8 +55,7 @@ RULES: tuple[SentenceRule, ...] = (
         id="wording.R8",
         severity=Severity.ERROR,
         explanation=(
-            "A requirement has no clause to escape by, such as one that leaves it to somebody's judgement whether "
-            "it holds."
+            "A requirement has no escape clause, such as one that leaves it to somebody's judgement whether it holds."
         ),
         find=_escape,
         terms=_ESCAPES,

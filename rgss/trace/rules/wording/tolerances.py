@@ -63,7 +63,7 @@ RULES: tuple[SentenceRule, ...] = (
         ),
         find=_without_tolerance,
         terms=_BOUNDS,
-        meaning="words of bounds; where one stands after 'shall', the quantities there are bounded",
+        meaning="words of bounds; with one of them after 'shall', the quantities there are bounded",
         breaking=(
             "The gripper shall have a length of 120 mm.",
             "The arm shall move at 1 m/s.",

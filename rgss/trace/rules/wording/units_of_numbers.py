@@ -75,7 +75,7 @@ RULES: tuple[SentenceRule, ...] = (
         ),
         find=_without_unit,
         terms=_PURE_NUMBERS,
-        meaning="words for pure numbers; where one stands in the sentence, a number needs no unit",
+        meaning="words for dimensionless numbers; with one of them in the sentence, a number needs no unit",
         breaking=(
             "The gripper shall weigh at most 3.",
             "The gripper shall lift 3.",
