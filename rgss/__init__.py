@@ -25,26 +25,26 @@ def load_study(
     fidelity: str | None = None,
     replicates: int | None = None,
 ) -> Study:
-    """Read a project and one of its studies, to look at what is known of it as pandas frames.
+    """Load a project and one of its studies, for analysis as pandas frames.
 
-    Nothing is simulated and no evidence is read until it is requested.
+    Nothing is simulated, and evidence is read only on request.
 
     Args:
         folder: The project's folder, or a study file (``.yaml``) in one; the nearest folder at or
             above the current one by default.
         study: The study file, relative to the project; ``studies/pick_place.yaml`` by default.
-        fidelity: ``kinematic``, ``dynamic`` or ``contact`` in place of what the study says.
-        replicates: Trials of each variant in place of what the study says.
+        fidelity: ``kinematic``, ``dynamic`` or ``contact``; overrides the study.
+        replicates: Number of trials of each variant; overrides the study.
 
     Raises:
-        DocumentError: Files are wrong; with every problem in all of them.
-        DefinitionError: There is no project, or an argument is impossible.
+        DocumentError: Files are invalid; with every problem in all of them.
+        DefinitionError: There is no project, or an argument is invalid.
     """
     from importlib import import_module
     from pathlib import Path
 
-    # By name, since this package is above all others and yet imported with each: an import statement would
-    # make everything a part of whatever imports it, for the digests of the code as for the layers.
+    # By name, since this package is above all others and yet imported with each: an import statement would make every
+    # module a dependency of every other, both for code digests and for layers.
     analysis = import_module("rgss.api.load")
     drawing = import_module("rgss.api.trial").Drawing(
         figure=import_module("rgss.reports.trials.trial_plots").trial_figure,

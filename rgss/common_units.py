@@ -1,7 +1,6 @@
-"""The units of most documents, known without pint, whose import and definitions take half a second.
+"""Common units without pint, whose import and definitions take half a second.
 
-They are what pint says they are, which a test holds for every one of them and for products of them;
-a unit that is not made of these is left to pint.
+A test compares each of them, and products of them, with pint; any other unit is converted by pint.
 """
 
 from __future__ import annotations
@@ -53,7 +52,7 @@ _ATOMS: Mapping[str, tuple[str, Mapping[str, int]]] = MappingProxyType(
         "USD": ("1", {_MONEY: 1}),
     }
 )
-"""What each is in the roots metre, kilogram, second, US dollar and radian."""
+"""Each unit in the root units metre, kilogram, second, US dollar and radian."""
 
 _LONGEST_TEXT = 60
 _FACTOR = re.compile(r"(?P<between>[*/·]?)(?P<name>1|%|[A-Za-z]+)(?:(?:\*\*|\^)(?P<power>-?[1-9]))?")
@@ -61,11 +60,11 @@ _FACTOR = re.compile(r"(?P<between>[*/·]?)(?P<name>1|%|[A-Za-z]+)(?:(?:\*\*|\^)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CommonUnit:
-    """A unit that is a product of common ones.
+    """Product of common units.
 
     Attributes:
-        factor: What one of it is in root units.
-        roots: Powers of what the roots measure, an angle being one of them; sorted, without zeros.
+        factor: Its value in root units.
+        roots: Exponents of the root dimensions, including angle; sorted, without zeros.
     """
 
     factor: Decimal
@@ -73,26 +72,26 @@ class CommonUnit:
 
     @property
     def dimension(self) -> tuple[tuple[str, float], ...]:
-        """The powers of the base dimensions, of which an angle is none."""
+        """Exponents of the base dimensions, without angle."""
         return tuple((name, float(power)) for name, power in self.roots if name != _ANGLE)
 
 
 @lru_cache(maxsize=512)
 def common_unit(text: str) -> CommonUnit | None:
-    """Unit that a text denotes, if it is a plain product or quotient of common units.
+    """Unit from its text, if it is a plain product or quotient of common units.
 
     Args:
-        text: Such as ``"mm"``, ``"m/s**2"``, ``"N·m"`` or ``"kg·m·s^-2"``.
+        text: The text, such as ``"mm"``, ``"m/s**2"``, ``"N·m"`` or ``"kg·m·s^-2"``.
 
     Returns:
-        None for any other text, which may be a unit all the same.
+        None for any other text, which may still be a unit.
     """
     factor, roots, at = Decimal(1), Counter[str](), 0
     if not 0 < len(text) <= _LONGEST_TEXT:
         return None
     while at < len(text):
         match = _FACTOR.match(text, at)
-        # Each but the first follows a sign; two names beside each other are left to the library.
+        # Each except the first follows an operator; adjacent names are left to pint.
         if match is None or bool(match["between"]) != bool(at) or match["name"] not in _ATOMS:
             return None
         if match["name"] == "1" and at:

@@ -1,4 +1,4 @@
-"""The simulation engines, an optional part of an installation (``pip install 'rgss[sim]'``)."""
+"""Simulation engines, an optional part of an installation (``pip install 'rgss[sim]'``)."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ DISTRIBUTIONS: Mapping[str, str] = MappingProxyType(
         "av": "av",
     }
 )
-"""The distribution that brings each module of the extra ``sim``; pin brings coal."""
+"""Distribution of each module of the extra ``sim``; pin includes coal."""
 
 _PICTURES = ("PIL", "matplotlib", "pygltflib", "av")
 
@@ -34,21 +34,21 @@ def missing_engines(*, pictures: bool = False) -> tuple[str, ...]:
     """Distributions of the extra ``sim`` that are not installed, sorted.
 
     Args:
-        pictures: Include what draws pictures of trials.
+        pictures: True to include the packages for pictures of trials.
     """
     wanted = [module for module in DISTRIBUTIONS if pictures or module not in _PICTURES]
     return tuple(sorted({DISTRIBUTIONS[module] for module in wanted if not _is_installed(module)}))
 
 
 def require_engines(purpose: str, *, pictures: bool = False) -> None:
-    """Make sure that the simulation engines are installed.
+    """Require that the simulation engines are installed.
 
     Args:
-        purpose: What needs them, the first words of the message.
-        pictures: Include what draws pictures of trials.
+        purpose: Subject of the error message.
+        pictures: True to include the packages for pictures of trials.
 
     Raises:
-        DefinitionError: One is not installed.
+        DefinitionError: An engine is not installed.
     """
     missing = missing_engines(pictures=pictures)
     if missing:
@@ -59,13 +59,13 @@ def require_engines(purpose: str, *, pictures: bool = False) -> None:
 
 
 def require_mujoco(purpose: str) -> None:
-    """Make sure that the second physics engine is installed.
+    """Require that the second physics engine is installed.
 
     Args:
-        purpose: What needs it, the first words of the message.
+        purpose: Subject of the error message.
 
     Raises:
-        DefinitionError: It is not installed.
+        DefinitionError: MuJoCo is not installed.
     """
     if not _is_installed("mujoco"):
         raise DefinitionError(f"{purpose} needs MuJoCo, which is not installed", hint=INSTALL_MUJOCO)

@@ -1,8 +1,7 @@
-"""Exception hierarchy; exceptions are raised only where the caller cannot continue.
+"""Exception hierarchy; exceptions are raised only if the caller cannot continue.
 
-Expected outcomes (no path found, an object dropped) are enum values in records, and
-mistakes in a user's files are findings. Everything raised on purpose derives from
-`RgssError` and carries a hint on how to resolve it.
+Expected outcomes (no path found, object dropped) are enum values in records, and errors in a user's files are findings.
+Every deliberate exception derives from `RgssError` and has a hint on how to resolve it.
 """
 
 from __future__ import annotations
@@ -15,11 +14,11 @@ if TYPE_CHECKING:
 
 
 class RgssError(Exception):
-    """Base of every error that rgss raises on purpose.
+    """Base class of all deliberate errors of rgss.
 
     Attributes:
-        message: What is wrong, in one line.
-        hint: How to resolve it, in one line; empty when there is nothing to add.
+        message: The problem, in one line.
+        hint: How to resolve it, in one line; may be empty.
     """
 
     def __init__(self, message: str, *, hint: str = "") -> None:
@@ -32,11 +31,11 @@ class RgssError(Exception):
 
 
 class QuantityError(RgssError, ValueError):
-    """A text is not a quantity of the unit that is expected."""
+    """A text is not a quantity in the expected unit."""
 
 
 class DocumentError(RgssError):
-    """A user's file cannot be used; carries every problem found in it.
+    """A user's file cannot be used; with every problem found in it.
 
     Attributes:
         findings: The problems, in the order of their positions; never empty.
@@ -56,7 +55,7 @@ class DocumentError(RgssError):
 
 
 class DefinitionError(RgssError):
-    """Well-formed definitions contradict one another or refer to something that does not exist."""
+    """Well-formed definitions contradict each other or refer to undefined names."""
 
 
 class SimulationError(RgssError):
@@ -64,11 +63,11 @@ class SimulationError(RgssError):
 
 
 class MotionError(RgssError):
-    """A motion cannot be planned or timed because its problem is ill posed."""
+    """A motion cannot be planned or timed because its problem is ill-posed."""
 
 
 class DriverError(RgssError):
-    """A robot cannot be connected, or its controller refused a command."""
+    """A robot cannot be connected, or its controller rejected a command."""
 
 
 class EvidenceError(RgssError):
@@ -76,8 +75,8 @@ class EvidenceError(RgssError):
 
 
 class StorageError(EvidenceError):
-    """The disk is full or fails, or another process keeps the store locked; what was written and read is sound."""
+    """The disk is full or fails, or another process locks the store; data written and read before are valid."""
 
 
 class TradeoffError(RgssError):
-    """A trade-off is ill posed, or its solver did not prove an optimum."""
+    """A trade-off is ill-posed, or its solver did not prove an optimum."""

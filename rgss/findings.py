@@ -1,4 +1,4 @@
-"""Findings: problems in a user's files, with their places."""
+"""Findings: problems in a user's files, with their positions."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ class Severity(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True, order=True)
 class Finding:
-    """One problem at one place of one file.
+    """One problem at one position of one file.
 
     Attributes:
         file: The file, relative to the project.
         line: Line, from 1.
         column: Column, from 1.
-        rule: The id of the rule that is broken, such as ``document.unknown-key``.
+        rule: The id of the violated rule, such as ``document.unknown-key``.
         severity: Its severity.
-        message: What is wrong, in one line.
+        message: The problem, in one line.
         hint: How to resolve it, in one line; may be empty.
     """
 
@@ -45,12 +45,12 @@ class Finding:
 
 
 def printable(text: str) -> str:
-    """Text as a terminal may show it: what comes from a file, or names one, must not steer it."""
+    """Text safe for a terminal: contents and names of files must not control it."""
     return "".join(character if character.isprintable() else "\N{REPLACEMENT CHARACTER}" for character in text)
 
 
 def shown(value: object) -> str:
-    """User's value as a message shows it: on one line and cut where it is long."""
+    """User's value for messages: on one line, truncated if long."""
     if isinstance(value, str):
         return repr(value if len(value) <= _LONGEST_SHOWN else value[: _LONGEST_SHOWN - 1] + "…")
     text = repr(value)

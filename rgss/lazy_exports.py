@@ -1,4 +1,4 @@
-"""Front doors that load a module of their package when one of its names is first used."""
+"""Lazy package exports: a module of a package is loaded on the first use of one of its names."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from typing import Any
 def lazy_exports(package: str, file: str) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
     """Module-level ``__getattr__`` and ``__dir__`` (PEP 562) of a package that exports names of its modules.
 
-    The names are those that the package's ``__init__`` imports under ``if TYPE_CHECKING:``, so that type
-    checkers, import-linter and Python read one list. A command then loads what it uses and nothing else.
+    The names are those imported under ``if TYPE_CHECKING:`` in the package's ``__init__``, so that type checkers,
+    import-linter and Python use the same list. A command then loads only the modules that it uses.
 
     Args:
         package: Name of the package.
@@ -42,7 +42,7 @@ def lazy_exports(package: str, file: str) -> tuple[Callable[[str], Any], Callabl
 
 
 def _definers(file: Path) -> dict[str, tuple[str, str]]:
-    """The module and the name there of each exported name."""
+    """Defining module and original name of each exported name."""
     return {
         imported.asname or imported.name: (node.module or "", imported.name)
         for block in ast.parse(file.read_bytes()).body

@@ -1,8 +1,8 @@
-"""Non-negative least squares whose answer is verified.
+"""Non-negative least squares with verified optimality.
 
-SciPy 1.15, the last one for Python 3.10, returns points that are no minimum for about 4 % of the wrench matrices of
-random grasps. The conditions of Karush, Kuhn and Tucker cost two products, so every answer is verified by them, and
-the algorithm of Lawson and Hanson answers where they do not hold.
+SciPy 1.15, the last release for Python 3.10, returns points that are not a minimum for about 4 % of the wrench matrices
+of random grasps. The Karush-Kuhn-Tucker conditions take two products, so every result is verified by them, with the
+Lawson-Hanson algorithm as a fallback.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 Matrix = NDArray[np.float64]
 
 TOLERANCE = 1e-9
-"""Largest gradient that counts as zero, as a share of the greatest column times the target."""
+"""Tolerance of the gradient, relative to the greatest column norm times the norm of the target."""
 
 _ROUNDING = 16 * float(np.finfo(np.float64).eps)
-"""Where columns are nearly opposite and the target is nearly none, the point is large and its gradient is rounded."""
+"""Rounding tolerance of the gradient: for nearly opposite columns and a small target the point is large."""
 
 
 def nonnegative_least_squares(matrix: Matrix, target: Matrix, *, most_steps: int | None = None) -> tuple[Matrix, float]:
@@ -25,7 +25,7 @@ def nonnegative_least_squares(matrix: Matrix, target: Matrix, *, most_steps: int
     Args:
         matrix: Shape (m, n).
         target: Shape (m,).
-        most_steps: Steps of the active set before SciPy's attempt and ours are given up; by default 3 n and 30 n.
+        most_steps: Greatest number of active-set steps of SciPy's and our method; by default 3 n and 30 n.
 
     Returns:
         The minimum, shape (n,), and the norm of its residual.
@@ -47,14 +47,14 @@ def nonnegative_least_squares(matrix: Matrix, target: Matrix, *, most_steps: int
 
 
 def is_minimum(matrix: Matrix, target: Matrix, point: Matrix, *, rounding: float = 0.0) -> bool:
-    """Whether a point satisfies the conditions of Karush, Kuhn and Tucker, which suffice for a convex program.
+    """True if a point satisfies the Karush-Kuhn-Tucker conditions, which are sufficient for a convex program.
 
     Args:
         matrix: Shape (m, n).
         target: Shape (m,).
         point: Shape (n,).
-        rounding: Share of the greatest column times the matrix times the point by which a gradient may differ from
-            zero besides: no gradient is known better than that.
+        rounding: Rounding tolerance of the gradient, relative to the greatest column norm times the norm of matrix
+            times point.
     """
     descent = matrix.T @ (target - matrix @ point)
     scale = float(np.sqrt((matrix**2).sum(axis=0)).max(initial=0.0) * np.linalg.norm(target))
@@ -67,15 +67,15 @@ def is_minimum(matrix: Matrix, target: Matrix, point: Matrix, *, rounding: float
 
 
 def lawson_hanson(matrix: Matrix, target: Matrix, *, most_steps: int) -> Matrix:
-    """Active-set method of Lawson and Hanson, "Solving Least Squares Problems", 1974, chapter 23.
+    """Lawson-Hanson active-set method ("Solving Least Squares Problems", 1974, chapter 23).
 
     Args:
         matrix: Shape (m, n).
         target: Shape (m,).
-        most_steps: Changes of the active set after which the last point is returned.
+        most_steps: Greatest number of changes of the active set, after which the last point is returned.
 
     Returns:
-        A minimum over non-negative points, shape (n,), unless the steps ended first.
+        The minimum over non-negative points, shape (n,), if the steps sufficed.
     """
     count = matrix.shape[1]
     scale = float(np.sqrt((matrix**2).sum(axis=0)).max(initial=0.0) * np.linalg.norm(target))
@@ -93,11 +93,12 @@ def lawson_hanson(matrix: Matrix, target: Matrix, *, most_steps: int) -> Matrix:
             if not leaving.any():
                 point = wanted
                 break
-            # As far towards the unconstrained minimum as all stay non-negative; who reaches zero leaves.
+            # Step towards the unconstrained minimum while all components stay non-negative; those that reach zero
+            # leave.
             share = float((point[leaving] / np.maximum(point[leaving] - wanted[leaving], 1e-300)).min())
             point = point + share * (wanted - point)
             free &= ~(leaving & (point <= 1e-15 * max(1.0, float(point.max()))))
             point[~free] = 0.0
-        # Rounding may send away at once what came in; it is not tried again until another one has stayed.
+        # Rounding may remove an entering component at once; it is not tried again until another one has stayed.
         rejected = np.zeros(count, dtype=bool) if free[entering] else rejected | (np.arange(count) == entering)
     return point

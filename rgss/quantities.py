@@ -1,7 +1,7 @@
-"""Quantities with units: the only place where one unit becomes another.
+"""Quantities with units: parsing and unit conversion.
 
-A float that crosses a file carries its unit in the text (``"120 mm"``); inside rgss every
-float is in SI (money in US dollars) and says so in its name.
+A float in a file has its unit in the text (``"120 mm"``); inside rgss every float is in SI (money in US dollars), with
+the unit in its name.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ _QUANTITY = re.compile(
     r"\s*(?P<number>[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)\s*(?P<unit>[A-Za-zµμ°%$(].*)?"
 )
 
-# Units are products and quotients of names with small whole exponents, grouped at most once: what
-# is matched here is safe to hand to pint, whose own grammar also takes numbers and huge powers.
+# Units are products and quotients of names with small integer exponents, grouped at most once: matched texts are safe
+# input for pint, whose own grammar also accepts numbers and huge powers.
 _POWER = r"(?:\s*(?:\*\*|\^)\s*-?[1-9]|⁻?[¹²³⁴⁵⁶⁷⁸⁹])?"
 _FACTOR = rf"[A-Za-zµμ°%$_]+{_POWER}"
 _BETWEEN = r"(?:\s*[*/·]\s*|\s+)"
@@ -35,21 +35,21 @@ _UNIT = re.compile(rf"1|(?:1\s*/\s*)?(?:{_FACTOR}|{_GROUP})(?:{_BETWEEN}(?:{_FAC
 
 
 def parse_quantity(text: str, unit: str) -> float:
-    """Read a quantity and express it in a unit.
+    """Parse a quantity and convert it to a unit.
 
-    Angles are distinguished from pure numbers here, so that ``"1 Hz"`` is not taken for 1 rad/s.
+    Angles are distinguished from pure numbers here, so that ``"1 Hz"`` is not 1 rad/s.
 
     Args:
         text: A number and a unit, such as ``"120 mm"``.
-        unit: The unit wanted, such as ``"m"``; ``"1"`` for a pure number or a percentage.
+        unit: The target unit, such as ``"m"``; ``"1"`` for a pure number or a percentage.
 
     Returns:
         The magnitude in that unit. Decimal prefixes convert exactly: ``"35 mm"`` is the
         float nearest to 0.035.
 
     Raises:
-        QuantityError: The text is not a number with a unit, the unit is unknown, it
-            measures something else, or the number is beyond what a float can hold.
+        QuantityError: The text is not a number with a unit, the unit is unknown or of another dimension, or the number
+        exceeds the range of floats.
     """
     match = _QUANTITY.fullmatch(text) if len(text) <= _LONGEST_TEXT else None
     if match is None:
@@ -76,12 +76,12 @@ def parse_quantity(text: str, unit: str) -> float:
 
 
 def conversion_factor(from_unit: str, to_unit: str) -> float:
-    """The number by which a magnitude in one unit is multiplied to be in another.
+    """Factor that converts a magnitude from one unit to another.
 
-    An angle in radians counts as a pure number here, as it does in equations.
+    An angle in radians counts as a pure number here, as in equations.
 
     Raises:
-        QuantityError: A unit is unknown, or the two measure different things.
+        QuantityError: A unit is unknown, or the dimensions differ.
     """
     return float(_factor(from_unit, to_unit))
 
@@ -97,7 +97,7 @@ def same_dimension(unit: str, other: str) -> bool:
 
 @lru_cache(maxsize=512)
 def dimension(unit: str) -> tuple[tuple[str, float], ...]:
-    """The base dimensions of a unit with their exponents, sorted; empty for a pure number.
+    """Base dimensions of a unit with their exponents, sorted; empty for a pure number.
 
     Raises:
         QuantityError: The unit is unknown.
@@ -135,7 +135,7 @@ def _unit(text: str) -> pint.Unit:
 
 @lru_cache(maxsize=512)
 def _measure_the_same(unit: str, other: str) -> bool:
-    """True if two units have the same dimension, where an angle differs from a pure number."""
+    """True if two units have the same dimension; an angle differs from a pure number."""
     one, two = common_unit(unit), common_unit(other)
     if one is not None and two is not None:
         return one.roots == two.roots
@@ -144,7 +144,7 @@ def _measure_the_same(unit: str, other: str) -> bool:
 
 @lru_cache(maxsize=512)
 def _measure(unit: str) -> str:
-    """Dimension of a unit, angles included, as the product of its root units."""
+    """Dimension of a unit, including angles, as the product of its root units."""
     return str(_registry().get_root_units(_unit(unit))[1])
 
 

@@ -66,7 +66,7 @@ class Trial:
 
     @property
     def success(self) -> bool:
-        """True if all states are complete and the object is where it should be."""
+        """True if all states are complete and the object is in its place."""
         return self.record.success
 
     @property

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, TextIO, cast
 
-from rgss.documents import escaped_for_json, steers
+from rgss.documents import escaped_for_json, has_control_characters
 
 
 class SafeStream:
@@ -18,7 +18,7 @@ class SafeStream:
 
     def write(self, text: str) -> int:
         """Write text with terminal control characters escaped."""
-        self.own.write(escaped_for_json(text) if steers(text) else text)
+        self.own.write(escaped_for_json(text) if has_control_characters(text) else text)
         return len(text)
 
     def writelines(self, lines: Iterator[str]) -> None:

@@ -1,4 +1,4 @@
-"""Design parameters, their levels and ranges, the components behind them, and the variants they make."""
+"""Design space: parameters, levels and ranges, components, rules and variants."""
 
 from rgss.designs.catalogue import CatalogueModel, load_catalogue
 from rgss.designs.choosing import picked

@@ -1,15 +1,14 @@
-"""A balanced part of a set of designs.
+"""Balanced subset of a set of designs.
 
-A part is balanced when each level of each factor, and each pair of levels of two factors, is in it
-as often as in any other design of its size. Xu's measure of this for designs of mixed levels is
+A subset is balanced if each level of each factor, and each pair of levels of two factors, occurs equally often. Xu's
+measure of imbalance for designs of mixed levels is
 
     J2 = Σ_{i<j} δ_ij²,   δ_ij = Σ_k w_k [design i and design j have the same level of factor k]
 
-with the number of levels of a factor as its weight; it is least for orthogonal arrays (H. Xu, *An
-algorithm for constructing orthogonal and nearly-orthogonal arrays with mixed levels and small runs*,
-Technometrics 44, 2002). The same sum with δ in place of δ² counts single levels alone. Designs are
-taken one by one so that the two grow least, single levels first, and then exchanged
-for better ones; of several starts the best is kept.
+with the number of levels of a factor as its weight; it is least for orthogonal arrays (H. Xu, *An algorithm for
+constructing orthogonal and nearly-orthogonal arrays with mixed levels and small runs*, Technometrics 44, 2002). The
+same sum with δ instead of δ² counts only single levels. Designs are added one by one with the least increase of both,
+single levels first, and then exchanged for better ones; the best of several starts is kept.
 """
 
 from __future__ import annotations
@@ -22,27 +21,27 @@ if TYPE_CHECKING:
     import numpy as np
 
 LARGEST_BLOCK = 2_048
-"""Designs among which a part is chosen at once; of more, each block of so many gives its part."""
+"""Block size: larger sets are divided into blocks, from each of which a subset is chosen."""
 
 _BINS = 4
 _MOST_PASSES = 20
 _MOST_STARTS = 32
 _WORK = 100_000
-"""Pairs of designs that starts may compare in all; one start is made whatever it costs."""
+"""Budget of compared pairs of designs for all starts; the first start is always made."""
 
 
 def balanced_part(rows: Sequence[Sequence[int]], count: int) -> tuple[int, ...]:
-    """Choose designs that are balanced over the levels of their factors.
+    """Balanced subset over the levels of the factors.
 
-    The same rows and count give the same part on every machine: all arithmetic is in whole numbers,
-    and of equally good designs the first is taken.
+    The result is the same on every machine: all arithmetic is in integers, and of equally good designs the first is
+    chosen.
 
     Args:
         rows: The level of each factor of each design, as a number.
-        count: Number to choose, from 0 to all.
+        count: Size of the subset, from 0 to all.
 
     Returns:
-        Their places in the rows, rising.
+        Indices of the chosen rows, ascending.
     """
     chosen: list[int] = []
     total = len(rows)
@@ -54,10 +53,10 @@ def balanced_part(rows: Sequence[Sequence[int]], count: int) -> tuple[int, ...]:
 
 
 def binned(share: float) -> int:
-    """The quarter of a range in which a value lies, used as its level.
+    """Quarter of a range that contains a value, used as its level.
 
     Args:
-        share: How far the value is from the low end, as a share of the range.
+        share: Position of the value in the range, from 0 to 1.
     """
     return min(int(share * _BINS), _BINS - 1)
 
@@ -69,17 +68,17 @@ def _part(rows: Sequence[Sequence[int]], count: int) -> list[int]:
         return list(range(count))
     levels = np.asarray(rows, dtype=np.int64)
     weights = np.array([len(np.unique(column)) for column in levels.T], dtype=np.int64)
-    # So heavy that no sum of squares over the part outweighs a difference in the counts of single levels.
+    # Weight with which counts of single levels always dominate the sum of squares.
     single = int(weights.sum()) ** 2 * (count + 1) + 1
 
     def alike(place: int) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
-        """Weighted agreement of each design with one of them."""
+        """Weighted agreement of each design with a given one."""
         common = (levels == levels[place]) @ weights
         return np.asarray(single * common + common**2, dtype=np.int64)
 
     best: tuple[int, list[int]] | None = None
     for start in range(max(1, min(_MOST_STARTS, _WORK // (len(rows) * count)))):
-        # The first start takes the designs one by one, the others begin with a random part.
+        # The first start is greedy, the others begin with a random subset.
         first = [] if start == 0 else Random(start).sample(range(len(rows)), count)  # noqa: S311 - no secret
         found = _improved(len(rows), count, first, alike)
         if best is None or found < best:
@@ -90,7 +89,7 @@ def _part(rows: Sequence[Sequence[int]], count: int) -> list[int]:
 def _improved(
     size: int, count: int, first: Sequence[int], alike: Callable[[int], np.ndarray[tuple[int], np.dtype[np.int64]]]
 ) -> tuple[int, list[int]]:
-    """Fill a part, exchange its designs while that makes it more balanced, and say how far it is from that."""
+    """Complete a subset, exchange designs while that improves the balance, and return it with its imbalance."""
     import numpy as np
 
     taken = np.zeros(size, dtype=bool)
@@ -107,7 +106,7 @@ def _improved(
         changed = False
         for place in [int(one) for one in np.flatnonzero(taken)]:
             own = alike(place)
-            # What each other design would have in common with the part without this one.
+            # Agreement of each other design with the subset without this one.
             others = np.where(taken, never, score - own)
             best = int(np.argmin(others))
             if others[best] < score[place] - own[place]:

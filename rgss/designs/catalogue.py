@@ -1,4 +1,4 @@
-"""Reading the component catalogue."""
+"""Loader of the component catalogue."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from rgss.findings import Finding, shown
 
 
 class SourcedValueModel(DocumentModel):
-    """A magnitude with its source, or marked as an assumption with its rationale."""
+    """Magnitude with its source, or marked as an assumption with its rationale."""
 
     value: ScalarField
     assumption: bool = False
@@ -27,7 +27,7 @@ class SourcedValueModel(DocumentModel):
 
 
 class ComponentModel(DocumentModel):
-    """A component that can fill a role."""
+    """Component of a role."""
 
     id: Identifier
     role: Identifier
@@ -54,7 +54,7 @@ def load_catalogue(path: Path, *, label: str | None = None) -> Catalogue:
         label: Its name in messages; the path itself by default.
 
     Raises:
-        DocumentError: The file is not a catalogue; with every problem in it.
+        DocumentError: The file is not a valid catalogue; with every problem in it.
     """
     loaded = load_document(path, CatalogueModel, label=label)
     return _CatalogueReader(loaded.document, loaded.value).read()
@@ -127,7 +127,7 @@ class _CatalogueReader:
                 f"cost must be at least 0, got {shown(model.value)}",
                 *place,
                 "value",
-                hint="write what it costs",
+                hint="write a cost of at least 0",
             )
         return cost
 

@@ -1,4 +1,4 @@
-"""Rules that say which combinations of levels and components make a design."""
+"""Compatibility rules for combinations of levels and components."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from rgss.documents import STRICT, Identifier
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Alternative:
-    """Values of parameters and components of roles that hold together, such as those of a factor's level.
+    """Joint values of parameters and components of roles, such as those of a factor's level.
 
     Attributes:
         parameters: Values in SI by parameter id.
@@ -30,7 +30,7 @@ class Alternative:
     components: Mapping[str, str] = field(default_factory=dict)
 
     def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
-        """True if it holds for a combination."""
+        """True if it is satisfied by a combination."""
         return all(parameters.get(name) == value for name, value in self.parameters.items()) and all(
             role in components and components[role].id == component for role, component in self.components.items()
         )
@@ -38,25 +38,25 @@ class Alternative:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Condition:
-    """Holds when every named parameter has one of its values, and one alternative of every other name holds.
+    """Condition: every named parameter has one of its values, and one alternative of every other name is satisfied.
 
     Attributes:
         choices: Values in SI by parameter id.
-        alternatives: What the values of a factor or a role mean, by its name.
+        alternatives: Alternatives of a factor or a role, by its name.
     """
 
     choices: Mapping[str, tuple[ParameterValue, ...]]
     alternatives: Mapping[str, tuple[Alternative, ...]] = field(default_factory=dict)
 
     def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
-        """True if it holds for a combination."""
+        """True if it is satisfied by a combination."""
         return all(parameters.get(name) in allowed for name, allowed in self.choices.items()) and all(
             any(one.holds(parameters, components) for one in some) for some in self.alternatives.values()
         )
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The parameters and roles that it names."""
+        """Names of its parameters and roles."""
         settings = [one for some in self.alternatives.values() for one in some]
         parameters = [name for one in settings for name in one.parameters]
         roles = [f"{COMPONENT_PREFIX}{role}" for one in settings for role in one.components]
@@ -65,18 +65,18 @@ class Condition:
 
 @document_dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Limit:
-    """A product of numbers of the design, and what it may not exceed."""
+    """Upper bound on a product of numbers of the design."""
 
     product_of: Annotated[tuple[Identifier, ...], Field(min_length=1)]
     at_most: Identifier
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The numbers of the design that it names."""
+        """Names of its numbers of the design."""
         return (*self.product_of, self.at_most)
 
     def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
-        """True if it holds for a combination; it does where a role has no component yet."""
+        """True if it is satisfied by a combination, or if a role has no component yet."""
         known = numbers(parameters, components)
         if not set(self.names) <= known.keys():
             return True
@@ -85,13 +85,13 @@ class Limit:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rule:
-    """Condition that a combination must satisfy to be a design.
+    """Condition on the combinations of designs.
 
     Attributes:
         id: Its id.
         rationale: The reason.
         when: Condition of the rule; always true if it has no choices.
-        require: Condition that must hold there; None where nothing that it applies to is a design.
+        require: Required condition; None to exclude all combinations that satisfy `when`.
     """
 
     id: str
@@ -101,7 +101,7 @@ class Rule:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The parameters, roles and numbers of the design that it names."""
+        """Names of its parameters, roles and numbers of the design."""
         return (*self.when.names, *(self.require.names if self.require is not None else ()))
 
     def allows(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:

@@ -1,4 +1,4 @@
-"""Components that a design is made of, and the catalogue that lists them."""
+"""Components of designs, and the component catalogue."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class SourcedValue:
     Attributes:
         value: The magnitude in SI (money in US dollars).
         unit: Its unit.
-        assumption: Whether it is assumed rather than taken from a source.
-        rationale: Reason for this value; not empty where it is assumed.
-        source: Its source; not empty unless it is assumed.
+        assumption: True if it is assumed instead of taken from a source.
+        rationale: Reason for this value; required if it is assumed.
+        source: Its source; required unless it is assumed.
     """
 
     value: float
@@ -33,7 +33,7 @@ class SourcedValue:
 
 @document_dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Role:
-    """A role and the units of the properties that its components have besides a cost."""
+    """Role, with the units of its components' properties other than the cost."""
 
     id: Identifier
     name: Text
@@ -43,19 +43,18 @@ class Role:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Component:
-    """Something that can fill a role.
+    """Component of a role.
 
     Attributes:
         id: Its id, such as ``kg-3-light``.
         role: The id of its role.
         name: Its name.
         manufacturer: Its manufacturer or publisher.
-        matches: The parameter values that select it, as they are written in the catalogue;
-            empty when it suits every design.
+        matches: The parameter values that select it, as written in the catalogue; empty if it suits every design.
         geometry: The file with its geometry, relative to the project; empty if it has none.
         cost: Its cost.
         properties: Its other properties, by name.
-        sets: The quantity of `SETTABLE_QUANTITIES` that a property sets, by property; the same for the whole role.
+        sets: The quantity of `SETTABLE_QUANTITIES` set by a property, by property; equal for the whole role.
     """
 
     id: str
@@ -70,13 +69,13 @@ class Component:
 
     @property
     def mass_kg(self) -> float | None:
-        """Its mass; None where its role has no property ``mass``."""
+        """Its mass in kg; None if its role has no property ``mass``."""
         mass = self.properties.get("mass")
         return None if mass is None else mass.value
 
     @property
     def assumptions(self) -> Mapping[str, str]:
-        """The rationale of each of its values that is assumed, by name; ``cost`` is one."""
+        """Rationale of each of its assumed values, by name, including ``cost``."""
         values = {"cost": self.cost, **self.properties}
         return {name: value.rationale for name, value in values.items() if value.assumption}
 
@@ -87,12 +86,12 @@ class Component:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Catalogue:
-    """The components that designs choose from.
+    """Component catalogue.
 
     Attributes:
         roles: Every role, in the order of the file.
         components: Every component, in the order of the file.
-        document: The file, for findings that need another file to be seen.
+        document: The file, for findings that depend on other files.
     """
 
     roles: tuple[Role, ...]

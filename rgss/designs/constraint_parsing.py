@@ -1,4 +1,4 @@
-"""Parser of constraints, with a check of units and every mistake at its place.
+"""Parser of constraints, with a check of units and positions of errors.
 
 The grammar, from the weakest binding to the strongest::
 
@@ -9,9 +9,9 @@ The grammar, from the weakest binding to the strongest::
     base        quantity | name | "(" side ")"
     quantity    a number, with its unit if it has one: 1.2 m/s, 50 %
 
-A unit has no space in it, so that ``1 m/s * limit`` is a speed times ``limit``. A name is that of a
-parameter, such as ``finger_force`` or ``design.finger_force``, of what a parameter sets, such as
-``gripper.finger.force``, or of a property of a component, such as ``component.gripper.max_force``.
+A unit has no space in it, so that ``1 m/s * limit`` is a speed times ``limit``. A name is that of a parameter, such as
+``finger_force`` or ``design.finger_force``, of the quantity set by a parameter, such as ``gripper.finger.force``, or of
+a property of a component, such as ``component.gripper.max_force``.
 """
 
 from __future__ import annotations
@@ -45,10 +45,10 @@ Dimension = tuple[tuple[str, float], ...]
 
 
 class ConstraintProblem(Exception):  # noqa: N818 - it never leaves the room: it becomes a finding
-    """Mistake in a constraint, with its position.
+    """Error in a constraint, with its position.
 
     Attributes:
-        rule: The id of the broken rule.
+        rule: The id of the violated rule.
         offset: Its position, in characters from the start of the text.
         message: The problem.
         hint: Advice.
@@ -73,7 +73,7 @@ class _Token:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Part:
-    """A part of the text: its tree, what it measures, and where it begins."""
+    """Part of the text: its tree, dimension and start."""
 
     node: Node
     dimension: Dimension
@@ -81,18 +81,18 @@ class _Part:
 
 
 def parse_constraint(text: str, units: Mapping[str, str], aliases: Mapping[str, str] | None = None) -> Constraint:
-    """Read a constraint.
+    """Parse a constraint.
 
     Args:
         text: The text.
         units: The SI unit of each value of the design by its name, such as ``design.finger_force``; empty for a name.
-        aliases: Other names of such values, such as ``gripper.finger.force``, with the name that each is for.
+        aliases: Aliases of such names, such as ``gripper.finger.force``, with the original name.
 
     Raises:
         ConstraintProblem: The text is not a constraint.
     """
     if len(text) > LONGEST_CONSTRAINT:
-        raise _problem(0, f"longer than {LONGEST_CONSTRAINT} characters", "split it into rules of their own")
+        raise _problem(0, f"longer than {LONGEST_CONSTRAINT} characters", "split it into several rules")
     return _Reader(text, units, aliases or {}).read()
 
 
@@ -113,16 +113,16 @@ class _Reader:
             part = self._side()
             if part.dimension != parts[-1].dimension:
                 message = f"a value in {_unit(parts[-1])} is compared with one in {_unit(part)}"
-                raise _problem(sign.offset, message, "compare what has one unit", rule="design.unit")
+                raise _problem(sign.offset, message, "compare values with the same dimension", rule="design.unit")
             signs.append(sign.text)
             parts.append(part)
         token = self._next()
         if token.kind != "end":
-            raise _problem(token.offset, f"{token.text!r} is out of place", "write it like fingers * force <= 40 N")
+            raise _problem(token.offset, f"unexpected {token.text!r}", "write it like fingers * force <= 40 N")
         if not signs:
-            raise _problem(0, "nothing is compared", "write it like fingers * force <= 40 N")
+            raise _problem(0, "the constraint has no comparison", "write it like fingers * force <= 40 N")
         if not self._names:
-            raise _problem(0, "no number of the design is named", "name a parameter, such as finger_force")
+            raise _problem(0, "the constraint names no number of the design", "name a parameter, such as finger_force")
         return Constraint(
             text=self._text,
             sides=tuple(part.node for part in parts),
@@ -146,7 +146,9 @@ class _Reader:
             if left.dimension != right.dimension:
                 verb = "added to" if sign.text == "+" else "subtracted from"
                 message = f"a value in {_unit(right)} is {verb} one in {_unit(left)}"
-                raise _problem(sign.offset, message, "add and subtract what has one unit", rule="design.unit")
+                raise _problem(
+                    sign.offset, message, "add and subtract values with the same dimension", rule="design.unit"
+                )
             node = Operation(sign=sign.text, left=left.node, right=right.node)
             left = _Part(node=node, dimension=left.dimension, offset=left.offset)
         return left
@@ -164,7 +166,7 @@ class _Reader:
     def _factor(self) -> _Part:
         self._depth += 1
         if self._depth > DEEPEST_NESTING:
-            raise _problem(self._next().offset, f"nested more than {DEEPEST_NESTING} deep", "write it flatter")
+            raise _problem(self._next().offset, f"nested more than {DEEPEST_NESTING} deep", "simplify the nesting")
         if self._next().text == "-":
             sign = self._take()
             part = self._factor()
@@ -233,7 +235,7 @@ def _tokens(text: str) -> list[_Token]:
         match = _TOKEN.match(text, at)
         if match is None:
             hint = "write quantities, names, + - * / **, comparisons and brackets"
-            raise _problem(at, f"{text[at]!r} has no place in a constraint", hint)
+            raise _problem(at, f"{text[at]!r} is not allowed in a constraint", hint)
         kind = match.lastgroup if match.lastgroup != "unit" else "number"
         tokens.append(_Token(kind=kind or "", text=match[kind or 0], offset=at, unit=(match["unit"] or "")))
         at = match.end()

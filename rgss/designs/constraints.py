@@ -1,7 +1,7 @@
-"""Constraints: comparisons between numbers of a design that every variant must keep.
+"""Constraints: comparisons between numbers of a design that every variant must satisfy.
 
-They are computed exactly, with each number as its decimal text has it, so that binary rounding
-never decides: three fingers of 0.1 kg are not heavier than 0.3 kg.
+They are evaluated exactly in decimals, so that binary rounding never decides: three fingers of 0.1 kg are not heavier
+than 0.3 kg.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ COMPARISONS: Mapping[str, Callable[[Fraction, Fraction], bool]] = MappingProxyTy
         ">": operator.gt,
     }
 )
-"""Comparison of each sign; the longer signs come first."""
+"""Comparison by operator; longer operators come first."""
 
 OPERATORS: Mapping[str, Callable[[Fraction, Fraction], Fraction]] = MappingProxyType(
     {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}
@@ -36,55 +36,55 @@ OPERATORS: Mapping[str, Callable[[Fraction, Fraction], Fraction]] = MappingProxy
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Amount:
-    """A quantity written in a constraint, in SI."""
+    """Quantity in a constraint, in SI."""
 
     value: Fraction
 
     def evaluate(self, values: Mapping[str, Fraction]) -> Fraction:  # noqa: ARG002 - every node takes the values
-        """The quantity."""
+        """Value of the quantity."""
         return self.value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Symbol:
-    """A number of the design, by its name, such as ``design.finger_force``."""
+    """Number of the design by name, such as ``design.finger_force``."""
 
     name: str
 
     def evaluate(self, values: Mapping[str, Fraction]) -> Fraction:
-        """The number."""
+        """Value of the number."""
         return values[self.name]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Operation:
-    """A sum, difference, product or quotient; `sign` is one of ``+ - * /``."""
+    """Sum, difference, product or quotient; `sign` is one of ``+ - * /``."""
 
     sign: str
     left: Node
     right: Node
 
     def evaluate(self, values: Mapping[str, Fraction]) -> Fraction:
-        """The result.
+        """Value of the operation.
 
         Raises:
-            ZeroDivisionError: It is a division by zero.
+            ZeroDivisionError: The divisor is zero.
         """
         return OPERATORS[self.sign](self.left.evaluate(values), self.right.evaluate(values))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Raised:
-    """A value to a whole power."""
+    """Power with an integer exponent."""
 
     base: Node
     exponent: int
 
     def evaluate(self, values: Mapping[str, Fraction]) -> Fraction:
-        """The power.
+        """Value of the power.
 
         Raises:
-            ZeroDivisionError: It is a negative power of zero.
+            ZeroDivisionError: The power is a negative one of zero.
         """
         return Fraction(self.base.evaluate(values) ** self.exponent)
 
@@ -94,13 +94,13 @@ Node = Amount | Symbol | Operation | Raised
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Constraint:
-    """Sides of which each is compared with the next, such as ``0.2 kg <= m_f * n_f <= 1 kg``.
+    """Chain of comparisons, such as ``0.2 kg <= m_f * n_f <= 1 kg``.
 
     Attributes:
-        text: As it is written.
-        sides: What is compared.
-        signs: The comparison after each side but the last.
-        names: The numbers of the design that it names, such as ``design.m_f``, each once.
+        text: Its text.
+        sides: The compared expressions.
+        signs: The comparison operators between the sides.
+        names: Names of its numbers of the design, such as ``design.m_f``, each once.
     """
 
     text: str
@@ -109,10 +109,9 @@ class Constraint:
     names: tuple[str, ...]
 
     def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
-        """True if it holds for a combination.
+        """True if it is satisfied by a combination.
 
-        It does where a role that it names has no component yet, and does not where it is not
-        defined (a division by zero).
+        True if one of its roles has no component yet, False if it is undefined (a division by zero).
         """
         known = numbers(parameters, components)
         if not set(self.names) <= known.keys():

@@ -1,4 +1,4 @@
-"""The values of a design that measures and rules name."""
+"""Values of a design for measures and rules."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ DESIGN_PREFIX = "design."
 
 
 def sources(variant: DesignVariant) -> Mapping[str, float | str]:
-    """The values that measures may take from a design, in SI.
+    """Values of a design for measures, in SI.
 
     Returns:
         ``design.<parameter>`` for every parameter, then ``component.<role>.<property>`` for
@@ -27,7 +27,7 @@ def sources(variant: DesignVariant) -> Mapping[str, float | str]:
 
 
 def numbers(parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> Mapping[str, float]:
-    """Every number of a combination of parameter values and components, named as by `sources`."""
+    """Numbers of a combination of parameter values and components, with the names of `sources`."""
     found: dict[str, float] = {}
     for name, value in parameters.items():
         if not isinstance(value, str):
@@ -39,19 +39,19 @@ def numbers(parameters: Mapping[str, ParameterValue], components: Mapping[str, C
 
 
 def set_names(parameters: Iterable[DesignParameter]) -> Mapping[str, str]:
-    """The name of each parameter in `sources`, by the quantity that it sets."""
+    """Name of each parameter in `sources`, by the quantity that it sets."""
     return {one.sets: f"{DESIGN_PREFIX}{one.id}" for one in parameters if one.sets}
 
 
 def number_aliases(parameters: Iterable[DesignParameter]) -> Mapping[str, str]:
-    """Other names of the parameters in `sources`: what each sets, its id and its name, where one alone has it."""
+    """Aliases of the parameters in `sources`: the quantity that each sets, its id and its name, if unique."""
     known = tuple(parameters)
     named = {one.name: f"{DESIGN_PREFIX}{one.id}" for one in known}
     return {**named, **{one.id: f"{DESIGN_PREFIX}{one.id}" for one in known}, **set_names(known)}
 
 
 def source_units(parameters: Iterable[DesignParameter], catalogue: Catalogue) -> Mapping[str, str]:
-    """The SI unit of each value that `sources` gives, by its name; empty for names."""
+    """SI unit of each value of `sources`, by name; empty for names."""
     units = {f"{DESIGN_PREFIX}{parameter.id}": parameter.unit for parameter in parameters}
     for role in catalogue.roles:
         for name, unit in {"cost": "USD", **role.properties}.items():

@@ -13,7 +13,7 @@ from rgss.documents import DocumentModel, Identifier, Text, UnitText
 
 
 class ParameterModel(DocumentModel):
-    """A design parameter: a quantity with a unit, a count, or the name of a component."""
+    """Design parameter: a quantity with a unit, a count, or the name of a component."""
 
     id: Identifier
     name: Identifier
@@ -27,14 +27,14 @@ class ParameterModel(DocumentModel):
 
 
 class LevelModel(DocumentModel):
-    """One setting of a factor."""
+    """Level of a factor."""
 
     id: Identifier
     sets: dict[Identifier, ScalarField]
 
 
 class FactorModel(DocumentModel):
-    """Parameters that are chosen together by ``levels``, or one that is chosen from a ``range``."""
+    """Factor: parameters that vary together over ``levels``, or one that varies in a ``range``."""
 
     id: Identifier
     name: Text
@@ -45,7 +45,7 @@ class FactorModel(DocumentModel):
 
 
 class SampleModel(DocumentModel):
-    """Sample of a design space, in place of the full factorial."""
+    """Sample of a design space, instead of the full factorial."""
 
     method: SamplingMethod
     size: int = Field(ge=1, le=65_536)
@@ -53,7 +53,7 @@ class SampleModel(DocumentModel):
 
 
 class RuleModel(DocumentModel):
-    """A rule: ``exclude``; or ``require``, ``limit`` or ``constraint``, each with or without ``when``."""
+    """Rule: ``exclude``; or ``require``, ``limit`` or ``constraint``, each with or without ``when``."""
 
     id: Identifier
     rationale: Text

@@ -1,4 +1,4 @@
-"""Field types of the design files whose meaning another part of the files decides."""
+"""Field types of design files whose type depends on another part of the files."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def _read_choices(value: Any) -> tuple[ParameterValue, ...]:
     if not isinstance(value, list):
         return (_read_scalar(value),)
     if not value:
-        raise _field_error("at least one value is expected", "write the values that will do")
+        raise _field_error("at least one value is expected", "write the allowed values")
     return tuple(_read_scalar(item) for item in value)
 
 
@@ -32,14 +32,14 @@ def _field_error(message: str, hint: str) -> PydanticCustomError:
 _SCALAR_SCHEMA = {"type": ["number", "string"], "description": "A quantity with its unit, a number, or a name."}
 
 ScalarField = Annotated[ParameterValue, PlainValidator(_read_scalar), WithJsonSchema(_SCALAR_SCHEMA)]
-"""A value whose unit the parameter knows."""
+"""A value in a unit of the parameter."""
 
 ChoicesField = Annotated[
     tuple[ParameterValue, ...],
     PlainValidator(_read_choices),
     WithJsonSchema({"anyOf": [_SCALAR_SCHEMA, {"type": "array", "minItems": 1, "items": _SCALAR_SCHEMA}]}),
 ]
-"""One such value, or a list of them of which any will do."""
+"""One such value, or a list of alternatives."""
 
 ConditionsField = dict[Identifier, ChoicesField]
-"""What must hold: values by parameter id, or component ids by ``component.<role>``."""
+"""A condition: values by parameter id, or component ids by ``component.<role>``."""

@@ -1,4 +1,4 @@
-"""Findings about ids, values and names that more than one of the design files needs."""
+"""Common findings of design files about ids, values and names."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from rgss.findings import Finding
 def duplicate_findings(
     document: Document, section: Sequence[str | int], entries: Iterable[object], key: str = "id"
 ) -> Iterator[Finding]:
-    """A finding at each entry of a list whose key repeats that of an earlier entry.
+    """A finding at each entry of a list with the key of an earlier entry.
 
     Args:
         document: The file.
         section: Location of the list.
         entries: The entries.
-        key: The key that distinguishes them.
+        key: The key that must be unique.
     """
     first: dict[str, int] = {}
     for index, entry in enumerate(entries):
@@ -28,7 +28,7 @@ def duplicate_findings(
         if value in first:
             place = (*section, first[value], key)
             message = f"{key} {value!r} is already in line {document.values[place][0]}"
-            hint = f"give each its own {key}"
+            hint = f"use a unique {key}"
             yield document.finding("design.duplicate-id", message, (*section, index, key), hint=hint)
         first.setdefault(value, index)
 
@@ -43,17 +43,17 @@ def dotted_findings(
 
 
 def unit_findings(document: Document, location: Sequence[str | int], name: str, unit: str) -> Iterator[Finding]:
-    """A finding if a unit in which numbers are kept is not of SI."""
+    """A finding if a unit is not SI."""
     try:
         if not is_si(unit):
-            message = f"{name}: unit {unit!r} is not of SI"
+            message = f"{name}: the unit must be SI, got {unit!r}"
             yield document.finding("design.unit", message, location, hint=f"write {si_unit(unit)}")
     except QuantityError as error:
         yield document.finding("design.unit", f"{name}: {error.message}", location, hint=error.hint)
 
 
 def near_hint(name: str, known: Iterable[str], what: str) -> str:
-    """A hint for a name that is not known: the nearest that is, or the list of them."""
+    """Hint for an unknown name: the nearest known name, or the list of known names."""
     names = sorted(set(known))
     near = difflib.get_close_matches(name, names, n=1)
     if near:
@@ -62,13 +62,13 @@ def near_hint(name: str, known: Iterable[str], what: str) -> str:
 
 
 def value_hint(value: str, known: Iterable[str], what: str, *, others: Iterable[str] = ()) -> str:
-    """A hint for a value that is not known: the nearest whatever its capitals, or the list of those that are.
+    """Hint for an unknown value: the nearest known value, case-insensitive, or the list of known values.
 
     Args:
         value: The value.
-        known: The values that are listed.
-        what: What these are.
-        others: Further values that are proposed if they are near, and not listed.
+        known: The listed values.
+        what: Their name in messages.
+        others: Further values, proposed if they are near, but not listed.
     """
     listed = set(known)
     near = difflib.get_close_matches(value.lower(), sorted({*listed, *others}), n=1)

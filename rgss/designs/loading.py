@@ -1,4 +1,4 @@
-"""Reading a design space, with every mistake in it and in the catalogue's matches."""
+"""Loader of a design space, with findings about it and the catalogue's matches."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from rgss.errors import DocumentError
 from rgss.findings import Finding
 
 LARGEST_SPACE = 100_000
-"""Combinations of levels that a design space may have."""
+"""Greatest number of combinations of levels of a design space."""
 
 
 def load_design_space(path: Path, catalogue: Catalogue, *, label: str | None = None) -> DesignSpace:
@@ -31,13 +31,12 @@ def load_design_space(path: Path, catalogue: Catalogue, *, label: str | None = N
 
     Args:
         path: The file.
-        catalogue: The components that it chooses from.
+        catalogue: The component catalogue.
         label: Its name in messages; the path itself by default.
 
     Raises:
-        DocumentError: The file is not a design space, or a combination of its levels does
-            not select one component for each role; with every problem, also those in the
-            catalogue that only a design space shows.
+        DocumentError: The file is not a valid design space, or a combination of its levels does not select exactly one
+        component for each role; with every problem, also those of the catalogue that depend on the design space.
     """
     loaded = load_document(path, DesignSpaceModel, label=label)
     lines = path.read_text(encoding="utf-8-sig").splitlines()
@@ -45,7 +44,7 @@ def load_design_space(path: Path, catalogue: Catalogue, *, label: str | None = N
 
 
 class _SpaceReader:
-    """Reader that keeps the sound parts, so that one mistake does not hide the others."""
+    """Reader that continues with the valid parts, so that one error does not hide others."""
 
     def __init__(self, document: Document, model: DesignSpaceModel, catalogue: Catalogue, lines: Sequence[str]) -> None:
         self._document = document
@@ -65,14 +64,14 @@ class _SpaceReader:
         setters: dict[str, str] = dict.fromkeys(self._model.constants, "the constants")
         factors = tuple(self._factor(index, item, setters) for index, item in enumerate(self._model.factors))
         if all(factor.levels or factor.span is not None for factor in factors):
-            # A factor that cannot be read does not say what it sets.
+            # The parameters of an invalid factor are unknown.
             self._find_unset(parameters, setters)
         names = FilterNames(parameters=parameters, factors=factors, catalogue=self._catalogue, selectors=selectors)
         rules = RuleReader(self._document, self._values, names, constants, lines=self._lines).read(self._model.rules)
         self._findings += rules.findings
         self._findings += sample_findings(self._document, self._model)
         if self._findings and (self._model.sample is not None or any(factor.span for factor in factors)):
-            # The points depend on every factor, so one mistake changes the designs.
+            # The points depend on every factor, so one error changes all designs.
             raise DocumentError(sorted(set(self._findings)))
         space = DesignSpace(
             parameters=parameters,
@@ -159,7 +158,7 @@ class _SpaceReader:
         return selectors
 
     def _read_values(self, written: Mapping[str, ParameterValue], *place: str | int) -> Mapping[str, ParameterValue]:
-        """The sound ones among the values that a mapping gives to parameters."""
+        """Valid values of parameters in a mapping."""
         read = {}
         for name, value in written.items():
             values, findings = self._values.choices(self._document, (*place, name), name, (value,))
@@ -193,7 +192,7 @@ class _SpaceReader:
         self._findings += findings
         name = model.parameter or ""
         if name in setters:
-            message = f"{name} is set already by {setters[name]}"
+            message = f"{name} is already set by {setters[name]}"
             self._report("set-twice", message, *place, "parameter", hint="set it in one place")
         setters.setdefault(name, f"factor {model.id!r}")
         return Factor(id=model.id, name=model.name, levels=(), span=span)
@@ -208,7 +207,7 @@ class _SpaceReader:
                 message = f"level {level.id!r} does not set {name}, which other levels of its factor set"
                 self._report("level-incomplete", message, *place, "sets", hint=f"add {name}")
             elif name in taken:
-                message = f"{name} is set already by {taken[name]}"
+                message = f"{name} is already set by {taken[name]}"
                 self._report("set-twice", message, *place, "sets", name, hint="set it in one place", at_key=True)
 
     def _levels(self, model: FactorModel, taken: Mapping[str, str], *place: str | int) -> tuple[Level, ...]:

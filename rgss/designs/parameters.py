@@ -1,4 +1,4 @@
-"""Design parameters, and the reading and writing of their values."""
+"""Design parameters, with parsing and formatting of their values."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rgss.findings import shown
 from rgss.quantities import conversion_factor, dimension, parse_quantity
 
 ParameterValue = float | int | str
-"""A magnitude in SI, a count, or a name."""
+"""Magnitude in SI, count, or name."""
 
 _BASE_UNITS: Mapping[str, str] = {
     "current": "A",
@@ -37,7 +37,7 @@ class ParameterKind(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DesignParameter:
-    """One quantity that a designer chooses.
+    """Quantity chosen by the designer.
 
     Attributes:
         id: Its id, such as ``m_f``.
@@ -45,7 +45,7 @@ class DesignParameter:
         symbol: Its symbol in equations.
         kind: Kind of its values.
         unit: The SI unit of its values; ``"1"`` for counts and ratios, empty for names.
-        role: The role of the components that it names; empty unless it has names.
+        role: Role of the components that it names; empty for other kinds.
         sets: Quantity of `SETTABLE_QUANTITIES` that it sets, or ``catalogue.<role>``; may be empty.
         description: Description, in a sentence.
         assumption: Assumption about it, with the reason; may be empty.
@@ -63,21 +63,21 @@ class DesignParameter:
 
     @property
     def column(self) -> str:
-        """Its column in tables: id, name and unit, such as ``m_f_finger_mass_kg``."""
+        """Name of its column in tables: id, name and unit, such as ``m_f_finger_mass_kg``."""
         unit = "" if self.unit == "1" else re.sub(r"[^a-z0-9]+", "_", self.unit.lower()).strip("_")
         return "_".join(part for part in dict.fromkeys((self.id, self.name, unit)) if part)
 
     def read(self, written: ParameterValue) -> ParameterValue:
-        """Read a value as it is written in a file.
+        """Parse a value of a file.
 
         Args:
-            written: A quantity with its unit, a whole number, or a name.
+            written: A quantity with its unit, an integer, or a name.
 
         Returns:
             The value in SI.
 
         Raises:
-            QuantityError: It is not a value of this parameter.
+            QuantityError: The text is not a value of this parameter.
         """
         if self.kind is ParameterKind.NAME:
             if not isinstance(written, str):
@@ -87,35 +87,37 @@ class DesignParameter:
             return written
         if self.kind is ParameterKind.COUNT:
             if not isinstance(written, int) or written < 0:
-                raise QuantityError(f"{shown(written)} is not a whole number from 0", hint="write a count, such as 2")
+                raise QuantityError(
+                    f"a whole number from 0 is expected, got {shown(written)}", hint="write a count, such as 2"
+                )
             return written
         return read_magnitude(written, self.unit)
 
 
 def read_magnitude(written: ParameterValue, unit: str) -> float:
-    """Read a quantity in a unit.
+    """Parse a quantity in a unit.
 
     Raises:
-        QuantityError: It is not one.
+        QuantityError: The text is not a quantity of that dimension.
     """
-    # A written "-0" is the same design as "0".
+    # "-0" is the same design as "0".
     return parse_quantity(written if isinstance(written, str) else repr(written), unit) + 0.0
 
 
 def is_si(unit: str) -> bool:
-    """True if magnitudes in a unit are magnitudes in SI, as for ``N`` and not for ``mm``.
+    """True if a unit is coherent with SI, such as ``N`` but not ``mm``.
 
     Raises:
-        QuantityError: The unit is unknown, or measures what has no unit in SI.
+        QuantityError: The unit is unknown, or has no SI equivalent.
     """
     return conversion_factor(unit, _base_units(unit)) == 1.0
 
 
 def si_unit(unit: str) -> str:
-    """The SI unit (US dollars for money) of the same dimension as a unit, as it is written.
+    """Symbol of the SI unit (US dollars for money) of the same dimension as a unit.
 
     Raises:
-        QuantityError: The unit is unknown, or measures what has no unit in SI.
+        QuantityError: The unit is unknown, or has no SI equivalent.
     """
     for usual in _USUAL_UNITS:
         try:
@@ -127,10 +129,10 @@ def si_unit(unit: str) -> str:
 
 
 def unit_of(powers: Iterable[tuple[str, float]]) -> str:
-    """The SI unit of base dimensions with their exponents, as it is written; ``"1"`` for none.
+    """Symbol of the SI unit of base dimensions with their exponents; ``"1"`` for none.
 
     Args:
-        powers: Base dimensions as `rgss.quantities.dimension` names them.
+        powers: Base dimensions with the names of `rgss.quantities.dimension`.
     """
     base = "*".join(_BASE_UNITS[name] if power == 1 else f"{_BASE_UNITS[name]}**{power:g}" for name, power in powers)
     return si_unit(base or "1")
@@ -140,12 +142,12 @@ def _base_units(unit: str) -> str:
     parts = []
     for name, power in dimension(unit):
         if name not in _BASE_UNITS:
-            raise QuantityError(f"unit {unit!r} measures what has no unit in SI", hint="use units such as mm, kg, s, N")
+            raise QuantityError(f"unit {unit!r} has no SI equivalent", hint="use units such as mm, kg, s, N")
         parts.append(_BASE_UNITS[name] if power == 1 else f"{_BASE_UNITS[name]}**{power:g}")
     return "*".join(parts) or "1"
 
 
 def format_value(value: ParameterValue, unit: str = "") -> str:
-    """Write a value as briefly as it can be read back: ``0.3``, ``10``, ``RRT``."""
+    """Shortest text of a value that is parsed back exactly: ``0.3``, ``10``, ``RRT``."""
     text = repr(value).removesuffix(".0") if isinstance(value, float) else str(value)
     return f"{text} {unit}" if unit not in ("", "1") else text

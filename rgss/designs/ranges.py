@@ -1,4 +1,4 @@
-"""Reading of ranges of factors and of samples."""
+"""Reader of ranges of factors and of samples."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rgss.errors import QuantityError
 from rgss.findings import Finding
 
 _TOLERANCE = 1e-9
-"""How far from a whole number of steps a range may be, as a share of it: conversions of units are not exact."""
+"""Relative tolerance of a whole number of steps, since unit conversions are not exact."""
 
 
 def read_span(
@@ -29,7 +29,7 @@ def read_span(
         parameters: The design parameters by id.
 
     Returns:
-        The range, or None and what is wrong with it.
+        The range, or None with findings.
     """
     findings: list[Finding] = []
 
@@ -79,7 +79,7 @@ def read_span(
         ends = f"{format_value(low, parameter.unit)} to {format_value(high, parameter.unit)}"
         message = f"{ends} is not a whole number of steps of {format_value(step, parameter.unit)}"
         where = "range" if model.resolution is None else "resolution"
-        report("range", message, where, hint="let one divide the other")
+        report("range", message, where, hint="make the range a multiple of the resolution")
     return None, findings
 
 
@@ -99,14 +99,14 @@ def sample_findings(document: Document, model: DesignSpaceModel) -> Iterator[Fin
     size = model.sample.size
     if model.sample.method is SamplingMethod.SOBOL and size & (size - 1):
         below = 1 << (size.bit_length() - 1)
-        message = f"{size} is not a power of two, and a Sobol sample is even only with one"
+        message = f"the size of a Sobol sample must be a power of two, got {size}"
         near = f"{below}" if below * 2 > 65_536 else f"{below} or {below * 2}"
-        hint = f"write {near}, or take latin_hypercube"
+        hint = f"write {near}, or use latin_hypercube"
         yield document.finding("design.sample", message, ("sample", "size"), hint=hint)
 
 
 def read_sample(model: DesignSpaceModel, factors: Sequence[Factor]) -> Sample | None:
-    """The points of a space whose file has no mistakes in its factors and its sample."""
+    """Sample points of a space with valid factors and sample."""
     if model.sample is None:
         return None
     return sample_factors(factors, method=model.sample.method, size=model.sample.size, seed=model.sample.seed)

@@ -1,4 +1,4 @@
-"""Reading compatibility rules."""
+"""Reader of compatibility rules."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from rgss.quantities import dimension
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RulesRead:
-    """The sound rules of a file, and a finding for each mistake in the others."""
+    """Valid rules of a file, and findings about the others."""
 
     rules: tuple[Rule, ...]
     findings: tuple[Finding, ...]
@@ -54,7 +54,7 @@ class RuleReader:
                 self._possible.setdefault(name, []).append(value)
 
     def read(self, models: Sequence[RuleModel]) -> RulesRead:
-        """Read every rule."""
+        """Read all rules."""
         rules = []
         for index, model in enumerate(models):
             known = len(self._findings)
@@ -95,7 +95,7 @@ class RuleReader:
             named = self._names.values(name)
             if parameter is not None:
                 if parameter.id in choices:
-                    message = f"{name} is {parameter.id}, which is named already"
+                    message = f"{name} refers to {parameter.id}, which is listed already"
                     self._report("named-twice", message, *place, name, hint="name it once", at_key=True)
                 choices[parameter.id] = self._parameter_values(parameter.id, values, *place, name)
             elif named is not None:
@@ -164,7 +164,7 @@ class RuleReader:
             return None
 
     def _offset(self, finding: Finding, text: str, offset: int) -> int:
-        """Distance of a character of the text from the value's first character; 0 where it is folded."""
+        """Offset of a character from the value's first character; 0 for folded text."""
         written = self._lines[finding.line - 1][finding.column - 1 :] if self._lines else ""
         if written.startswith(text):
             return offset
@@ -184,7 +184,7 @@ class RuleReader:
             *product, bound = (units[name] for name in names)
             if _powers(product) != _powers([bound]):
                 message = f"a product in {'·'.join(product)} is compared with {model.at_most} in {bound}"
-                self._report("unit", message, *place, hint="compare what has one unit")
+                self._report("unit", message, *place, hint="compare values with the same dimension")
         return Limit(product_of=tuple(names[:-1]), at_most=names[-1])
 
 

@@ -1,11 +1,10 @@
-"""Sampled designs: points of a space whose full factorial is too large or infinite.
+"""Sampled designs of a space whose full factorial is too large or infinite.
 
-A point is a row of numbers from 0 to 1, one for each factor; each number chooses a level or a
-value. The rows are those of SciPy's quasi-Monte Carlo engines. Scrambled Sobol points (Owen 1998,
-*Scrambling Sobol' and Niederreiter-Xing points*; Joe and Kuo 2008 for the direction numbers) have
-exactly one point in each of ``size`` equal parts of every axis and spread evenly over any few axes
-together; a larger sample of the same seed begins with the smaller one. A Latin hypercube (McKay,
-Beckman and Conover 1979) has the same of every axis for any size.
+A point is a row of numbers from 0 to 1, one for each factor; each number selects a level or a value. The rows are those
+of SciPy's quasi-Monte Carlo engines. Scrambled Sobol points (Owen 1998, *Scrambling Sobol' and Niederreiter-Xing
+points*; Joe and Kuo 2008 for the direction numbers) have exactly one point in each of ``size`` equal parts of every
+axis and spread evenly over any few axes together; a larger sample of the same seed begins with the smaller one. A Latin
+hypercube (McKay, Beckman and Conover 1979) has the same property on every axis for any size.
 """
 
 from __future__ import annotations
@@ -27,14 +26,14 @@ class SamplingMethod(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sample:
-    """The points of a design space that are tried.
+    """Sample of a design space.
 
     Attributes:
         method: Sampling method.
-        size: Number of points, repeats included.
+        size: Number of points, including repetitions.
         seed: Seed of the draws.
-        points: The level of each factor at each point that no earlier point equals, by its number from 1.
-        repeats: The number of the first point that equals another, by that other's number.
+        points: The level of each factor at each distinct point, by its number from 1.
+        repeats: The number of the first equal point, by the number of a repeated point.
     """
 
     method: SamplingMethod
@@ -45,12 +44,12 @@ class Sample:
 
 
 def unit_points(method: SamplingMethod, *, dimensions: int, size: int, seed: int) -> list[tuple[float, ...]]:
-    """Rows of numbers from 0 to below 1, the same for the same arguments.
+    """Points of the unit cube, a deterministic function of the arguments.
 
     Args:
         method: Sampling method.
-        dimensions: Numbers in a row.
-        size: Rows; of a Sobol sample a power of two.
+        dimensions: Number of coordinates.
+        size: Number of points; a power of two for a Sobol sample.
         seed: Seed of the draws.
     """
     from scipy.stats import qmc
@@ -63,16 +62,16 @@ def unit_points(method: SamplingMethod, *, dimensions: int, size: int, seed: int
 
 
 def sample_factors(factors: Sequence[Factor], *, method: SamplingMethod, size: int, seed: int) -> Sample:
-    """Choose a level of each factor at each point.
+    """Select a level of each factor at each point.
 
-    Levels have equal parts of the unit interval. In a Latin hypercube every level of a factor then
-    has ``size / levels`` points, rounded up or down; in a Sobol sample exactly that where the number of
-    levels is a power of two, and less than two points more or fewer otherwise.
+    Levels have equal parts of the unit interval. In a Latin hypercube every level of a factor then has ``size /
+    levels`` points, rounded up or down; in a Sobol sample exactly that where the number of levels is a power of two,
+    and less than two points more or fewer otherwise.
 
     Args:
         factors: The factors, with levels or a range each.
         method: Sampling method.
-        size: Number of points; of a Sobol sample a power of two.
+        size: Number of points; a power of two for a Sobol sample.
         seed: Seed of the draws.
     """
     rows = unit_points(method, dimensions=len(factors), size=size, seed=seed)
@@ -94,13 +93,13 @@ def sample_factors(factors: Sequence[Factor], *, method: SamplingMethod, size: i
 
 
 def _level(factor: Factor, share: float, *, parts: int | None) -> Level:
-    """The level at a place of the unit interval.
+    """Level at a position in the unit interval.
 
     Args:
         factor: The factor.
-        share: The place.
-        parts: The number of equal parts of the interval that have one point each. Parts and not
-            points are then shared out, so that no border between levels goes through a part.
+        share: The position.
+        parts: Number of equal parts of the interval with one point each; levels are assigned to whole parts, so that no
+            boundary between levels is inside a part.
     """
     if factor.span is not None:
         return factor.span.at(share)

@@ -16,11 +16,11 @@ from rgss.findings import Finding
 def selection_findings(space: DesignSpace, document: Document, model: DesignSpaceModel) -> Iterator[Finding]:
     """Findings for combinations without a component or with several for a role, each once.
 
-    Values with mistakes are not in the space, and are not checked here; with mistakes in the rules nothing is
-    checked, since the rules might exclude a combination without a component.
+    Invalid values are not in the space and not checked here; with invalid rules nothing is checked, since they might
+    exclude a combination without a component.
 
     Args:
-        space: The sound part of a design space.
+        space: The valid part of a design space.
         document: Its file.
         model: The entry of the file.
     """
@@ -53,7 +53,7 @@ def selection_findings(space: DesignSpace, document: Document, model: DesignSpac
 
 
 def _selecting_parameters(space: DesignSpace) -> Mapping[str, tuple[str, ...]]:
-    """The parameters that select the components of each role, of roles whose matches are sound."""
+    """Parameters that select the components of each role with valid matches."""
     selecting = {}
     for role in space.catalogue.roles:
         components = space.catalogue.of_role(role.id)
@@ -70,7 +70,7 @@ def _selecting_parameters(space: DesignSpace) -> Mapping[str, tuple[str, ...]]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Combination:
-    """Values of the parameters that select the component of a role, and where they come from."""
+    """Values of the parameters that select the component of a role, and their origin."""
 
     space: DesignSpace
     role: str
@@ -88,7 +88,7 @@ class _Combination:
         ids = ", ".join(component.id for component in candidates)
         where = f" where {self._words()}" if self.values else " in every design"
         message = f"{len(candidates)} components fill the role {self.role!r}{where}: {ids}"
-        hint = "let their 'matches' differ"
+        hint = "make their 'matches' distinct"
         location = ("components", index, "matches" if candidates[1].matches else "id")
         return catalogue.document.finding("design.several-components", message, location, hint=hint)
 
@@ -97,7 +97,7 @@ class _Combination:
         return ", ".join(f"{name} = {format_value(value, units[name])}" for name, value in self.values.items())
 
     def _location(self, model: DesignSpaceModel) -> tuple[str | int, ...]:
-        """Location at which the innermost factor sets one of the values; else that of a constant."""
+        """Location where the innermost factor sets one of the values; else that of a constant."""
         for index, factor in reversed(list(enumerate(model.factors))):
             if factor.parameter in self.values:
                 return ("factors", index, "range")

@@ -1,4 +1,4 @@
-"""Findings about what parameters and properties of components set in a trial."""
+"""Findings about the quantities set by parameters and properties of components."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ _RULE = "design.sets"
 def parameter_set_findings(
     document: Document, parameters: Sequence[DesignParameter], catalogue: Catalogue
 ) -> Iterator[Finding]:
-    """Find parameters whose kind or unit is not that of what they set, and quantities that are set twice.
+    """Findings about parameters whose kind or unit does not match the quantity, and quantities set twice.
 
     Args:
         document: The file of the design space.
         parameters: The parameters, in the order of the file.
-        catalogue: The catalogue, whose properties set quantities too.
+        catalogue: The catalogue, whose properties also set quantities.
     """
     setters = {
         quantity: f"property {name!r} of role {role.id!r} in {_place(catalogue.document, index, name)}"
@@ -46,7 +46,7 @@ def parameter_set_findings(
                 message, hint = problem
                 yield document.finding(_RULE, f"{parameter.id} {message}", place, hint=hint)
         if parameter.sets in setters:
-            message = f"{parameter.sets} is set already by {setters[parameter.sets]}"
+            message = f"{parameter.sets} is already set by {setters[parameter.sets]}"
             yield document.finding("design.set-twice", message, place, hint="set it in one place")
         else:
             line, _ = document.values[place]
@@ -54,7 +54,7 @@ def parameter_set_findings(
 
 
 def role_set_findings(document: Document, roles: Sequence[Role]) -> Iterator[Finding]:
-    """Find properties that set what they cannot set, and quantities that two properties set.
+    """Findings about properties that cannot set their quantity, and quantities set twice.
 
     Args:
         document: The file of the catalogue.
@@ -70,7 +70,7 @@ def role_set_findings(document: Document, roles: Sequence[Role]) -> Iterator[Fin
                 yield document.finding("design.unknown-property", message, place, hint=hint, at_key=True)
                 continue
             if quantity.startswith(CATALOGUE_PREFIX):
-                message, hint = f"property {name!r} cannot choose a component", "let a parameter choose it"
+                message, hint = f"property {name!r} cannot select a component", "use a parameter instead"
                 yield document.finding(_RULE, message, place, hint=hint)
                 continue
             setting = _setting(quantity)
@@ -79,14 +79,14 @@ def role_set_findings(document: Document, roles: Sequence[Role]) -> Iterator[Fin
             if problem:
                 yield document.finding(_RULE, f"property {name!r} {problem[0]}", place, hint=problem[1])
             if quantity in setters:
-                message = f"{quantity} is set already by {setters[quantity]}"
+                message = f"{quantity} is already set by {setters[quantity]}"
                 yield document.finding("design.set-twice", message, place, hint="set it in one place")
             line, _ = document.values[place]
             setters.setdefault(quantity, f"property {name!r} of role {role.id!r} in line {line}")
 
 
 def component_set_findings(document: Document, components: Sequence[Component]) -> Iterator[Finding]:
-    """Find values of components that are out of the range of what they set.
+    """Findings about values of components out of the range of their quantity.
 
     Args:
         document: The file of the catalogue.
@@ -104,7 +104,7 @@ def component_set_findings(document: Document, components: Sequence[Component]) 
 
 
 def design_value_findings(designs: DesignSpace, document: Document) -> Iterator[Finding]:
-    """Find values of parameters that are out of the range of what they set.
+    """Findings about values of parameters out of the range of their quantity.
 
     Args:
         designs: The design space.
@@ -118,7 +118,7 @@ def design_value_findings(designs: DesignSpace, document: Document) -> Iterator[
 
 
 def written_values(designs: DesignSpace) -> Iterator[tuple[_Location, str, ParameterValue]]:
-    """Every value that the file gives to a parameter, and where.
+    """All values of parameters in the file, with their locations.
 
     Args:
         designs: The design space.
@@ -137,13 +137,13 @@ def written_values(designs: DesignSpace) -> Iterator[tuple[_Location, str, Param
 def value_findings(
     document: Document, place: _Location, name: str, setting: SettableQuantity, value: ParameterValue
 ) -> Iterator[Finding]:
-    """Find a value that is out of the range of what it sets.
+    """Findings about a value out of the range of its quantity.
 
     Args:
         document: The file.
-        place: Place of the value.
-        name: The key that gives it.
-        setting: What it sets.
+        place: Location of the value.
+        name: Its key.
+        setting: The quantity that it sets.
         value: The value in SI.
     """
     if isinstance(value, str):

@@ -1,8 +1,8 @@
-"""Registry of the quantities of a trial that a design can set.
+"""Registry of the settable quantities of a trial.
 
-A design parameter names one of them under ``sets``, and so does a property of a component's role. A quantity that
-no design sets has the value of the robot file, the gripper file or the study. A new quantity is one entry here:
-the schemas, the findings, the filters and the page docs/designs.md read this table.
+A design parameter, or a property of a component's role, names one of them under ``sets``. A quantity that no design
+sets has the value of the robot file, the gripper file or the study. A new quantity is one entry here: schemas,
+findings, filters and docs/designs.md use this table.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ from rgss.designs.settable import (
 from rgss.findings import shown
 
 CATALOGUE_PREFIX = "catalogue."
-"""``sets: catalogue.<role>`` chooses the component of a role by its id."""
+"""``sets: catalogue.<role>`` selects the component of a role by its id."""
 
 
-_TOO_SLOW = "a slower arm or hand would need hours for the task"
+_TOO_SLOW = "a slower arm or hand would take hours for the task"
 
 _QUANTITIES = (
     SettableQuantity(
@@ -141,13 +141,13 @@ _QUANTITIES = (
         required=False,
         positive=False,
         least="0 s",
-        least_reason="0 s leaves paths as they are found",
+        least_reason="0 s leaves paths as found",
     ),
     SettableQuantity(
         name="planning.simplification_checks",
         kind=ParameterKind.COUNT,
         unit="1",
-        meaning="Validity checks that may be spent on looking for shortcuts.",
+        meaning="Budget of validity checks of the search for shortcuts.",
         field="settings.planning.simplification_checks",
         default="planning.simplification_checks in the study",
         required=False,
@@ -161,7 +161,7 @@ SETTABLE_QUANTITIES: Mapping[str, SettableQuantity] = MappingProxyType({one.name
 
 
 def settable_quantity(name: str) -> SettableQuantity | None:
-    """The quantity of a name, parameters of planners included; None if it is none.
+    """Settable quantity by name, including parameters of planners; None if unknown.
 
     Args:
         name: Its name in files.
@@ -198,4 +198,4 @@ SettableField = Annotated[
         }
     ),
 ]
-"""The name of a quantity that can be set, or ``catalogue.<role>``."""
+"""The name of a settable quantity, or ``catalogue.<role>``."""

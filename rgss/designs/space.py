@@ -1,4 +1,4 @@
-"""The design space: factors whose levels multiply into variants, or are sampled."""
+"""Design space: variants by the full factorial of the factors' levels, or by sampling."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from rgss.errors import DefinitionError
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExcludedCombination:
-    """A combination of levels that rules exclude.
+    """Combination of levels excluded by rules.
 
     Attributes:
         id: The id that it would have as a variant.
@@ -33,16 +33,16 @@ class ExcludedCombination:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DesignSpace:
-    """Every design that is open to choice.
+    """Design space.
 
     Attributes:
         parameters: The design parameters.
-        constants: The values of those that do not vary, in SI, by parameter id.
+        constants: Values of the constant parameters, in SI, by parameter id.
         factors: The factors, outermost first: the last factor varies fastest.
-        rules: Rules for the combinations that make a design.
+        rules: Compatibility rules.
         catalogue: The components.
         selectors: The parameter values in SI that select each component, by component id.
-        sample: The points that are tried; None if every combination of levels is.
+        sample: The sample; None for the full factorial.
     """
 
     parameters: tuple[DesignParameter, ...]
@@ -54,7 +54,7 @@ class DesignSpace:
     sample: Sample | None = None
 
     def expand(self) -> tuple[DesignVariant, ...]:
-        """Every variant that the rules allow, by id."""
+        """Variants allowed by the rules, by id."""
         return tuple(
             DesignVariant(
                 id=number,
@@ -68,7 +68,7 @@ class DesignSpace:
         )
 
     def excluded(self) -> tuple[ExcludedCombination, ...]:
-        """Every combination that a rule excludes, by id."""
+        """Combinations excluded by a rule, by id."""
         found = []
         for number, levels, parameters in self.combinations():
             rules = self.rules_against(parameters)
@@ -77,10 +77,10 @@ class DesignSpace:
         return tuple(found)
 
     def variant(self, number: int) -> DesignVariant:
-        """The variant with an id.
+        """Variant by id.
 
         Raises:
-            DefinitionError: There is none.
+            DefinitionError: The id is unknown.
         """
         variants = self.expand()
         for variant in variants:
@@ -90,13 +90,13 @@ class DesignSpace:
         raise DefinitionError(f"unknown variant {number}", hint=f"ids of variants: {known}")
 
     def source_units(self) -> Mapping[str, str]:
-        """The SI unit of everything that `rgss.designs.design_values` gives, by name; empty for names."""
+        """SI unit of each value of `rgss.designs.design_values`, by name; empty for names."""
         return source_units(self.parameters, self.catalogue)
 
     def combinations(self) -> Iterator[tuple[int, Mapping[str, str], Mapping[str, ParameterValue]]]:
-        """Every enumerated combination of levels: its number, its levels by factor, and its parameters.
+        """Enumerated combinations of levels: number, levels by factor, and parameters.
 
-        They are the full product, numbered from 1; or the points of the sample that repeat no other.
+        They are the full factorial, numbered from 1, or the distinct points of the sample.
         """
         for number, levels in self._points():
             values = dict(self.constants)
@@ -111,7 +111,7 @@ class DesignSpace:
         return enumerate(itertools.product(*(factor.levels for factor in self.factors)), start=1)
 
     def candidates(self, role: str, parameters: Mapping[str, ParameterValue]) -> tuple[Component, ...]:
-        """The components of a role that parameter values select."""
+        """Components of a role selected by parameter values."""
         return tuple(
             component
             for component in self.catalogue.of_role(role)
@@ -119,11 +119,11 @@ class DesignSpace:
         )
 
     def components_of(self, parameters: Mapping[str, ParameterValue]) -> Mapping[str, Component]:
-        """The component of each role for which parameter values select exactly one."""
+        """Component of each role for which parameter values select exactly one."""
         found = {role.id: self.candidates(role.id, parameters) for role in self.catalogue.roles}
         return {role: candidates[0] for role, candidates in found.items() if len(candidates) == 1}
 
     def rules_against(self, parameters: Mapping[str, ParameterValue]) -> tuple[str, ...]:
-        """The ids of the rules that exclude a combination; empty where it is a design."""
+        """Ids of the rules that exclude a combination; empty for a design."""
         components = self.components_of(parameters)
         return tuple(rule.id for rule in self.rules if not rule.allows(parameters, components))

@@ -13,14 +13,14 @@ ID_COLUMN = "design_id"
 
 
 def variant_rows(variants: Iterable[DesignVariant]) -> list[Mapping[str, float | int | str]]:
-    """One row a variant: its id, then its parameters in SI by column."""
+    """One row for each variant: its id, then its parameters in SI by column."""
     return [{ID_COLUMN: variant.id, **variant.columns()} for variant in variants]
 
 
 def variants_csv(variants: Iterable[DesignVariant]) -> str:
-    """The variants as comma-separated values with a header, lines ending in a line feed.
+    """Variants as CSV with a header and line feeds.
 
-    Numbers are written as briefly as they can be read back: ``0.3``, ``10``, ``1``.
+    Numbers have the shortest exact form: ``0.3``, ``10``, ``1``.
     """
     rows = variant_rows(variants)
     text = io.StringIO()

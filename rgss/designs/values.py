@@ -1,4 +1,4 @@
-"""Values of design parameters in files."""
+"""Reader of values of design parameters in files."""
 
 from __future__ import annotations
 
@@ -20,8 +20,7 @@ class ValueReader:
 
     Attributes:
         parameters: The parameters by id.
-        names: The names that the components of a known role list under a parameter, by
-            parameter id.
+        names: The names listed by the components of a known role under a parameter, by parameter id.
     """
 
     parameters: Mapping[str, DesignParameter]
@@ -29,7 +28,7 @@ class ValueReader:
 
     @classmethod
     def of(cls, parameters: Sequence[DesignParameter], catalogue: Catalogue) -> ValueReader:
-        """A reader for parameters whose names are those of a catalogue."""
+        """Reader for parameters with the names of a catalogue."""
         names = {}
         roles = {role.id for role in catalogue.roles}
         for parameter in parameters:
@@ -43,16 +42,16 @@ class ValueReader:
     def choices(
         self, document: Document, location: Sequence[str | int], name: str, written: Sequence[ParameterValue]
     ) -> tuple[tuple[ParameterValue, ...], list[Finding]]:
-        """Read the values that a key gives to a parameter.
+        """Read the values of a parameter under a key.
 
         Args:
             document: The file.
             location: Location of the value or the list of values.
             name: The key: the parameter's id.
-            written: The values as they are written.
+            written: The written values.
 
         Returns:
-            The sound ones in SI, and a finding for each of the others.
+            The valid values in SI, and a finding for each of the others.
         """
         parameter = self.parameters.get(name)
         if parameter is None:
@@ -62,7 +61,7 @@ class ValueReader:
         values: list[ParameterValue] = []
         findings = []
         for index, item in enumerate(written):
-            # A single value is at the location itself: the index is then passed over.
+            # A single value is at the location itself; the index is then skipped.
             place = (*location, index)
             try:
                 value = parameter.read(item)

@@ -1,4 +1,4 @@
-"""One design: a value for every parameter and a component for every role."""
+"""Design variant: a value for every parameter and a component for every role."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from rgss.documents import digest
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DesignVariant:
-    """One design of a design space.
+    """Design variant of a design space.
 
     Attributes:
-        id: Its position in the full product of the factors, or among the points of the sample,
-            from 1; a rule that excludes other combinations does not change it.
+        id: Its position in the full factorial, or among the points of the sample, from 1; rules that exclude other
+        combinations do not change it.
         parameters: The value of every design parameter, in SI, in the order of the file.
-        components: The component that fills each role, by role, in the order of the catalogue.
-        levels: The id of the level that it has of each factor, by factor; of a range its value
-            with the unit, such as ``0.47 m/s``.
-        definitions: What each of its parameters is.
+        components: The component of each role, in the order of the catalogue.
+        levels: The id of its level of each factor, by factor; for a range the value with its unit, such as ``0.47
+        m/s``.
+        definitions: Definition of each of its parameters.
     """
 
     id: int
@@ -32,10 +32,10 @@ class DesignVariant:
 
     @property
     def digest(self) -> str:
-        """SHA-256 of what it is made of.
+        """SHA-256 of its parameters and components.
 
-        It covers the values of the parameters and each component's id, geometry, cost and
-        properties; neither the id of the variant nor any prose.
+        It covers the values of the parameters and each component's id, geometry, cost and properties, but neither the
+        id of the variant nor any text.
         """
         components = {
             role: {"id": component.id, "geometry": component.geometry, "values": component.magnitudes()}
@@ -44,5 +44,5 @@ class DesignVariant:
         return digest({"parameters": self.parameters, "components": components})
 
     def columns(self) -> Mapping[str, ParameterValue]:
-        """The values of its parameters by column, such as ``m_f_finger_mass_kg``, in order."""
+        """Values of its parameters by column, such as ``m_f_finger_mass_kg``, in order."""
         return {definition.column: self.parameters[definition.id] for definition in self.definitions}

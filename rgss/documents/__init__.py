@@ -1,4 +1,4 @@
-"""Strict YAML to typed models, with every problem of a file reported at its line and column."""
+"""Strict YAML reader with typed models; every problem of a file is reported with line and column."""
 
 from rgss.documents.digests import canonical_json, digest
 from rgss.documents.editing import AppendEntry, Edit, RemoveEntry, RemoveKey, SetKey, edited
@@ -53,5 +53,5 @@ from rgss.documents.spreadsheet_cells import (
     starts_like_a_formula,
     without_clock,
 )
-from rgss.documents.steering import escaped_for_json, escaped_for_xml, steers
+from rgss.documents.steering import escaped_for_json, escaped_for_xml, has_control_characters
 from rgss.documents.validation import LoadedDocument, load_document, validated

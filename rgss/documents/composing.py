@@ -1,4 +1,4 @@
-"""Composition of plain data, with the position of each part, from the events of a YAML parser."""
+"""Composition of plain data with positions from the events of a YAML parser."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from rgss.findings import Finding, shown
 DEEPEST_NESTING = 40
 MOST_VALUES = 250_000
 
-# What YAML counts as printable. A byte order mark is allowed only at the start.
+# Printable characters of YAML. A byte order mark is allowed only at the start.
 _NOT_PRINTABLE = re.compile(r"[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
 _LONE_SURROGATE = re.compile(r"[\ud800-\udfff]")
 _INTEGER = re.compile(r"[+-]?(0|[1-9][0-9]{0,17})")
@@ -40,28 +40,27 @@ _READ_ALIKE_NOT = re.compile("[\t\x85\u2028\u2029]|[|>][-+0-9]{0,2}#")
 the head of a block scalar."""
 
 _EMPTY_IN_FLOW = re.compile(r":\s*[,}\]#]")
-"""What may be a value of a flow mapping that is left out, which the two parsers place differently."""
+"""Possible omitted value of a flow mapping, which the two parsers locate differently."""
 
 _DIRECTIVE = re.compile(r"(?:(?:[ \t]*(?:#[^\r\n]*)?|%YAML 1\.[12])[\r\n])*(?=%(?!YAML 1\.[12][\r\n]))")
-"""What may be before a directive that is refused; a version that both parsers know is not."""
+"""Text before a rejected directive; a version known to both parsers is accepted."""
 
 _NUMBER_START = frozenset("+-.0123456789")
 _CONSTANTS: Mapping[str, bool | None] = {"": None, "~": None, "null": None, "true": True, "false": False}
 
 
 class _ParsersDisagreeError(Exception):
-    """libyaml accepts what PyYAML's own parser refuses, or places it elsewhere."""
+    """libyaml accepts a document that PyYAML's own parser rejects, or locates a part differently."""
 
 
 class Composer:
-    """Builder of data and places from parser events, within the nesting and the size that are allowed.
+    """Builder of data and positions from parser events, within limits of nesting and size.
 
-    There is one grammar: that of PyYAML's own parser. libyaml, where it is there, reads the same ten times faster,
-    but accepts a few documents more: a question mark within a plain scalar of a flow collection, and tabs between
-    tokens; and it places a value that a flow mapping leaves out elsewhere. What it refuses, and what holds one of
-    these, is read again by PyYAML's own parser, so that every machine accepts the same documents and reports the
-    same findings at the same places. Directives but that of a version, of which the two know different ones, are
-    refused.
+    The grammar is that of PyYAML's own parser. libyaml, if available, is ten times faster, but accepts more documents:
+    a question mark within a plain scalar of a flow collection, and tabs between tokens; and it locates an omitted value
+    of a flow mapping differently. Documents that it rejects, and those with one of these features, are read again by
+    PyYAML's own parser, so that every machine accepts the same documents and reports the same findings at the same
+    positions. Directives other than a version, on which the two parsers disagree, are rejected.
     """
 
     def __init__(self, text: str, label: str) -> None:
@@ -86,8 +85,7 @@ class Composer:
             Its data, and the position of each part.
 
         Raises:
-            DocumentError: It is not YAML, empty, or uses a part of YAML that is refused; with
-                every such problem that could be found.
+            DocumentError: The text is not YAML, empty, or uses an unsupported part of YAML; with every problem found.
         """
         data: Any = None
         places: Places = mark_of(0, 0)
@@ -112,14 +110,14 @@ class Composer:
         return data, places
 
     def _character_at(self, mark: Any) -> str:
-        """The character at a place; empty at the end of a line."""
+        """Character at a position; empty at the end of a line."""
         lines = self._text.split("\n", mark.line + 1)
         return lines[mark.line][mark.column : mark.column + 1] if mark.line < len(lines) else ""
 
     def end(self) -> Position:
         """Line and column of the end of the text.
 
-        Where a file does not end with a line break, libyaml counts one more line than there is.
+        For a file without a final line break libyaml counts one line too many.
         """
         if self._end is None:
             self._end = end_of(self._text)
@@ -142,7 +140,7 @@ class Composer:
             self._next = (lambda: self._watched(loader.get_event())) if watched else loader.get_event
             return self._compose_documents()
         except (ValueError, OverflowError):
-            # PyYAML's own parser makes a character of every number that is escaped.
+            # PyYAML's own parser converts every escaped number to a character.
             raise yaml.MarkedYAMLError(
                 problem="found an escaped number beyond the last character", problem_mark=loader.get_mark()
             ) from None
@@ -150,17 +148,17 @@ class Composer:
             loader.dispose()
 
     def _watched(self, event: Any) -> Any:
-        """Pass an event of libyaml on, unless the other parser would have refused or placed it otherwise.
+        """Pass an event of libyaml on, unless the other parser would reject it or locate it differently.
 
         Raises:
-            _ParsersDisagreeError: A plain scalar of a flow collection is empty or holds a question mark.
+            _ParsersDisagreeError: A plain scalar of a flow collection is empty or contains a question mark.
         """
         kind = type(event)
         if kind is ScalarEvent:
             if self._flow and not event.style and ("?" in event.value or not event.value):
                 raise _ParsersDisagreeError
         elif kind is MappingStartEvent or kind is SequenceStartEvent:
-            # All that is within a flow collection is one.
+            # Everything within a flow collection is in flow style.
             self._flow += bool(event.flow_style)
         elif self._flow and (kind is MappingEndEvent or kind is SequenceEndEvent):
             self._flow -= 1
@@ -235,7 +233,7 @@ class Composer:
             value_event = self._next()
             place: Places
             if _is_plain(value_event) and self._room > 0 and depth < DEEPEST_NESTING:
-                # What a file has most of, without the steps that it does not need.
+                # Fast path for the most frequent case.
                 self._room -= 1
                 start = value_event.start_mark
                 value, place = _resolve(value_event.value, value_event.style), mark_of(start.line, start.column)
@@ -275,7 +273,7 @@ class Composer:
 
 
 def _is_plain(event: Any) -> bool:
-    """A scalar without a tag, an anchor or an escape: nothing about it can be refused but its place."""
+    """True for a scalar without a tag, an anchor or an escape, which can be rejected only for its position."""
     return type(event) is ScalarEvent and event.style != '"' and event.anchor is None and event.tag is None
 
 

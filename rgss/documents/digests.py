@@ -1,4 +1,4 @@
-"""Canonical JSON and its SHA-256, the keys of evidence and variants."""
+"""Canonical JSON and its SHA-256 digest, used for keys of evidence and variants."""
 
 from __future__ import annotations
 
@@ -17,9 +17,8 @@ DEEPEST_NESTING = 60
 def canonical_json(value: Any) -> str:
     """Canonical JSON text of plain data.
 
-    Keys are sorted, floats are written by ``repr`` (so that every bit of them counts, and
-    ``1`` differs from ``1.0``), the text is pure ASCII and has no spaces. It depends on
-    neither the order of a mapping nor the process that writes it.
+    Keys are sorted, floats are written by ``repr`` (so that every bit counts, and ``1`` differs from ``1.0``), and the
+    text is pure ASCII without spaces. It depends neither on the order of a mapping nor on the process.
 
     Args:
         value: None, truth values, numbers, texts, enumerations of these, lists or tuples,
@@ -39,7 +38,7 @@ def canonical_json(value: Any) -> str:
 
 
 def digest(value: Any) -> str:
-    """The SHA-256 of the canonical JSON of plain data, as 64 hexadecimal digits.
+    """SHA-256 of the canonical JSON of plain data, as 64 hexadecimal digits.
 
     Raises:
         DefinitionError: As `canonical_json`.
@@ -72,7 +71,7 @@ def _plain(value: Any, depth: int) -> Any:
 
 
 def _plain_other(value: Any, depth: int) -> Any:
-    """Value of a type that is derived from the types of JSON or represents one of them."""
+    """Value of a type derived from or equivalent to a JSON type."""
     if isinstance(value, Enum):
         value = value.value
     if value is None or isinstance(value, (bool, str)):
@@ -109,7 +108,7 @@ def _plain_mapping(value: Mapping[Any, Any], depth: int) -> dict[str, Any]:
     items: dict[str, Any] = {}
     key: Any = None
     for key, item in value.items():
-        # A number as a key would be written as a text and could then meet the same text.
+        # A numeric key would be written as a text and could collide with the same text.
         if not isinstance(key, str) or isinstance(key, Enum):
             raise _NoCanonicalFormError(f"has the key {key!r}, which is not a text")
         try:

@@ -1,4 +1,4 @@
-"""Changes to a YAML file that leave the rest of its text, and its comments, as they are."""
+"""Edits of a YAML file that preserve the rest of its text and its comments."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from rgss.errors import DefinitionError
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SetKey:
-    """Set a key of a mapping; the key may be new.
+    """Edit: set a new or existing key of a mapping.
 
     Attributes:
         location: The mapping.
         key: The key.
         value: Its value.
-        before: Keys that a new key follows, where the mapping has them.
+        before: Keys after which a new key is inserted, if the mapping has them.
     """
 
     location: Location
@@ -34,7 +34,7 @@ class SetKey:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RemoveKey:
-    """Remove a key with its value from a mapping.
+    """Edit: remove a key with its value from a mapping.
 
     Attributes:
         location: The mapping.
@@ -47,7 +47,7 @@ class RemoveKey:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AppendEntry:
-    """Put an entry at the end of a list of the file's top mapping; the list may be new.
+    """Edit: append an entry to a new or existing list of the file's top mapping.
 
     Attributes:
         key: The key of the list.
@@ -60,7 +60,7 @@ class AppendEntry:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RemoveEntry:
-    """Remove an entry from a list.
+    """Edit: remove an entry from a list.
 
     Attributes:
         location: The list.
@@ -82,23 +82,23 @@ class _Splice:
 
 
 def edited(text: str, edits: Sequence[Edit]) -> str:
-    """The text of a YAML file after some changes.
+    """Text of a YAML file after edits.
 
-    Comments stay, but those within a value that is replaced or removed.
+    Comments are preserved, except those within a replaced or removed value.
 
     Args:
-        text: The text of a file that `rgss.documents` reads, without a byte order mark.
-        edits: The changes; each at another place.
+        text: The text of a valid file, without a byte order mark.
+        edits: The edits, at distinct locations.
 
     Raises:
-        DefinitionError: A place is not in the file.
+        DefinitionError: A location is not in the file.
     """
     editor = _Editor(text, edits)
     splices = sorted((*map(editor.splice, edits), *editor.emptied()), key=lambda splice: (splice.start, splice.end))
     parts, done = [], 0
     for splice in splices:
         if splice.start < done:
-            raise DefinitionError("two changes of one file meet at one place", hint="apply them one after the other")
+            raise DefinitionError("the edits of a file must not overlap", hint="apply them in sequence")
         parts += [text[done : splice.start], splice.text]
         done = splice.end
     return "".join([*parts, text[done:]])
@@ -136,7 +136,7 @@ class _Editor:
         return self._insert(around, behind, edit)
 
     def emptied(self) -> Iterator[_Splice]:
-        """An empty list in place of each list all of whose entries are removed; its key alone would mean null."""
+        """Empty lists in place of lists whose entries are all removed; the key alone would mean null."""
         for location, removed in self._removed.items():
             node = self._at(location)
             if not isinstance(node, SequenceNode) or node.flow_style or location in self._appended:
@@ -161,7 +161,7 @@ class _Editor:
         return node
 
     def _end(self, node: Node) -> int:
-        """End of the last character of a node; a parser's own mark may be behind comments."""
+        """End of the last character of a node; the parser's end mark may be after comments."""
         if isinstance(node, ScalarNode):
             start, end = node.start_mark.index, node.end_mark.index
             return start + len(self._text[start:end].rstrip()) if node.style in ("|", ">") else end
@@ -171,7 +171,7 @@ class _Editor:
         return self._end(last[1] if isinstance(node, MappingNode) else last)
 
     def _line_end(self, index: int) -> int:
-        """The end of the line of an index, before its line break."""
+        """End of the line of an index, before its line break."""
         found = re.compile(r"\r?\n|\Z").search(self._text, index)
         return len(self._text) if found is None else found.start()
 
@@ -214,7 +214,7 @@ class _Editor:
             return _Splice(self._end(around.value[index - 1][1]), self._end(value), "")
         if index:
             return _Splice(self._line_start(start), self._next_line(self._end(value)), "")
-        # The first key of a mapping is behind a dash or a brace, which stays.
+        # The first key of a mapping follows a dash or a brace, which is kept.
         stop = self._end(value) if len(around.value) == 1 else around.value[1][0].start_mark.index
         return _Splice(start, stop, "")
 
@@ -236,7 +236,7 @@ class _Editor:
         return self._lines_behind(end, [*apart, *entry_lines(edit.entry, node.start_mark.column)])
 
     def _lines_behind(self, end: int, lines: Sequence[str]) -> _Splice:
-        """Whole lines after the line in which something ends."""
+        """Edit that inserts whole lines after the line of a position."""
         place = self._next_line(end)
         if self._text[:place].endswith("\n"):
             return _Splice(place, place, self._joined([*lines, ""]))
@@ -256,7 +256,7 @@ class _Editor:
             removed = self._removed[edit.location]
             if not removed.issuperset(range(index)):
                 return _Splice(self._end(items[index - 1]), self._end(items[index]), "")
-            # Nothing is left before it; the last of all takes a comma behind it along.
+            # No entry is before it; the last of all is removed with the comma after it.
             last = index + 1 == len(items)
             stop = node.end_mark.index - 1 if last else items[index + 1].start_mark.index
             return _Splice(items[index].start_mark.index, stop, "")
@@ -272,4 +272,4 @@ class _Editor:
 
 
 def _missing(location: Sequence[str | int]) -> DefinitionError:
-    return DefinitionError(f"the file has nothing at {'.'.join(map(str, location))}", hint="read it again")
+    return DefinitionError(f"the file has no value at {'.'.join(map(str, location))}", hint="read it again")

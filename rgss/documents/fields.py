@@ -30,11 +30,11 @@ def _reader_of(unit: str) -> Callable[[Any], float]:
 
 @dataclass(frozen=True, slots=True)
 class JointQuantity:
-    """A quantity of a joint, which turns or slides.
+    """Quantity of a revolute or prismatic joint.
 
     Attributes:
         value: In rad, or in m, and so on.
-        is_linear: Whether it is a length, a speed along a line, a linear acceleration or a force.
+        is_linear: True for a length, a linear speed or acceleration, or a force.
     """
 
     value: float
@@ -42,7 +42,7 @@ class JointQuantity:
 
 
 def _joint_reader_of(angular: str, linear: str) -> Callable[[Any], JointQuantity]:
-    """Reader of a quantity whose unit shows whether the joint turns or slides."""
+    """Reader of a quantity whose unit determines the kind of the joint."""
     read_angular, read_linear = _reader_of(angular), _reader_of(linear)
 
     def read(value: Any) -> JointQuantity:
@@ -64,7 +64,7 @@ def _as_field_error(error: QuantityError) -> PydanticCustomError:
 
 _NUMBER_PATTERN = r"\s*[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]{1,3})?\s*"
 QUANTITY_PATTERN = rf"^{_NUMBER_PATTERN}[A-Za-zµμ°%$(].*$"
-"""What a number with a unit looks like; whether the unit fits is known to its reader alone."""
+"""Pattern of a number with a unit; the reader checks the unit."""
 
 _EXAMPLES = {
     "m": ("120 mm", "0.5 m"),
@@ -84,7 +84,7 @@ def _schema(unit: str) -> WithJsonSchema:
             "pattern": QUANTITY_PATTERN,
             "description": f"A quantity in {unit} or a unit that converts to it.",
             "examples": list(examples),
-            # Not keywords of JSON Schema: editors show these in place of their own messages.
+            # Not keywords of JSON Schema: editors show these instead of their own messages.
             "errorMessage": hint,
             "patternErrorMessage": hint,
         }
@@ -93,7 +93,7 @@ def _schema(unit: str) -> WithJsonSchema:
 
 def _joint_schema(angular: str, linear: str) -> WithJsonSchema:
     schema = dict(_schema(angular).json_schema or {})
-    schema["description"] = f"A quantity in {angular}, or of a joint that slides in {linear}."
+    schema["description"] = f"A quantity in {angular}, or in {linear} for a prismatic joint."
     return WithJsonSchema(schema)
 
 
@@ -135,7 +135,7 @@ Dimensionless = Annotated[
 """A pure number, or a percentage such as ``"95 %"``."""
 
 QuantityText = Annotated[str, StringConstraints(min_length=1, max_length=60)]
-"""A quantity whose unit is known only from elsewhere; its reader converts it."""
+"""A quantity whose unit depends on its context; its reader converts it."""
 
 UnitText = Annotated[str, StringConstraints(min_length=1, max_length=60), AfterValidator(_check_unit)]
 """The name of a unit; ``"1"`` for a pure number."""
@@ -156,9 +156,9 @@ _Model = TypeVar("_Model", bound=DocumentModel)
 
 @dataclass(frozen=True)
 class ReadFrom(Generic[_Model]):
-    """Annotation of a type that files write in another form, such as a number and its unit as one text.
+    """Annotation of a type with another form in files, such as a number with its unit as one text.
 
-    A value made in Python is an instance of the annotated class already.
+    A value created in Python is already an instance of the annotated class.
     """
 
     model: type[_Model]
@@ -166,7 +166,7 @@ class ReadFrom(Generic[_Model]):
     convert: Callable[[_Model], Any]
 
     def __get_pydantic_core_schema__(self, source: type[Any], handler: GetCoreSchemaHandler) -> CoreSchema:
-        """The schema of the model in files, and of the annotated class in Python."""
+        """Schema of the model in files, and of the annotated class in Python."""
         return core_schema.json_or_python_schema(
             json_schema=core_schema.no_info_after_validator_function(self.convert, handler.generate_schema(self.model)),
             python_schema=core_schema.is_instance_schema(source),

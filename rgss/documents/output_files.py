@@ -1,8 +1,8 @@
-"""Output files: the one mechanism that writes files, for every verb.
+"""Atomic writing of output files, common to all commands.
 
-A regular file is replaced as a whole or not at all, and keeps its owner, permissions and extended attributes;
-one with several names (hard links), or whose owner cannot be kept, gets its content in place. A symbolic link is
-followed and stays; a device, a pipe or a socket is written to; a source of a project is refused.
+A regular file is replaced atomically, and keeps its owner, permissions and extended attributes; one with several hard
+links, or whose owner cannot be kept, is overwritten in place. A symbolic link is followed and kept; a device, a pipe or
+a socket is written to; a source file of a project is rejected.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ class _Target:
     """Destination of an output.
 
     Attributes:
-        path: The file behind all symbolic links, or the path as given if it is written to in place.
-        in_place: It is a device, a pipe, a socket or an open descriptor, which cannot be replaced.
-        status: What is there already; None for a new file.
+        path: The file after resolution of symbolic links, or the given path if it is written in place.
+        in_place: True for a device, a pipe, a socket or an open descriptor, which cannot be replaced.
+        status: Status of the existing file; None for a new file.
     """
 
     path: Path
@@ -48,15 +48,15 @@ class _Target:
 
 @contextmanager
 def replaced_file(path: Path, *, replace_source: bool = False) -> Iterator[Path]:
-    """Context of a temporary file; its content replaces that of the path unless the block raises.
+    """Context of a temporary file, whose content replaces that of the path unless the block raises.
 
     Args:
         path: The output file.
-        replace_source: Also replace a file that a project reads, for verbs whose task that is.
+        replace_source: True to allow replacing a source file of a project, for commands with that purpose.
 
     Raises:
         SourceOverwriteError: The file is a source of a project.
-        OSError: It cannot be written.
+        OSError: The file cannot be written.
     """
     try:
         target = _target(path)
@@ -70,21 +70,21 @@ def replaced_file(path: Path, *, replace_source: bool = False) -> Iterator[Path]
             yield part
     except OSError as error:
         if isinstance(error, BrokenPipeError) and not is_standard_output(path):
-            # The reader of standard output may close it; a named pipe has then not received its content.
+            # The reader of standard output may close it; a closed named pipe, in contrast, is an error.
             raise unwritable(path, error) from error
-        # The user knows the output file, and not the temporary one beside it.
+        # The error names the output file instead of the temporary one.
         if error.errno is not None:
             raise type(error)(error.errno, error.strerror, str(path)) from error
         raise
 
 
 def write_output(path: Path, content: bytes, *, replace_source: bool = False) -> None:
-    """Write an output file as a whole or not at all.
+    """Write an output file atomically.
 
     Args:
         path: The output file.
-        content: What it is to hold.
-        replace_source: Also replace a file that a project reads.
+        content: Its content.
+        replace_source: True to allow replacing a source file of a project.
 
     Raises:
         SourceOverwriteError: The file is a source of a project.
@@ -99,13 +99,13 @@ def write_output(path: Path, content: bytes, *, replace_source: bool = False) ->
 
 
 def unwritable(path: Path, error: OSError) -> RgssError:
-    """The error of rgss for an output file that the system refuses."""
+    """Error of rgss for an output file that cannot be written."""
     kind = StorageError if error.errno in _DISK_FAILURES else DefinitionError
     return kind(f"{path} cannot be written: {error.strerror or error}", hint="check the folder")
 
 
 def require_no_source(path: Path) -> None:
-    """Check, before any work is done, that an output would not overwrite a source.
+    """Require, before any work, that an output does not overwrite a source file.
 
     Raises:
         SourceOverwriteError: The file is a source of a project.
@@ -115,7 +115,7 @@ def require_no_source(path: Path) -> None:
 
 
 def why_not_writable(path: Path) -> str:
-    """Reason for which a file cannot be written; empty if it can be. The file itself is not changed.
+    """Reason why a file cannot be written; empty if it can be. The file is not changed.
 
     Raises:
         SourceOverwriteError: The file is a source of a project.
@@ -138,7 +138,7 @@ def why_not_writable(path: Path) -> str:
 
 
 def is_standard_output(path: Path) -> bool:
-    """True if a path names what this process prints to, so that nothing else may be printed there."""
+    """True if a path is the standard output of this process, so that nothing else may be printed."""
     try:
         return os.path.samestat(path.stat(), os.fstat(1))
     except (OSError, ValueError):
@@ -159,10 +159,10 @@ def _refuse_source(path: Path, target: _Target) -> None:
 
 
 def _target(path: Path) -> _Target:
-    """Destination of an output, behind all symbolic links.
+    """Destination of an output, after resolution of symbolic links.
 
     Raises:
-        OSError: There is a circle of links, or a name is too long.
+        OSError: The links are circular, or a name is too long.
     """
     try:
         status = path.stat()
@@ -174,7 +174,7 @@ def _target(path: Path) -> _Target:
         return _Target(path=path, in_place=True, status=status)
     here = path
     for _ in range(_MOST_LINKS):
-        # A link there is an open descriptor; a file in its place would not be what is open.
+        # A link there is an open descriptor; replacing it would not affect the open file.
         if os.path.realpath(here.parent).startswith(_DESCRIPTORS):
             return _Target(path=path, in_place=True, status=status)
         if not here.is_symlink():
@@ -186,7 +186,7 @@ def _target(path: Path) -> _Target:
 @contextmanager
 def _swapped(target: _Target) -> Iterator[Path]:
     if target.status is not None and not os.access(target.path, os.W_OK):
-        # A rename needs the folder alone, but the file itself is write-protected.
+        # A rename needs write access only to the folder, but the file itself is write-protected.
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
     part = _new_part(target.path)
     try:
@@ -217,9 +217,9 @@ def _made_alike(part: Path, old: Path, status: os.stat_result) -> bool:
 
 
 def _overwrite(path: Path, part: Path) -> None:
-    """Put the content of a finished file into another, under all of its names.
+    """Copy the content of a finished file into another in place, which keeps its hard links.
 
-    The room is reserved first, so that a full disk leaves the old content as it was.
+    The space is reserved first, so that a full disk leaves the old content unchanged.
     """
     with part.open("rb") as source, path.open("rb+") as sink:
         old, new = os.fstat(sink.fileno()).st_size, os.fstat(source.fileno()).st_size
@@ -252,7 +252,7 @@ def _streamed(target: _Target) -> Iterator[Path]:
 
 
 def _new_part(path: Path) -> Path:
-    """A new, empty file in the same folder, since a rename is atomic only within a file system."""
+    """New empty file in the same folder, since a rename is atomic only within a file system."""
     for number in count():
         part = path.with_name(f".rgss-{os.getpid()}-{number}.part")
         try:

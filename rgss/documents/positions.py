@@ -1,4 +1,4 @@
-"""Positions of the keys and values of a file, looked up by location."""
+"""Positions of the keys and values of a file by location."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ Position = tuple[int, int]
 
 
 Mark = int
-"""A position in one number: a file has hundreds of thousands, which the garbage collector then skips."""
+"""A position as one integer: a file has hundreds of thousands, which the garbage collector does not track."""
 
 _COLUMN_BITS = 32
 
 
 def mark_of(line: int, column: int) -> Mark:
-    """The mark of a line and a column, both from 0, as a parser counts."""
+    """Mark of a line and a column, both from 0, as counted by the parser."""
     return line << _COLUMN_BITS | column
 
 
@@ -67,8 +67,8 @@ class _Positions(Mapping[Location, Position]):
         """Positions of a whole file.
 
         Args:
-            places: The places.
-            end: Where the file ends.
+            places: The positions.
+            end: End of the file.
         """
         self._places = places
         self._end = end
@@ -78,7 +78,7 @@ class _Positions(Mapping[Location, Position]):
 
 
 class ValuePositions(_Positions):
-    """The position of the value at each location."""
+    """Position of the value at each location."""
 
     def __getitem__(self, location: Location) -> Position:
         return min(position_of(_mark_of(_places_at(self._places, location))), self._end())
@@ -88,7 +88,7 @@ class ValuePositions(_Positions):
 
 
 class KeyPositions(_Positions):
-    """The position of the key at each location within a mapping."""
+    """Position of the key at each location within a mapping."""
 
     def __getitem__(self, location: Location) -> Position:
         around = _places_at(self._places, location[:-1])
@@ -123,7 +123,7 @@ def _mark_of(places: Places) -> Mark:
 
 
 def _walk(places: Places) -> Iterator[tuple[Location, bool]]:
-    """Every location, and whether it has a key, in the file's order."""
+    """All locations in the file's order, each with True if it has a key."""
     pending: list[tuple[Location, bool, Places]] = [((), False, places)]
     while pending:
         location, has_key, here = pending.pop()

@@ -1,4 +1,4 @@
-"""The first problems of a file that has too many of them to be listed."""
+"""First problems of a file with too many to list."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ _MOST_LISTED = 20 * MOST_PROBLEMS
 
 
 def first_problems(document: Document, model: type[BaseModel], error: ValidationError) -> list[Any]:
-    """The problems of a file as pydantic lists them, or where there are too many the first in the file's order.
+    """Problems of a file in the form of pydantic; if there are too many, the first ones in the file's order.
 
-    To list millions of problems takes gigabytes, to count them does not. Where there are so many,
-    only a beginning of the file is judged.
+    Listing millions of problems takes gigabytes, counting them does not. With so many only the beginning of the file is
+    validated.
 
     Args:
         document: The file.
         model: Its type.
-        error: What is wrong with the whole of it.
+        error: The validation error of the whole file.
     """
     counted = error if error.error_count() <= _MOST_LISTED else _with_fewer(document.data, model, error)
     problems: list[Any] = list(counted.errors(include_url=False))
     if len(problems) > MOST_PROBLEMS:
-        # One more than are shown, so that it is seen that there are more.
+        # One more than are shown, to detect that there are more.
         problems.sort(key=lambda problem: document.values[document.nearest(problem["loc"])])
         del problems[MOST_PROBLEMS + 1 :]
     return problems
 
 
 def _with_fewer(data: Any, model: type[BaseModel], error: ValidationError) -> ValidationError:
-    """Problems in the beginning of a file that has more of them than are shown, but not many more."""
+    """Problems of a beginning of the file with more than are shown, but not many more."""
     few, entries = 0, 1
     found = _problems_of_beginning(data, model, entries)
     while not _are_enough(found) and entries < MOST_VALUES:
@@ -64,7 +64,7 @@ def _problems_of_beginning(data: Any, model: type[BaseModel], entries: int) -> V
 
 
 def _beginning(data: Any, room: list[int]) -> Any:
-    """The data without what comes after so many entries of lists; mappings stay whole."""
+    """Data truncated after a number of list entries; mappings are kept whole."""
     if isinstance(data, dict):
         return {key: _beginning(value, room) for key, value in data.items()}
     if not isinstance(data, list):

@@ -1,4 +1,4 @@
-"""Files that documents of a project name: resolved inside the project, and digested by their content."""
+"""Files referenced by documents of a project: resolved inside the project, and digested by content."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _BLOCK_BYTES = 1024 * 1024
 
 
 class FilePlace(Enum):
-    """Path of a named file."""
+    """Location of a referenced file relative to the project."""
 
     INSIDE = "inside"
     OUTSIDE = "outside"
@@ -19,13 +19,13 @@ class FilePlace(Enum):
 
 
 def place_of(path: Path, project: Path) -> FilePlace:
-    """Locate a file relative to a project, with every symbolic link of both paths resolved.
+    """Locate a file relative to a project, with all symbolic links of both paths resolved.
 
-    A link whose target lies in the project is inside; one that leads out of it is outside, whether
-    or not the target exists, because a file outside is not part of the project and is not copied with it.
+    A link with a target in the project is inside; one with a target outside is outside, whether or not the target
+    exists, because a file outside is not part of the project and is not copied with it.
 
     Args:
-        path: The file, as it was named.
+        path: The file, as referenced.
         project: The project's folder.
     """
     try:
@@ -33,17 +33,17 @@ def place_of(path: Path, project: Path) -> FilePlace:
         if not target.is_relative_to(project.resolve()):
             return FilePlace.OUTSIDE
         return FilePlace.INSIDE if stat.S_ISREG(target.stat().st_mode) else FilePlace.MISSING
-    # A name that is too long or has a null character, a circle of links, a folder that may not be searched.
+    # A name that is too long or has a null character, circular links, or a folder without search permission.
     except (OSError, ValueError, RuntimeError):
         return FilePlace.MISSING
 
 
 def content_digest(path: Path, *, largest_bytes: int) -> str | None:
-    """The SHA-256 of a file's content, read block by block; None if it is larger than a limit.
+    """SHA-256 of a file's content, read in chunks; None if the file is larger than a limit.
 
     Args:
         path: The file.
-        largest_bytes: Greatest size that is read.
+        largest_bytes: The limit in bytes.
 
     Raises:
         OSError: The file cannot be read.

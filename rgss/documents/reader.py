@@ -1,8 +1,8 @@
-"""A strict reading of YAML: plain data with the position of every key and value.
+"""Strict reader of YAML: plain data with the position of every key and value.
 
-Only an unambiguous subset of YAML is accepted. Tags, anchors, aliases and merge keys
-are refused, so no document can build an object or grow when it is read; duplicate keys are
-refused; ``yes``, ``on`` and ``1:30`` are texts, not truth values or sexagesimal numbers.
+Only an unambiguous subset of YAML is accepted. Tags, anchors, aliases and merge keys are rejected, so that no document
+can construct an object or expand when it is read; duplicate keys are rejected; ``yes``, ``on`` and ``1:30`` are texts,
+not truth values or sexagesimal numbers.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Document:
     keys: Mapping[Location, Position]
 
     def nearest(self, location: Sequence[str | int]) -> Location:
-        """Nearest location of this document around another one, skipping parts that it lacks."""
+        """Nearest enclosing location that exists in this document."""
         found: Location = ()
         for part in location:
             if (*found, part) in self.values:
@@ -57,16 +57,15 @@ class Document:
         severity: Severity = Severity.ERROR,
         at_key: bool = False,
     ) -> Finding:
-        """A finding at a location of this document, or at the nearest part around it.
+        """Finding at a location of this document, or at the nearest enclosing part.
 
         Args:
-            rule: The id of the broken rule.
+            rule: The id of the violated rule.
             message: The problem.
-            location: Keys and indices from the top, such as ``("bodies", 2, "mass")``; parts
-                that the document does not have are passed over.
+            location: Keys and indices from the top, such as ``("bodies", 2, "mass")``; missing parts are skipped.
             hint: Advice.
             severity: Its severity.
-            at_key: Point at the key instead of its value.
+            at_key: True to point at the key instead of its value.
         """
         found = self.nearest(location)
         line, column = self.keys.get(found, self.values[found]) if at_key else self.values[found]
@@ -83,8 +82,8 @@ def read_document(path: Path, *, label: str | None = None) -> Document:
         label: Its name in messages; the path itself by default.
 
     Raises:
-        DocumentError: The file is missing, too large, not UTF-8, not YAML, empty, or uses a
-            part of YAML that is refused; with every such problem that could be found.
+        DocumentError: The file is missing, too large, not UTF-8, not YAML, empty, or uses an unsupported part of YAML;
+        with every problem found.
     """
     name = label if label is not None else str(path)
     composer = Composer(_read_text(path, name), name)

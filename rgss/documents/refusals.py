@@ -8,18 +8,18 @@ from collections.abc import Sequence
 from rgss.findings import Finding, Severity
 
 MOST_PROBLEMS = 1_000
-"""Number of problems that are reported of one file; a hostile file may have millions."""
+"""Greatest number of reported problems of one file; a hostile file may have millions."""
 
 # A line break in YAML.
 _LINE_BREAK = re.compile(r"\r\n|[\n\r\x85\u2028\u2029]")
 
 
 def refusal(label: str, rule: str, message: str, position: tuple[int, int] = (1, 1), *, hint: str = "") -> Finding:
-    """A finding that makes a file unusable.
+    """Finding that makes a file unusable.
 
     Args:
         label: The file's name in messages.
-        rule: The broken rule, without ``document.``.
+        rule: The violated rule, without ``document.``.
         message: The problem.
         position: Line and column.
         hint: Advice.
@@ -37,7 +37,7 @@ def refusal(label: str, rule: str, message: str, position: tuple[int, int] = (1,
 
 
 def cut_short(label: str, findings: Sequence[Finding]) -> list[Finding]:
-    """First findings of a file, in the order of their places, with a note if there are more."""
+    """First findings of a file in the order of their positions, with a note if there are more."""
     first = sorted(findings)[:MOST_PROBLEMS]
     if len(findings) > MOST_PROBLEMS:
         message = f"more than {MOST_PROBLEMS} problems; the first {MOST_PROBLEMS} are shown"
@@ -46,7 +46,7 @@ def cut_short(label: str, findings: Sequence[Finding]) -> list[Finding]:
 
 
 def end_of(text: str) -> tuple[int, int]:
-    """Line and column of what follows a text."""
+    """Line and column of the end of a text."""
     breaks, last = 0, 0
     for match in _LINE_BREAK.finditer(text):
         breaks, last = breaks + 1, match.end()

@@ -1,4 +1,4 @@
-"""Opening of regular files: not of folders, devices or pipes, which could block a program or fill its memory."""
+"""Opening of regular files only: folders, devices or pipes could block the program or fill its memory."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ def open_regular(path: Path) -> Iterator[BinaryIO]:
         path: The file.
 
     Raises:
-        OSError: It cannot be opened, or is something else than a regular file.
+        OSError: The file cannot be opened, or is not a regular file.
         ValueError: The path has a null character.
     """
-    # Non-blocking: opening a pipe without a writer would block this process for ever.
+    # Non-blocking: opening a pipe without a writer would block this process forever.
     descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     with os.fdopen(descriptor, "rb") as file:
-        # Checked on the open file, which cannot be exchanged any more.
+        # Checked on the open file, which cannot be replaced any more.
         kind = os.fstat(descriptor).st_mode
         if stat.S_ISDIR(kind):
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
@@ -37,14 +37,14 @@ def open_regular(path: Path) -> Iterator[BinaryIO]:
 
 
 def chunks_of(path: Path, *, largest: int) -> Iterator[bytes]:
-    """The content of a regular file, piece by piece, so that it need not fit the memory.
+    """Content of a regular file in chunks, so that it need not fit in memory.
 
     Args:
         path: The file.
-        largest: Bytes of the largest file that is read.
+        largest: Size limit in bytes.
 
     Raises:
-        OSError: It cannot be read, is something else than a regular file, or is larger.
+        OSError: The file cannot be read, is not a regular file, or is larger.
     """
     left = largest
     with open_regular(path) as file:

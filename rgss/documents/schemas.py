@@ -1,8 +1,7 @@
-"""JSON Schema of a typed model, as editors need it.
+"""JSON Schema of a document model, for editors.
 
-Editors check YAML against draft 7 and show the descriptions that they find. The schema that pydantic derives from a
-model is converted: names of classes are left out, fixed rows become what draft 7
-calls them, and every key gets its description.
+Editors validate YAML by draft 7 and show descriptions. The schema that pydantic derives from a model is converted:
+names of classes are removed, fixed-length arrays are expressed in draft 7, and every key gets its description.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from rgss.documents.model import DocumentModel
 DRAFT = "http://json-schema.org/draft-07/schema#"
 
 KeyTexts = Mapping[str, Mapping[str, str]]
-"""What each key means: by the name of the model, then by the key."""
+"""Descriptions of keys: by the name of the model, then by the key."""
 
 _ENDING = re.compile(r"(?<=.)(Entry|File|Model)$")
 _Schema = dict[str, Any]
@@ -27,16 +26,16 @@ _OF_ONE = ("items", "additionalProperties", "propertyNames", "not")
 
 
 def json_schema(model: type[DocumentModel], *, title: str, texts: KeyTexts) -> dict[str, Any]:
-    """The JSON Schema (draft 7) of the documents that a model reads.
+    """JSON Schema (draft 7) of a document model.
 
     Args:
         model: The model of a whole document.
-        title: Title of the document, in a few words.
-        texts: Description of each key; the model's own comes first.
+        title: Short title of the document.
+        texts: Description of each key; the model's own has precedence.
 
     Returns:
-        Plain data that can be written as JSON. What it refuses the model refuses too; the model also knows
-        units and what keys say of each other.
+        Plain data that can be written as JSON. Documents that it rejects are rejected by the model too; the model also
+        checks units and relations between keys.
     """
     schema = model.model_json_schema(mode="validation")
     for name, definition in (
@@ -54,28 +53,28 @@ def json_schema(model: type[DocumentModel], *, title: str, texts: KeyTexts) -> d
 
 def _describe(definition: _Schema, texts: Mapping[str, str]) -> None:
     for key, inner in definition.get("properties", {}).items():
-        # A field may carry its text itself, which the texts then repeat.
+        # A field may have its own text, which the texts then repeat.
         if key in texts and inner.get("description") != texts[key]:
             own = [inner["description"]] if "description" in inner else []
             inner["description"] = " ".join([texts[key], *own])
 
 
 def _plain_names(definitions: Mapping[str, Any]) -> dict[str, str]:
-    """The names of models without what every one of them ends in; editors offer them."""
+    """Names of models without their common suffix, for completion in editors."""
     plain = {name: _ENDING.sub("", name) for name in definitions}
     taken = Counter(plain.values())
     return {name: short if taken[short] == 1 else name for name, short in plain.items()}
 
 
 def _adapt(schema: _Schema, names: Mapping[str, str]) -> None:
-    """Bring a schema and all within it into the form of draft 7, in place."""
+    """Convert a schema and all nested schemas to draft 7, in place."""
     for inner in _parts(schema):
         _adapt(inner, names)
-    # Names of classes and their attributes: nothing that a writer of YAML should read.
+    # Names of classes and their attributes are not of use to authors of YAML.
     schema.pop("title", None)
     schema.pop("discriminator", None)
     if "description" in schema:
-        # The attributes of a dataclass have descriptions of their own.
+        # The attributes of a dataclass have their own descriptions.
         described = schema["description"].partition("\n\nAttributes:\n")[0]
         schema["description"] = " ".join(described.replace("``", "`").split())
     if "default" in schema and not _is_written_so(schema):
@@ -86,7 +85,7 @@ def _adapt(schema: _Schema, names: Mapping[str, str]) -> None:
         _fix_row(schema)
     if "$ref" in schema:
         reference = f"#/definitions/{names[schema.pop('$ref').removeprefix('#/$defs/')]}"
-        # In draft 7 nothing beside a reference counts.
+        # In draft 7 all keywords beside a reference are ignored.
         schema.update({"allOf": [{"$ref": reference}]} if schema else {"$ref": reference})
 
 
@@ -101,7 +100,7 @@ def _parts(schema: _Schema) -> Iterator[_Schema]:
 
 
 def _is_written_so(schema: _Schema) -> bool:
-    """True if a default looks in a document as it does inside, so that an editor may offer it."""
+    """True if a default has the same form in a document, so that an editor may offer it."""
     default = schema["default"]
     if isinstance(default, bool):
         return True
@@ -111,7 +110,7 @@ def _is_written_so(schema: _Schema) -> bool:
 
 
 def _fix_row(schema: _Schema) -> None:
-    """A row of a fixed length: one schema for all its entries if they are alike."""
+    """Fixed-length array: one schema for all entries if they are equal."""
     entries = schema.pop("prefixItems")
     schema.setdefault("minItems", len(entries))
     schema.setdefault("maxItems", len(entries))

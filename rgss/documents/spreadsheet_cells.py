@@ -1,4 +1,4 @@
-"""Texts for other programs: no formulas for spreadsheets, no characters that XML does not allow."""
+"""Safe texts for other programs: no spreadsheet formulas, no characters that XML does not allow."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import re
 from rgss.invisible_characters import visible
 
 LONGEST_EXCEL_TEXT = 32_767
-"""As many characters a cell of Excel holds."""
+"""Greatest number of characters of a cell in Excel."""
 
 _EPOCH = (1980, 1, 1, 0, 0, 0)
 _CLOCK = re.compile(rb"(<dcterms:(created|modified)[^>]*>)[^<]*(</dcterms:)")
@@ -17,37 +17,37 @@ _NO_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udff
 
 
 def starts_like_a_formula(text: str) -> bool:
-    """True if a spreadsheet may take a text for a formula when it opens a text file.
+    """True if a spreadsheet may interpret a text as a formula when it opens a text file.
 
-    The signs are those of the OWASP page on CSV injection, their full-width forms, and either
-    behind blanks, which some programs cut off.
+    The characters are those of the OWASP page on CSV injection, their full-width forms, and either after blanks, which
+    some programs strip.
     """
     return _FORMULA.match(text) is not None
 
 
 def neutralised(text: str) -> str:
-    """A text that no spreadsheet takes for a formula: with an apostrophe before what one might.
+    """Text that no spreadsheet interprets as a formula: prefixed with an apostrophe if necessary.
 
-    A text that begins with apostrophes gets one more, so that `restored` gives back every text.
+    A text that begins with an apostrophe gets another one, so that `restored` is the inverse.
     """
     return f"'{text}" if starts_like_a_formula(text.lstrip("'")) else text
 
 
 def restored(text: str) -> str:
-    """The text that `neutralised` was given."""
+    """Inverse of `neutralised`."""
     return text[1:] if text.startswith("'") and starts_like_a_formula(text.lstrip("'")) else text
 
 
 def printable(text: str) -> str:
-    """A text that UTF-8 and XML can hold and people can see: what they cannot is replaced by U+FFFD.
+    """Text with only characters of UTF-8 and XML that are visible; others are replaced by U+FFFD.
 
-    Characters that reorder or hide text are shown by their code points.
+    Characters that reorder or hide text are replaced by their code points.
     """
     return _NO_TEXT.sub("\ufffd", visible(text))
 
 
 def without_clock(workbook: bytes) -> bytes:
-    """The same Excel file without its time of creation, which it contains twice."""
+    """Excel file without its creation time, which it contains twice."""
     import zipfile
 
     out = io.BytesIO()

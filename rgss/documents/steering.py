@@ -1,9 +1,8 @@
-"""Detection and escaping of control characters: controls, escapes, directions of writing.
+"""Detection and escaping of control characters: controls, escapes and bidirectional formatting.
 
-They are legal in a text and invisible in it, and a terminal, a reviewer's page or a log viewer obeys
-them. `rgss.findings.printable` replaces them where a text is made for people; here they are escaped
-where a whole document leaves the program, in the notation of the document, so that a program that
-reads it gets the same text.
+They are legal but invisible in a text, and affect a terminal, a reviewer's page or a log viewer.
+`rgss.findings.printable` replaces them in texts for people; here they are escaped in whole output documents, in the
+notation of the document, so that a program that reads it gets the same text.
 """
 
 from __future__ import annotations
@@ -11,16 +10,16 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-# Controls but tab and end of line; marks, embeddings, overrides and isolates of direction; separators of lines and
-# paragraphs; invisible operators, annotations and tags; halves of characters.
+# Controls except tab and end of line; bidirectional marks, embeddings, overrides and isolates; line and paragraph
+# separators; invisible operators, annotations and tags; unpaired surrogates.
 _STEERING = re.compile(
     "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u180e\u200e\u200f\u2028-\u202e\u2060-\u206f\ufff9-\ufffb"
     "\U000e0000-\U000e007f\ud800-\udfff]"
 )
 
 
-def steers(text: str) -> bool:
-    """True if a text has a character that controls a terminal or the order of the shown text.
+def has_control_characters(text: str) -> bool:
+    """True if a text has a character that controls a terminal or the order of the displayed text.
 
     Args:
         text: The text.

@@ -1,4 +1,4 @@
-"""Plain data to a typed model, with each problem at its line and column."""
+"""Validation of plain data by a typed model, with each problem at its line and column."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Entry = TypeVar("Entry")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedDocument(Generic[Model]):
-    """A file as its typed model, together with the positions that later findings need.
+    """File as its typed model, with the positions for later findings.
 
     Attributes:
         value: The typed content.
@@ -49,7 +49,7 @@ def load_document(path: Path, model: type[Model], *, label: str | None = None) -
         label: The file's name in messages; the path itself by default.
 
     Raises:
-        DocumentError: The file is not the model; with every problem in it.
+        DocumentError: The file does not satisfy the model; with every problem in it.
     """
     document = read_document(path, label=label)
     try:
@@ -62,32 +62,32 @@ def load_document(path: Path, model: type[Model], *, label: str | None = None) -
 
 
 def validated(data: Any, kind: type[Entry]) -> tuple[Entry | None, tuple[tuple[Location, str], ...]]:
-    """Plain data that comes from no YAML file as a typed value.
+    """Validate plain data that are not from a YAML file.
 
     Args:
         data: Mappings, lists, texts, numbers, truth values and None.
-        kind: A model or a pydantic dataclass: what the data should be.
+        kind: A model or a pydantic dataclass: the expected type.
 
     Returns:
-        The value, None if the data are not that; and each problem with where in the data it is.
+        The value, None if the data are invalid; and each problem with its location in the data.
     """
     try:
         return TypeAdapter(kind).validate_json(json.dumps(data)), ()
     except ValidationError as error:
         problems = error.errors(include_url=False)[:MOST_PROBLEMS]
-        return None, tuple((problem["loc"], _plain_words(problem)) for problem in problems)
+        return None, tuple((problem["loc"], _short_message(problem)) for problem in problems)
 
 
-def _plain_words(problem: Any) -> str:
+def _short_message(problem: Any) -> str:
     missing = problem["type"] == "missing" and isinstance(problem["loc"][-1], str)
-    return "is missing" if missing else _in_our_words(problem["type"], problem)
+    return "is missing" if missing else _message_of(problem["type"], problem)
 
 
 def _own_problems(problems: Sequence[Any], model: type[BaseModel]) -> list[Any]:
-    """The problems without those that only follow from another.
+    """Problems without consequences of others.
 
-    A tuple whose entries are wrong is also called too short, because no valid entry is in it; a key that
-    is misspelt is unknown, and then the right one is missing.
+    A tuple with invalid entries is also reported as too short, because it has no valid entry; a misspelt key is
+    unknown, and the correct one missing.
     """
     around = {problem["loc"][:length] for problem in problems for length in range(len(problem["loc"]))}
     misspelt = {
@@ -118,7 +118,7 @@ def _finding(document: Document, model: type[BaseModel], problem: Mapping[str, A
         return document.finding("document.missing-key", f"key {key!r} is missing", location[:-1], hint=f"add {key!r}")
     if kind == "union_tag_invalid":
         location = (*location, context["discriminator"].strip("'"))
-    message = _in_our_words(kind, problem)
+    message = _message_of(kind, problem)
     name = next((part for part in reversed(document.nearest(location)) if isinstance(part, str)), "")
     return document.finding(
         "document.value", f"{name}: {message}" if name else message, location, hint=str(context.get("hint", ""))
@@ -134,12 +134,12 @@ def _unknown_key(document: Document, model: type[BaseModel], location: tuple[str
 
 
 def _near_keys(location: tuple[str | int, ...], model: type[BaseModel]) -> list[str]:
-    """The key that an unknown key is most like; none where it is like no other."""
+    """Keys most similar to an unknown key; empty if none is similar."""
     return difflib.get_close_matches(str(location[-1]), _siblings(location, model), n=1)
 
 
 _UNKNOWN_KEY = ("extra_forbidden", "unexpected_keyword_argument")
-"""The problem of a key that a model, or a pydantic dataclass, does not have."""
+"""Problem types of unknown keys in a model or a pydantic dataclass."""
 
 _WORDS: Mapping[str, str] = {
     "string_type": "a text is expected",
@@ -156,7 +156,7 @@ _WORDS: Mapping[str, str] = {
 }
 
 
-def _in_our_words(kind: str, problem: Mapping[str, Any]) -> str:
+def _message_of(kind: str, problem: Mapping[str, Any]) -> str:
     if kind in _WORDS:
         return _WORDS[kind]
     context = problem.get("ctx", {})
@@ -187,16 +187,16 @@ def _entries(count: int) -> str:
 
 
 def _siblings(location: tuple[str | int, ...], model: type[BaseModel]) -> list[str]:
-    """The keys that the mapping around an unknown key may have."""
+    """Allowed keys of the mapping with an unknown key."""
     kinds: list[Any] = [model]
     for part in location[:-1]:
-        # A part without a position is the tag of a union, which is not a level.
+        # A part without a position is the tag of a union, which is not a level of the file.
         kinds = _alternatives([inner for kind in kinds for inner in _inside(kind, part)]) or kinds
     return sorted({field.alias or name for kind in kinds for name, field in _fields_of(kind).items()})
 
 
 def _fields_of(kind: Any) -> Mapping[str, FieldInfo]:
-    """The fields of a model or a pydantic dataclass; none of anything else."""
+    """Fields of a model or a pydantic dataclass; empty for any other type."""
     if not isinstance(kind, type):
         return {}
     if issubclass(kind, BaseModel):
@@ -215,7 +215,7 @@ def _inside(kind: Any, part: str | int) -> list[Any]:
 
 
 def _alternatives(annotations: list[Any]) -> list[Any]:
-    """The annotations with unions and Annotated taken apart."""
+    """Annotations with unions and Annotated flattened."""
     found: list[Any] = []
     for annotation in annotations:
         origin = get_origin(annotation)

@@ -1,4 +1,4 @@
-"""Plain data as text of the YAML that `rgss.documents` reads."""
+"""Writer of plain data as YAML, readable by `rgss.documents`."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ _FLOW_SIGNS = frozenset("?,[]{}:")
 
 
 def value_lines(value: Any, indent: int, used: int = 0) -> list[str]:
-    """The value of a key of a block mapping.
+    """Text of the value of a key of a block mapping.
 
     Args:
         value: Texts, numbers, truth values, None, lists and mappings of these.
         indent: The column of the key.
-        used: Characters of the key's line that are taken.
+        used: Occupied characters of the key's line.
 
     Returns:
-        The text behind the colon, which may be empty; then whole lines.
+        The text after the colon, which may be empty; then whole lines.
     """
     inline = inline_text(value)
     fits = used + 1 + len(inline) <= WIDEST_LINE
@@ -43,7 +43,7 @@ def value_lines(value: Any, indent: int, used: int = 0) -> list[str]:
 
 
 def entry_lines(entry: Any, indent: int) -> list[str]:
-    """An entry of a block list, as whole lines.
+    """Text of an entry of a block list, as whole lines.
 
     Args:
         entry: The entry.
@@ -56,7 +56,7 @@ def entry_lines(entry: Any, indent: int) -> list[str]:
 
 
 def inline_text(value: Any) -> str:
-    """A value on one line, in flow style."""
+    """Text of a value on one line, in flow style."""
     if isinstance(value, dict):
         return "{" + ", ".join(f"{key}: {inline_text(inner)}" for key, inner in value.items()) + "}"
     if isinstance(value, (list, tuple)):
@@ -85,17 +85,17 @@ def _list_lines(items: list[Any] | tuple[Any, ...], indent: int) -> list[str]:
 
 
 def _is_plain(text: str) -> bool:
-    """True if a text reads as itself without quotes, for us and for other readers of YAML."""
+    """True if a text needs no quotes, for this and other YAML readers."""
     if text.lower() in _CONSTANTS or not text.isprintable() or not text[0].isalnum() or text != text.strip():
         return False
     if ": " in text or " #" in text or text.endswith(":"):
         return False
-    # A digit may begin a number, a date or a time; a unit behind it makes it a text for everybody.
+    # A leading digit may be that of a number, a date or a time; a unit after it makes it a text for all readers.
     return not text[0].isdigit() or re.fullmatch(r"[0-9]+(\.[0-9]+)? [A-Za-z%°µ].*", text) is not None
 
 
 def _folds(text: str) -> bool:
-    """True if a text survives being wrapped at its blanks and joined again."""
+    """True if a text is unchanged by folding at its blanks and unfolding."""
     return text.isprintable() and text == text.strip() and "  " not in text
 
 

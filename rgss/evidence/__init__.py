@@ -1,4 +1,4 @@
-"""Evidence of trials: records, their digests, and the store that keeps them."""
+"""Evidence of trials: records, their digests and the evidence store."""
 
 from rgss.evidence.records import (
     Failure,

@@ -1,4 +1,4 @@
-"""Grasp analysis from contacts: contact kinematics, the grasp map, closure, and quality."""
+"""Grasp analysis from contacts: contact kinematics, grasp map, closure and quality measures."""
 
 from rgss.grasping.closure import equilibrium, force_closure, form_closure, wrench_resistance
 from rgss.grasping.contact import ContactKind, ContactPoint

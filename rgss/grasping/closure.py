@@ -1,4 +1,4 @@
-"""Equilibrium, force closure, form closure and wrench resistance, decided by linear programs."""
+"""Equilibrium, force closure, form closure and wrench resistance by linear programs."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class ClosureVerdict:
 
     Attributes:
         holds: The verdict.
-        margin: A pure number; what it measures is said where the verdict is given.
+        margin: Dimensionless; defined in the function that gives the verdict.
     """
 
     holds: bool
@@ -30,11 +30,10 @@ class ClosureVerdict:
 
 
 def equilibrium(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | None = None) -> ClosureVerdict:
-    """True if contact forces other than zero can hold the object at rest without an outer load (eq. 3.1).
+    """Equilibrium: non-zero contact forces can hold the object at rest without an external load (eq. 3.1).
 
     Among all contact forces whose normal forces sum to 1 N, a first program finds the smallest net wrench; a second
-    one, if that is zero, the most even squeeze. A contact without a share in any squeeze is not essential (sec.
-    3.3.1).
+    one, if that is zero, the most even squeeze. A contact without a share in any squeeze is not essential (sec. 3.3.1).
 
     Args:
         grasp: The grasp.
@@ -42,8 +41,8 @@ def equilibrium(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | No
         plane_normal: For a planar grasp, the unit normal of its plane.
 
     Returns:
-        If it holds, the margin is the smallest share of a contact in the squeeze at its most even, from 0 (one cannot
-        take part) to 1 (all press alike). If it does not, minus the greatest component of the smallest net wrench.
+        If it holds, the margin is the smallest share of a contact in the most even squeeze, from 0 (one contact cannot
+        take part) to 1 (all forces equal). If not, it is minus the greatest component of the smallest net wrench.
 
     Raises:
         DefinitionError: The pyramids are ill defined, or the solver failed.
@@ -52,7 +51,7 @@ def equilibrium(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | No
 
 
 def force_closure(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | None = None) -> ClosureVerdict:
-    """True if contact forces can resist every wrench, if they may be as large as it takes (eq. 3.4).
+    """Force closure: unbounded contact forces can resist every wrench (eq. 3.4).
 
     The primitive wrenches positively span the space: they have full rank, and a combination with coefficients that are
     all above zero is zero (Lynch and Park, Modern Robotics, 2017, chapter 12; Murray, Li, Sastry 1994, chapter 5). The
@@ -64,8 +63,8 @@ def force_closure(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | 
         plane_normal: For a planar grasp, the unit normal of its plane.
 
     Returns:
-        The margin is that smallest coefficient over the mean one: 0 where the property does not hold, 1 where all edges
-        are alike.
+        The margin is that smallest coefficient over the mean one: 0 if the property does not hold, 1 if all
+        coefficients are equal.
 
     Raises:
         DefinitionError: The pyramids are ill defined, or the solver failed.
@@ -74,10 +73,10 @@ def force_closure(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | 
 
 
 def form_closure(grasp: Grasp, *, plane_normal: Vector3 | None = None) -> ClosureVerdict:
-    """True if the contacts' normals alone immobilise the object (sec. 3.3.2.1).
+    """Form closure: the contacts' normals alone immobilise the object (sec. 3.3.2.1).
 
-    This is form closure of first order: curvature, which can immobilise with fewer contacts, does not count. It is
-    force closure without friction, and takes at least 7 contacts in space and 4 in a plane. The margin is that of
+    This is form closure of first order: curvature, which can immobilise with fewer contacts, is ignored. It equals
+    force closure without friction, and needs at least 7 contacts in space and 4 in a plane. The margin is that of
     `force_closure`.
 
     Raises:
@@ -94,7 +93,7 @@ def wrench_resistance(
     cone_edges: int = 8,
     plane_normal: Vector3 | None = None,
 ) -> ClosureVerdict:
-    """True if the fingers can hold the object against an outer load with the force they have (eq. 3.4).
+    """Wrench resistance: the fingers can hold the object against an external load within their force limit (eq. 3.4).
 
     The program finds the greatest multiple of the load for which contact forces in the friction cones balance it, while
     the normal forces of the points of each finger sum to at most its limit.
@@ -104,10 +103,10 @@ def wrench_resistance(
         external: The load about the centre of mass.
         finger_force_limit_n: Greatest normal force of a finger.
         cone_edges: Edges of each friction pyramid.
-        plane_normal: For a planar grasp, the unit normal of its plane; only what acts in the plane counts.
+        plane_normal: For a planar grasp, the unit normal of its plane; only components in the plane count.
 
     Returns:
-        The margin is that multiple less 1, from -1 (nothing can be borne); infinite for no load.
+        The margin is that multiple minus 1, from -1 (no load can be resisted); infinite for a zero load.
 
     Raises:
         DefinitionError: The load is not finite or the limit not positive; the pyramids are ill defined, or the solver
@@ -148,9 +147,9 @@ def resistance(
     Args:
         grasp: The grasp.
         edges: The edges.
-        external: The outer load about the centre of mass.
+        external: The external load about the centre of mass.
         finger_force_limit_n: Greatest normal force of a finger.
-        rows: What picks the wrenches of a plane out of those of space; None for a grasp in space.
+        rows: Selection matrix of the planar wrench components; None for a grasp in space.
 
     Raises:
         DefinitionError: The load is not finite or the limit not positive; or the solver failed.
@@ -167,7 +166,7 @@ def resistance(
         return ClosureVerdict(holds=True, margin=math.inf)
     owners = edges.contacts.tolist()
     fingers = np.array([[float(owner in members) for owner in owners] for members in grasp.fingers()])
-    # Forces count in limits and the load in its own size, so that the numbers are near 1.
+    # Forces are scaled by the limit and the load by its size, so that the numbers are near 1.
     best = maximise(
         np.append(np.zeros(edges.matrix.shape[1]), 1.0),
         equal=(np.hstack([edges.matrix, (load / size)[:, None]]), np.zeros(len(load))),
@@ -204,7 +203,7 @@ def positive_span(wrenches: Matrix) -> ClosureVerdict:
 
 
 def require_force_limit(finger_force_limit_n: float) -> None:
-    """Refuse a limit that is none.
+    """Require a positive force limit.
 
     Raises:
         DefinitionError: The limit is not a positive number.

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from rgss.errors import DefinitionError
 
 Vector3 = tuple[float, float, float]
-"""Three components in one right-handed frame."""
+"""Vector of three components in a right-handed frame."""
 
 Matrix = NDArray[np.float64]
-"""An array of floats; its shape is said where it is used."""
+"""Array of floats; its shape is given where it is used."""
 
 _UNIT_LENGTH_TOLERANCE = 1e-6
 _NEARLY_VERTICAL = 0.9
@@ -23,10 +23,10 @@ _NEARLY_PARALLEL = 1e-6
 
 
 class ContactKind(str, Enum):
-    """Kind of a contact: what it can transmit besides its normal force.
+    """Contact model: the forces that a contact transmits besides its normal force.
 
     Attributes:
-        FRICTIONLESS: Nothing.
+        FRICTIONLESS: None.
         HARD: Friction in the tangent plane (a point contact with friction).
         SOFT: Friction in the tangent plane and a torque about the normal (a soft finger).
     """
@@ -41,22 +41,23 @@ class ContactPoint:
     """One point of contact between a finger and the grasped object.
 
     All vectors are in one frame. Friction cones are replaced by pyramids whose edges start from `tangent`, so give
-    contacts in a frame that is fixed to the object, or give tangents: then nothing changes when the object is turned.
+    contacts in a frame fixed to the object, or give tangents: the results are then invariant under rotation of the
+    object.
 
     Attributes:
         position_m: The point on the object.
         normal: Unit vector that points into the object.
-        kind: What the contact can transmit.
-        friction: Coulomb's coefficient of the pair of surfaces; does not count for a frictionless contact.
-        torsional_friction_m: Greatest torque about the normal over the normal force; counts for a soft contact alone.
-        normal_force_n: Force along the normal as it is now.
-        friction_force_n: Friction force on the object as it is now.
-        gap_m: Distance between finger and object along the normal, negative where they penetrate.
+        kind: The contact model.
+        friction: Coulomb's coefficient of the pair of surfaces; ignored for a frictionless contact.
+        torsional_friction_m: Greatest torque about the normal over the normal force; for a soft contact only.
+        normal_force_n: Present force along the normal.
+        friction_force_n: Present friction force on the object.
+        gap_m: Distance between finger and object along the normal, negative for penetration.
         relative_velocity_m_s: Velocity of the object's point relative to the finger's.
-        finger: Number of the finger; its points share one force limit and make one corner of the grasp polygon. None
-            stands for a finger that has this point alone.
-        tangent: Direction of the first edge of the friction pyramid, as far as it lies in the tangent plane. None
-            stands for the frame's z axis, or its x axis where the normal is near z.
+        finger: Index of the finger; its points share one force limit and form one corner of the grasp polygon. None for
+        a finger with this point only.
+        tangent: Direction of the first edge of the friction pyramid, projected onto the tangent plane. None for the
+        frame's z axis, or its x axis if the normal is near z.
     """
 
     position_m: Vector3
@@ -75,8 +76,8 @@ class ContactPoint:
         """Validate the contact.
 
         Raises:
-            DefinitionError: A number is not finite, the normal has not the length 1, a coefficient or the normal force
-                is negative, or the tangent is parallel to the normal.
+            DefinitionError: A number is not finite, the normal is not a unit vector, a coefficient or the normal force
+            is negative, or the tangent is parallel to the normal.
         """
         for name in ("position_m", "normal", "friction_force_n", "relative_velocity_m_s", "tangent"):
             vector = getattr(self, name)
@@ -100,12 +101,12 @@ class ContactPoint:
                 )
 
     def unit_normal(self) -> Vector3:
-        """The normal, with the length 1 to the last digit."""
+        """The normal, normalised to rounding."""
         return _unit(self.normal)
 
     def tangents(self) -> tuple[Vector3, Vector3]:
-        """Two unit vectors that make a right-handed frame with the normal before them."""
-        # In plain numbers, since a grasp needs many of these and arrays of three are slow.
+        """Two unit tangents; (normal, tangent, tangent) is right-handed."""
+        # In plain numbers: a grasp needs many of these, and arrays of three are slow.
         normal, towards = self.unit_normal(), self.tangent
         if towards is None:
             towards = (0.0, 0.0, 1.0) if abs(normal[2]) <= _NEARLY_VERTICAL else (1.0, 0.0, 0.0)
@@ -113,7 +114,7 @@ class ContactPoint:
         return _cross(second, normal), second
 
     def axes(self) -> Matrix:
-        """The contact's frame: unit normal and two unit tangents as rows, right-handed, shape (3, 3)."""
+        """Contact frame: unit normal and two unit tangents as rows, right-handed, shape (3, 3)."""
         return np.array([self.unit_normal(), *self.tangents()])
 
 

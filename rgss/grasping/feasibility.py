@@ -1,7 +1,7 @@
-"""Verdicts without margins: whether wrenches can balance, or span their space, by non-negative least squares.
+"""Equilibrium and force closure without margins, by non-negative least squares.
 
-They say what the linear programs of `rgss.grasping.closure` say, and nothing of how well it holds, in a hundredth of
-the time; a grasp that is judged many times while it is carried needs no more.
+The verdicts equal those of the linear programs of `rgss.grasping.closure`, in a hundredth of the time; they suffice for
+a grasp that is analysed many times while it is carried.
 """
 
 from __future__ import annotations
@@ -13,20 +13,20 @@ from rgss.grasping.contact import Matrix
 from rgss.nonnegative_least_squares import nonnegative_least_squares
 
 RANK_TOLERANCE = 1e-9
-"""A singular value below this share of the greatest counts as zero."""
+"""Relative tolerance of singular values: a smaller share of the greatest counts as zero."""
 
 STRICTLY_POSITIVE = 1e-7
-"""A coefficient below this share of the mean one counts as zero."""
+"""Relative tolerance of coefficients: a smaller share of their mean counts as zero."""
 
 BALANCED = 1e-8
-"""A net wrench below this, for normal forces that sum to 1 N, counts as none."""
+"""Tolerance of the net wrench in N, for normal forces that sum to 1 N."""
 
 
 def can_balance(wrenches: Matrix) -> bool:
-    """True if some combination with coefficients from zero, which sum to 1, is zero.
+    """True if a convex combination of wrenches is zero.
 
     Args:
-        wrenches: Shape (space, n), in newtons alone.
+        wrenches: Shape (space, n), all components in N.
 
     Raises:
         DefinitionError: The solver reached no verdict.
@@ -39,11 +39,11 @@ def can_balance(wrenches: Matrix) -> bool:
 def positively_span(wrenches: Matrix) -> bool:
     """True if wrenches positively span their space.
 
-    They do if they have full rank and -Σ w_i is a combination of them with coefficients c_i from zero: then
-    Σ (1 + c_i) w_i = 0 with coefficients that are all above zero.
+    They do if they have full rank and -Σ w_i is a combination of them with coefficients c_i ≥ 0: then Σ (1 + c_i) w_i =
+    0 with positive coefficients.
 
     Args:
-        wrenches: Shape (space, n), in newtons alone.
+        wrenches: Shape (space, n), all components in N.
 
     Raises:
         DefinitionError: The solver reached no verdict.

@@ -1,4 +1,4 @@
-"""Verdicts and measures of a grasp that depend on its geometry alone, not on its contact forces."""
+"""Verdicts and measures of a grasp that depend on its geometry, not on its contact forces."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class Verdict(NamedTuple):
 
 
 class GraspGeometry:
-    """The measures of a grasp that depend on its geometry and its friction alone.
+    """Measures of a grasp that depend only on its geometry and friction.
 
     Attributes:
         edges: Edges of the friction pyramids.
-        squeeze: Equilibrium: whether a squeeze can balance itself.
+        squeeze: Equilibrium.
         force: Force closure.
         form: Form closure.
         q_msv_1: Smallest singular value of the grasp matrix.
@@ -38,12 +38,12 @@ class GraspGeometry:
     """
 
     def __init__(self, grasp: Grasp, *, cone_edges: int, with_margins: bool) -> None:
-        """Compute everything but the convex hull.
+        """Compute everything except the convex hull.
 
         Args:
             grasp: The grasp.
             cone_edges: Edges of each friction pyramid.
-            with_margins: Whether to say how well the verdicts hold, by linear programs.
+            with_margins: True to compute margins of the verdicts, by linear programs.
 
         Raises:
             DefinitionError: A solver failed.
@@ -57,11 +57,11 @@ class GraspGeometry:
 
     @cached_property
     def smallest_maximum_1(self) -> float:
-        """Smallest maximum wrench for a force limit of 1 N, by a hull; 0 without force closure."""
+        """Smallest maximum wrench in N for a force limit of 1 N, by a convex hull; 0 without force closure."""
         return ball_radius(self.edges.matrix) if self.force.holds else 0.0
 
     def is_of(self, grasp: Grasp, *, cone_edges: int, with_margins: bool) -> bool:
-        """True if another grasp has the same geometry, to a nanometre, and the same is required of it."""
+        """True if a grasp has the same geometry, within a nanometre, and the same options."""
         mine = self._grasp
         return (
             self._asked == (cone_edges, with_margins)
@@ -73,10 +73,10 @@ class GraspGeometry:
 
 
 class GraspGeometryCache:
-    """Cache of the geometry of the grasp that was analysed last.
+    """Cache of the geometric measures of the last analysed grasp.
 
-    An object that is held does not move in the hand for most of the time: its contacts stay where they
-    are while their forces change, and only the quantities that depend on the forces are computed again.
+    A held object mostly does not move in the hand: its contact points persist while their forces change, and only the
+    quantities that depend on forces are recomputed.
     """
 
     def __init__(self) -> None:
@@ -84,7 +84,7 @@ class GraspGeometryCache:
         self._last: GraspGeometry | None = None
 
     def geometry(self, grasp: Grasp, *, cone_edges: int, with_margins: bool) -> GraspGeometry:
-        """The geometry of a grasp, worked out unless it is that of the last one.
+        """Geometric measures of a grasp, computed unless its geometry equals that of the last one.
 
         Args:
             grasp: The grasp.
@@ -122,6 +122,6 @@ def _verdicts(
         first, second, third = (Verdict(verdict.holds, verdict.margin) for verdict in found)
         return first, second, third
     closed = positively_span(edges.matrix)
-    # Wrenches that span their space balance; only the others need to be checked.
+    # Wrenches that positively span their space are in equilibrium; only the others must be checked.
     squeezed = closed or can_balance(edges.matrix)
     return Verdict(squeezed, None), Verdict(closed, None), Verdict(positively_span(normals), None)

@@ -21,7 +21,7 @@ _INTENSITIES = {ContactKind.FRICTIONLESS: 1, ContactKind.HARD: 3, ContactKind.SO
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PrimitiveWrenches:
-    """The edges of the contacts' linearised friction cones as wrenches on the object.
+    """Primitive wrenches: the edges of the contacts' linearised friction cones as wrenches on the object.
 
     Attributes:
         matrix: A column for each edge, for a normal force of 1 N: force in N above torque over the characteristic
@@ -34,45 +34,45 @@ class PrimitiveWrenches:
 
 
 def partial_wrench_basis(grasp: Grasp, index: int) -> Matrix:
-    """The columns of the grasp matrix that belong to one contact.
+    """Partial wrench basis: the columns of the grasp matrix of one contact.
 
     Rows are force, then torque about the centre of mass over the characteristic length, as in equation 3.1. Columns are
-    the intensities that the contact can have, all in newtons: normal force; for hard and soft contacts the two friction
-    forces along the contact's tangents; for a soft one the torque about the normal over the characteristic length.
+    the contact's intensities, all in N: normal force; for hard and soft contacts the two friction forces along the
+    contact's tangents; for a soft one the torque about the normal over the characteristic length.
 
     Returns:
-        Shape (6, 1), (6, 3) or (6, 4); no units.
+        Shape (6, 1), (6, 3) or (6, 4); dimensionless.
     """
     return _basis(grasp.contacts[index], grasp.arms_m()[index], grasp.characteristic_length_m)
 
 
 def grasp_matrix(grasp: Grasp) -> Matrix:
-    """The grasp matrix G, shape (6, m): from the contacts' intensities to the wrench on the object (sec. 3.4.2)."""
+    """Grasp matrix G, shape (6, m), that maps contact intensities to the wrench on the object (sec. 3.4.2)."""
     return np.hstack(partial_wrench_bases(grasp))
 
 
 def partial_wrench_bases(grasp: Grasp) -> list[Matrix]:
-    """The `partial_wrench_basis` of every contact, one after another the grasp matrix."""
+    """`partial_wrench_basis` of every contact; side by side they form the grasp matrix."""
     length = grasp.characteristic_length_m
     return [_basis(contact, arm, length) for contact, arm in zip(grasp.contacts, grasp.arms_m(), strict=True)]
 
 
 def grasp_map(grasp: Grasp, intensities: Sequence[Sequence[float]]) -> Wrench:
-    """The grasp map L_G (eq. 3.1): net wrench of given contact forces about the centre of mass.
+    """Grasp map L_G (eq. 3.1): net wrench of given contact forces about the centre of mass.
 
     Args:
         grasp: The grasp.
-        intensities: For each contact as many as its kind has, in real units: normal force (N); two friction forces (N);
-            torque about the normal (N·m).
+        intensities: The intensities of each contact, as many as its model has: normal force (N); two friction forces
+            (N); torque about the normal (N·m).
 
     Raises:
-        DefinitionError: The numbers do not fit the contacts.
+        DefinitionError: The numbers of intensities do not match the contacts.
     """
     asked = [_INTENSITIES[contact.kind] for contact in grasp.contacts]
     given = [len(row) for row in intensities]
     if given != asked:
         raise DefinitionError(
-            f"the contacts have {asked} intensities each, not {given}",
+            f"the numbers of intensities of the contacts must be {asked}, got {given}",
             hint="give 1 for a frictionless contact, 3 for a hard one, 4 for a soft one",
         )
     length = grasp.characteristic_length_m
@@ -82,8 +82,8 @@ def grasp_map(grasp: Grasp, intensities: Sequence[Sequence[float]]) -> Wrench:
 
 
 def net_wrench(grasp: Grasp) -> Wrench:
-    """The wrench of the contacts' present normal and friction forces about the centre of mass."""
-    # In plain numbers, as for the contacts' axes: it is computed in every analysis of a grasp.
+    """Net wrench of the contacts' present normal and friction forces about the centre of mass."""
+    # In plain numbers, as the contacts' axes: it is computed in every analysis of a grasp.
     ox, oy, oz = grasp.centre_of_mass_m
     fx = fy = fz = tx = ty = tz = 0.0
     for contact in grasp.contacts:
@@ -97,10 +97,10 @@ def net_wrench(grasp: Grasp) -> Wrench:
 
 
 def in_friction_cone(contact: ContactPoint, intensities: Sequence[float], *, tolerance_n: float = 1e-9) -> bool:
-    """True if a contact can transmit a force: membership of the generalised friction cone C_i.
+    """Membership of the generalised friction cone C_i: True if a contact can transmit the intensities.
 
-    The cone is round: friction up to the coefficient times the normal force, and for a soft contact, independently, a
-    torque up to the torsional coefficient times the normal force (Murray, Li, Sastry 1994, chapter 5).
+    The cone is circular: friction up to the coefficient times the normal force, and for a soft contact, independently,
+    a torque up to the torsional coefficient times the normal force (Murray, Li, Sastry 1994, chapter 5).
     """
     normal = intensities[0]
     if normal < -tolerance_n:
@@ -113,20 +113,21 @@ def in_friction_cone(contact: ContactPoint, intensities: Sequence[float], *, tol
 def primitive_wrenches(
     grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | None = None, frictionless: bool = False
 ) -> PrimitiveWrenches:
-    """The edges of the friction cones, replaced by pyramids inside of them, as wrenches of unit normal force.
+    """Primitive wrenches of unit normal force, along the edges of friction pyramids inscribed in the cones.
 
-    The round cone resists whatever the pyramid resists, so that verdicts are conservative; friction is at worst
-    cos(π / edges) of what it is, 0.92 for 8.
+    The circular cone resists whatever the pyramid resists, so that verdicts are conservative; the effective friction is
+    at worst cos(π / edges) of the true value, 0.92 for 8 edges.
 
     Args:
         grasp: The grasp.
         cone_edges: Edges of each pyramid.
         plane_normal: Unit normal of the plane in which a planar grasp lies; the wrenches are then two forces in the
             plane and the torque about its normal, and each friction cone has its two edges in the plane.
-        frictionless: Leave friction out of account.
+        frictionless: True to ignore friction.
 
     Raises:
-        DefinitionError: There are fewer than 3 edges, or a contact's normal or the normals of a plane do not fit it.
+        DefinitionError: There are fewer than 3 edges, the plane's normal is not a unit vector, or a contact's normal is
+        not in the plane.
     """
     require_cone_edges(cone_edges)
     if plane_normal is not None:
@@ -144,7 +145,7 @@ def wrenches_of(
         grasp: The grasp.
         bases: Its `partial_wrench_bases`.
         cone_edges: Edges of each pyramid, at least 3.
-        frictionless: Leave friction out of account.
+        frictionless: True to ignore friction.
     """
     length, columns, owners = grasp.characteristic_length_m, [], []
     for index, (contact, basis) in enumerate(zip(grasp.contacts, bases, strict=True)):
@@ -162,20 +163,21 @@ def wrenches_of(
 
 
 def require_cone_edges(cone_edges: int) -> int:
-    """A number of edges of a friction pyramid, refused if it is too small.
+    """Number of edges of a friction pyramid, validated.
 
     Raises:
         DefinitionError: There are fewer than 3 edges.
     """
     if cone_edges < FEWEST_CONE_EDGES:
         raise DefinitionError(
-            f"a friction cone cannot have {cone_edges} edges", hint=f"give at least {FEWEST_CONE_EDGES}"
+            f"a friction pyramid must have at least {FEWEST_CONE_EDGES} edges, got {cone_edges}",
+            hint=f"give at least {FEWEST_CONE_EDGES}",
         )
     return cone_edges
 
 
 def _planar_wrenches(grasp: Grasp, plane_normal: Vector3, *, frictionless: bool) -> PrimitiveWrenches:
-    """The two edges of each contact's friction cone in a plane, one where there is no friction."""
+    """Primitive wrenches in a plane: two edges of each contact's friction cone, one without friction."""
     columns, owners = [], []
     for index, (contact, arm_m) in enumerate(zip(grasp.contacts, grasp.arms_m(), strict=True)):
         forces = contact.axes()[:1]
@@ -197,7 +199,7 @@ def _basis(contact: ContactPoint, arm_m: Matrix, length_m: float) -> Matrix:
 
 
 def _moments(arm_m: Matrix, forces: Matrix) -> Matrix:
-    """Moments arm × force of forces at one point, shape (n, 3); several times as fast as NumPy's for few of them."""
+    """Moments arm × force of forces at one point, shape (n, 3); for few forces several times as fast as NumPy."""
     x, y, z = arm_m.tolist()
     moments: Matrix = forces @ np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
     return moments
@@ -205,7 +207,7 @@ def _moments(arm_m: Matrix, forces: Matrix) -> Matrix:
 
 @lru_cache(maxsize=8)
 def _circle(edges: int) -> Matrix:
-    """Directions evenly round a circle, shape (2, edges); not to be written to."""
+    """Evenly spaced directions on a circle, shape (2, edges); read-only."""
     angles = 2.0 * math.pi * np.arange(edges) / edges
     return np.array([np.cos(angles), np.sin(angles)])
 
@@ -213,7 +215,9 @@ def _circle(edges: int) -> Matrix:
 def _check_plane(grasp: Grasp, plane_normal: Vector3) -> None:
     length = math.hypot(*plane_normal)
     if not abs(length - 1.0) <= _IN_PLANE_TOLERANCE:
-        raise DefinitionError(f"the normal of a plane has the length {length:.9g}", hint="give it the length 1")
+        raise DefinitionError(
+            f"the normal of a plane must have the length 1, got {length:.9g}", hint="give it the length 1"
+        )
     for index, contact in enumerate(grasp.contacts):
         if abs(float(np.dot(contact.normal, plane_normal))) > _IN_PLANE_TOLERANCE:
             raise DefinitionError(

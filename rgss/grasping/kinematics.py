@@ -1,4 +1,4 @@
-"""Contact kinematics: gap rate and relative tangential motion of two moving bodies."""
+"""Contact kinematics: gap derivatives and relative tangential motion of two moving bodies."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class BodyMotion:
     """Motion of a rigid body at one instant, in an inertial frame.
 
     Attributes:
-        reference_m: A point of the body.
+        reference_m: Reference point of the body.
         twist: Angular velocity, and velocity of that point.
         angular_acceleration_rad_s2: Angular acceleration.
         linear_acceleration_m_s2: Acceleration of that point.
@@ -32,13 +32,13 @@ class BodyMotion:
     linear_acceleration_m_s2: Vector3 = _AT_REST
 
     def velocity_at(self, point_m: Matrix) -> Matrix:
-        """Velocity (m/s) of the body's point that is at a place now, shape (3,)."""
+        """Velocity (m/s) of the body's point at a position, shape (3,)."""
         arm = point_m - np.array(self.reference_m)
         velocity: Matrix = np.array(self.twist.linear_m_s) + np.cross(self.twist.angular_rad_s, arm)
         return velocity
 
     def acceleration_at(self, point_m: Matrix) -> Matrix:
-        """Acceleration (m/s²) of the body's point that is at a place now, shape (3,)."""
+        """Acceleration (m/s²) of the body's point at a position, shape (3,)."""
         arm, spin = point_m - np.array(self.reference_m), np.array(self.twist.angular_rad_s)
         turning = np.cross(self.angular_acceleration_rad_s2, arm) + np.cross(spin, np.cross(spin, arm))
         acceleration: Matrix = np.array(self.linear_acceleration_m_s2) + turning
@@ -52,7 +52,7 @@ class Curvature:
     Attributes:
         along_per_m: Curvature along the direction.
         across_per_m: Curvature across it.
-        direction: The first principal direction, as far as it lies in the tangent plane.
+        direction: The first principal direction, projected onto the tangent plane.
     """
 
     along_per_m: float
@@ -80,14 +80,14 @@ class Curvature:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactMotion:
-    """The relative motion at one contact, of the object as seen from the finger.
+    """Motion of the object relative to the finger at one contact.
 
     Attributes:
-        gap_m: Distance along the normal, negative where the bodies penetrate.
+        gap_m: Distance along the normal, negative for penetration.
         gap_rate_m_s: Its first derivative.
-        gap_acceleration_m_s2: Its second derivative; None where accelerations are not known.
+        gap_acceleration_m_s2: Its second derivative; None if accelerations are unknown.
         tangential_velocity_m_s: Relative velocity in the tangent plane.
-        tangential_acceleration_m_s2: Its derivative, as far as it lies in that plane; None where it is not known.
+        tangential_acceleration_m_s2: Its derivative, projected onto that plane; None if unknown.
     """
 
     gap_m: float
@@ -98,7 +98,7 @@ class ContactMotion:
 
 
 def recorded_motion(contact: ContactPoint) -> ContactMotion:
-    """The motion that a contact carries with it; accelerations stay unknown."""
+    """Relative motion stored in a contact, without accelerations."""
     normal, velocity = np.array(contact.unit_normal()), np.array(contact.relative_velocity_m_s)
     rate = float(normal @ velocity)
     return ContactMotion(
@@ -118,25 +118,24 @@ def relative_motion(
     finger_curvature: Curvature | None = None,
     object_curvature: Curvature | None = None,
 ) -> ContactMotion:
-    """Derivatives of the gap and of the tangential motion from the motion of the two bodies.
+    """Derivatives of the gap and of the tangential motion from the motions of the two bodies.
 
     With the normal n from the finger (1) to the object (2), the nearest points c₁ and c₂ = c₁ + P n, the velocities v
-    and accelerations a of the bodies' points there, and the rates s at which the nearest points move over the
-    surfaces:
+    and accelerations a of the bodies' points there, and the rates s at which the nearest points move over the surfaces:
 
         dP/dt   = n·(v₂ - v₁)                                                            (eq. 2.1)
         d²P/dt² = n·(a₂ - a₁) + n·(ω₂ × s₂ - ω₁ × s₁) + dn/dt·(v₂ - v₁)                  (eq. 2.2)
         dn/dt   = ω₁ × n + K₁ s₁ = ω₂ × n - K₂ s₂,     s₂ - s₁ = P dn/dt - (v₂ - v₁) in the tangent plane
 
-    The last line is Montana's (The kinematics of contact and grasp, 1988) with a gap. Where both surfaces are straight
-    in the same direction the nearest points are not unique; those that move least over the finger are taken.
+    The last line is Montana's (The kinematics of contact and grasp, 1988) with a gap. If both surfaces are straight in
+    the same direction the nearest points are not unique; those with the least motion over the finger are used.
 
     Args:
-        contact: Position on the object, normal and gap; its recorded motion does not count.
+        contact: Position on the object, normal and gap; its recorded motion is ignored.
         finger: Motion of the finger.
         grasped: Motion of the object.
-        finger_curvature: Of the finger's surface; None for a sharp tip, whose nearest point stays.
-        object_curvature: Of the object's surface; None for a flat face.
+        finger_curvature: Curvature of the finger's surface; None for a sharp tip, whose nearest point is fixed.
+        object_curvature: Curvature of the object's surface; None for a flat face.
     """
     axes = contact.axes()
     normal, tangents, gap = axes[0], axes[1:], contact.gap_m
@@ -165,7 +164,7 @@ def relative_motion(
     carried = np.cross(object_spin, over_object @ tangents) - np.cross(finger_spin, over_finger @ tangents)
     change = acceleration + carried
     rate = float(normal @ velocity)
-    # The tangent plane turns too: what the normal velocity loses to that belongs to the tangential motion.
+    # The tangent plane rotates too: that term of the normal velocity belongs to the tangential motion.
     tangential_change = tangents @ change - rate * normal_rate
     return ContactMotion(
         gap_m=gap,
@@ -177,7 +176,7 @@ def relative_motion(
 
 
 def gap_between(finger_point_m: Vector3, finger_normal: Vector3, object_point_m: Vector3) -> float:
-    """Signed distance in metres of two facing points along the finger's unit outward normal (eq. 2.9, 2.13)."""
+    """Signed distance in m of two facing points along the finger's unit outward normal (eq. 2.9, 2.13)."""
     return float(np.dot(np.subtract(object_point_m, finger_point_m), finger_normal))
 
 
@@ -189,9 +188,9 @@ def is_potential_contact(
     *,
     tolerance: float = 1e-6,
 ) -> bool:
-    """True if two points are nearest points of their surfaces, as far as direction goes (eq. 2.11, 2.12).
+    """True if two points satisfy the direction conditions of nearest points of two surfaces (eq. 2.11, 2.12).
 
-    The outward normals oppose one another and the line between the points is along them.
+    The outward normals are opposed, and the line between the points is along them.
 
     Args:
         finger_point_m: Point on the finger.

@@ -1,4 +1,4 @@
-"""Linear programs over non-negative numbers, solved by HiGHS."""
+"""Linear programs over non-negative variables, solved by HiGHS."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ def maximise(
 
     Args:
         objective: Shape (n,).
-        equal: Rows and right sides that x meets exactly, shapes (p, n) and (p,).
-        at_most: Rows and right sides that x does not exceed, shapes (q, n) and (q,).
+        equal: Matrix and right-hand side of the equality constraints, shapes (p, n) and (p,).
+        at_most: Matrix and right-hand side of the upper bounds, shapes (q, n) and (q,).
 
     Returns:
-        The maximiser, shape (n,); None if no x meets the rows.
+        The maximiser, shape (n,); None if the program is infeasible.
 
     Raises:
         DefinitionError: The solver reached no verdict.
     """
-    # HiGHS itself: on the way through SciPy such a small program takes several times as long.
+    # HiGHS directly: through SciPy such a small program takes several times as long.
     import highspy
 
     program = _program(highspy, objective, equal, at_most)
-    # Presolving takes as long as solving. Where coefficients of very different size make the simplex give up, the
-    # interior-point method may not.
+    # Presolving takes as long as solving. If the simplex method fails on coefficients of very different size, the
+    # interior-point method may succeed.
     for method, presolve in (("simplex", "off"), ("ipm", "on")):
         solver = _solver(threading.get_ident())
         solver.clear()
@@ -64,7 +64,7 @@ def maximise(
 
 @lru_cache(maxsize=4)
 def _solver(thread: int) -> Any:  # noqa: ARG001 - each thread has its own
-    """A solver, to be cleared before each use: making and ending one takes longer than a small program."""
+    """Solver of a thread, to be cleared before each use: constructing one takes longer than solving a small program."""
     import highspy
 
     return highspy.Highs()

@@ -1,4 +1,4 @@
-"""The grasp polygon: the contacts seen along the axis of the grasp, one corner for each finger."""
+"""Grasp polygon: projection of the contacts along the grasp axis, one corner for each finger."""
 
 from __future__ import annotations
 
@@ -15,20 +15,21 @@ from rgss.grasping.grasp import Grasp
 Point = tuple[float, float]
 
 FEWEST_CORNERS = 3
-"""Corners of the smallest polygon that has angles."""
+"""Least number of corners of a polygon with angles."""
 
 _COINCIDENT = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class GraspPolygon:
-    """A polygon in a plane across the axis of the grasp.
+    """Polygon in the plane perpendicular to the grasp axis.
 
     Attributes:
-        corners_m: In their order round their mean, in the plane, shape (k, 2); measured from the centre of mass.
-        centroid_m: Of its area, in space, from the centre of mass, shape (3,). Along the axis it is as high as the
-            corners are on average; where there is no area it is the middle of the segment.
-        is_flat: Whether it has no area: fewer than three corners, or all in a line.
+        corners_m: Corners in the plane, counter-clockwise about their mean, relative to the centre of mass, shape (k,
+        2).
+        centroid_m: Centroid of the area in space, relative to the centre of mass, shape (3,). Its coordinate along the
+        axis is the corners' mean; without an area it is the midpoint of the segment.
+        is_flat: True if it has no area: fewer than three corners, or all collinear.
     """
 
     corners_m: Matrix
@@ -37,22 +38,21 @@ class GraspPolygon:
 
 
 def grasp_polygon(grasp: Grasp, grasp_axis: Vector3 | None = None) -> GraspPolygon:
-    """Make the polygon of a grasp.
+    """Grasp polygon of a grasp.
 
-    The points of one finger make one corner: their mean, weighted by their normal forces where they press. Corners that
-    coincide count once, and they are joined in the order of their direction from their mean, which never crosses
-    itself.
+    The points of one finger form one corner: their mean, weighted by their normal forces if they press. Coincident
+    corners count once, and corners are connected in the order of their direction from their mean, which avoids
+    self-intersection.
 
     Args:
         grasp: The grasp.
-        grasp_axis: The direction along which the contacts are looked at, such as the gripper's axis. None stands for
-            the normal of the plane that fits the corners best.
+        grasp_axis: Direction of projection, such as the gripper's axis. None for the normal of the plane that fits the
+            corners best.
 
     Raises:
-        DefinitionError: The axis has no direction.
+        DefinitionError: The axis is zero or not finite.
     """
-    # In plain numbers, as for the contacts' axes: a polygon has few corners and is computed in every analysis of a
-    # grasp.
+    # In plain numbers, as the contacts' axes: a polygon has few corners and is computed in every analysis of a grasp.
     corners = _finger_points(grasp)
     count = len(corners)
     x, y, z = (math.fsum(row) / count for row in zip(*corners, strict=True))
@@ -69,7 +69,7 @@ def grasp_polygon(grasp: Grasp, grasp_axis: Vector3 | None = None) -> GraspPolyg
 
 
 def internal_angles(corners_m: Matrix) -> Matrix:
-    """Internal angles (rad) of a simple polygon that is given counter-clockwise, shape (k,), each from 0 to 2π."""
+    """Internal angles (rad) of a simple counter-clockwise polygon, shape (k,), each from 0 to 2π."""
     corners = [(x, y) for x, y in np.asarray(corners_m).tolist()]
     angles = []
     for (bx, by), (x, y), (ax, ay) in zip(
@@ -82,10 +82,10 @@ def internal_angles(corners_m: Matrix) -> Matrix:
 
 
 def worst_deviation(corners: int) -> float:
-    """The greatest sum of |θ_i - θ̄| (rad) that a convex polygon can have: θ_max of equation 3.9.
+    """Greatest sum of |θ_i - θ̄| (rad) of a convex polygon: θ_max of equation 3.9.
 
-    With θ̄ = π (k - 2) / k, it is that of a polygon pressed into a line, which has two angles of 0 and k - 2 of π:
-    (k - 2)(π - θ̄) + 2 θ̄ = 4 θ̄ (Roa and Suárez, Grasp quality measures, 2015).
+    With θ̄ = π (k - 2) / k, it is attained by a polygon degenerated to a line, which has two angles of 0 and k - 2 of
+    π: (k - 2)(π - θ̄) + 2 θ̄ = 4 θ̄ (Roa and Suárez, Grasp quality measures, 2015).
     """
     return 4.0 * math.pi * (corners - 2) / corners
 
@@ -93,14 +93,16 @@ def worst_deviation(corners: int) -> float:
 def _unit(vector: Vector3) -> Vector3:
     length = math.hypot(*vector)
     if not 0.0 < length < math.inf:
-        raise DefinitionError(f"{vector} is not an axis of a grasp", hint="give three finite numbers, not all zero")
+        raise DefinitionError(
+            f"the axis of a grasp must be a finite, non-zero vector, got {vector}", hint="give three finite numbers"
+        )
     return vector[0] / length, vector[1] / length, vector[2] / length
 
 
 def _axis_of_plane(corners: Sequence[Vector3]) -> Vector3:
-    """Normal of the plane that fits points best."""
+    """Normal of the least-squares plane of points."""
     points = np.array(corners)
-    # The last right singular vector is the direction in which the points spread least.
+    # The last right singular vector is the direction of least variance.
     x, y, z = np.linalg.svd(points - points.mean(axis=0))[2][2].tolist()
     return x, y, z
 
@@ -110,7 +112,7 @@ def _dot(one: Vector3, other: Vector3) -> float:
 
 
 def _finger_points(grasp: Grasp) -> list[Vector3]:
-    """The mean of each finger's points, from the centre of mass, weighted by their forces where they press."""
+    """Mean of each finger's points relative to the centre of mass, weighted by their normal forces if they press."""
     ox, oy, oz = grasp.centre_of_mass_m
     points = []
     for members in grasp.fingers():
@@ -129,7 +131,7 @@ def _finger_points(grasp: Grasp) -> list[Vector3]:
 
 
 def _ring(points: Sequence[Point], centre: Point, tolerance: float) -> list[Point]:
-    """The distinct points, counter-clockwise about a centre."""
+    """Distinct points, counter-clockwise about a centre."""
     kept: list[Point] = []
     for point in points:
         if all(math.dist(point, other) > tolerance for other in kept):
@@ -139,11 +141,11 @@ def _ring(points: Sequence[Point], centre: Point, tolerance: float) -> list[Poin
 
 
 def _centroid(ring: Sequence[Point], tolerance: float) -> tuple[Point, bool]:
-    """Centroid of a polygon's area, or of the segment that it is pressed into, and whether it is."""
+    """Centroid of a polygon's area, or midpoint of a degenerate polygon's segment, and True if it is degenerate."""
     count = len(ring)
     mx, my = math.fsum(x for x, _ in ring) / count, math.fsum(y for _, y in ring) / count
     spokes = [(x - mx, y - my) for x, y in ring]
-    # The direction in which the corners spread most, which halves the angle of their second moments.
+    # Direction of the corners' greatest variance: half the angle of their second moments.
     sxx, syy, sxy = (
         math.fsum(x * x for x, _ in spokes),
         math.fsum(y * y for _, y in spokes),

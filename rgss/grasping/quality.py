@@ -1,4 +1,4 @@
-"""Quality measures of a grasp (sec. 3.4): from the grasp matrix, the grasp polygon, and the contact forces."""
+"""Quality measures of a grasp (sec. 3.4) from grasp matrix, grasp polygon and contact forces."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ _NEAREST_FACETS = 32
 
 
 def singular_values(matrix: Matrix) -> Matrix:
-    """Singular values of a grasp matrix, one for each of its rows, greatest first.
+    """Singular values of a grasp matrix, one for each row, in descending order.
 
-    A matrix with fewer columns than rows has zeros for the rest; what rounding leaves of a zero is made zero.
+    A matrix with fewer columns than rows is padded with zeros; values within rounding of zero are set to zero.
     """
     values = np.zeros(matrix.shape[0])
     found = np.linalg.svd(matrix, compute_uv=False)
@@ -30,34 +30,34 @@ def singular_values(matrix: Matrix) -> Matrix:
 
 
 def q_msv(matrix: Matrix) -> float:
-    """Smallest singular value of the grasp matrix (eq. 3.6): 0 if some wrench cannot be resisted, more is better."""
+    """Smallest singular value of the grasp matrix (eq. 3.6): 0 if some wrench cannot be resisted; greater is better."""
     return of_ellipsoid(matrix)[0]
 
 
 def q_voe(matrix: Matrix) -> float:
-    """Volume of the ellipsoid of wrenches, √det(G Gᵀ), the product of the singular values (eq. 3.7); more is better."""
+    """Volume of the wrench ellipsoid, √det(G Gᵀ), the product of the singular values (eq. 3.7); greater is better."""
     return of_ellipsoid(matrix)[1]
 
 
 def q_gii(matrix: Matrix) -> float:
-    """Isotropy of the ellipsoid of wrenches, σ_min / σ_max (eq. 3.8): from 0, singular, to 1, balanced."""
+    """Isotropy of the wrench ellipsoid, σ_min / σ_max (eq. 3.8): from 0, singular, to 1, isotropic."""
     return of_ellipsoid(matrix)[2]
 
 
 def of_ellipsoid(matrix: Matrix) -> tuple[float, float, float]:
-    """Measures `q_msv`, `q_voe` and `q_gii` of a grasp matrix, from one decomposition."""
+    """Measures `q_msv`, `q_voe` and `q_gii` of a grasp matrix from one singular value decomposition."""
     values = singular_values(matrix)
     return float(values[-1]), float(np.prod(values)), float(values[-1] / values[0])
 
 
 def q_gpri(polygon: GraspPolygon) -> float | None:
-    """Regularity of the grasp polygon, Σ|θ_i - θ̄| / θ_max (eq. 3.9): from 0, regular, to 1, pressed into a line.
+    """Regularity of the grasp polygon, Σ|θ_i - θ̄| / θ_max (eq. 3.9): from 0, regular, to 1, degenerate.
 
-    The corner of a finger that lies inside the others makes an angle above π, and the sum may exceed what a convex
-    polygon can have: it counts as 1.
+    A corner inside the hull of the others has an angle above π, and the sum may exceed that of any convex polygon: it
+    is clipped to 1.
 
     Returns:
-        None for fewer than three corners, which have no angles.
+        None for fewer than three corners.
     """
     count = len(polygon.corners_m)
     if count < FEWEST_CORNERS:
@@ -70,16 +70,16 @@ def q_gpri(polygon: GraspPolygon) -> float | None:
 
 
 def q_diff_m(polygon: GraspPolygon) -> float:
-    """Distance in space from the centroid of the grasp polygon to the object's centre of mass (eq. 3.10, 3.11)."""
+    """Distance in m from the centroid of the grasp polygon to the object's centre of mass (eq. 3.10, 3.11)."""
     return float(np.linalg.norm(polygon.centroid_m))
 
 
 def q_smw_n(grasp: Grasp, *, finger_force_limit_n: float, cone_edges: int = 8) -> float:
-    """Smallest maximum wrench (eq. 3.12, 3.13): the wrench resisted in the weakest direction, in newtons.
+    """Smallest maximum wrench (eq. 3.12, 3.13): greatest wrench resisted in the weakest direction, in N.
 
-    Each finger's bounded wrench cone W_i has the normal force at most at the limit, and W is the convex hull of them,
-    so the fingers share the limit of one. The measure is the radius of the largest ball about the origin in W, torques
-    being divided by the characteristic length; friction pyramids make it smaller than with round cones, never greater.
+    Each finger's wrench cone W_i is bounded by the limit of the normal force, and W is the convex hull of all W_i, so
+    that the fingers share one limit. The measure is the radius of the largest ball about the origin in W, with torques
+    divided by the characteristic length; friction pyramids give at most the value of circular cones.
 
     Args:
         grasp: The grasp.
@@ -98,20 +98,20 @@ def q_smw_n(grasp: Grasp, *, finger_force_limit_n: float, cone_edges: int = 8) -
 
 
 def ball_radius(wrenches: Matrix) -> float:
-    """Radius of the largest ball about the origin in the convex hull of wrenches that positively span their space.
+    """Radius in N of the largest ball about the origin in the convex hull of wrenches that positively span their space.
 
-    The least, over the facets' normals u, of the hull's support max_i u·w_i.
+    It is the minimum, over the facets' normals u, of the hull's support function max_i u·w_i.
 
     Args:
         wrenches: Shape (space, n).
 
     Raises:
-        DefinitionError: The hull has no facets, because the wrenches lie in a plane or nearly so.
+        DefinitionError: The hull has no facets, because the wrenches are coplanar or nearly so.
     """
     from scipy.spatial import QhullError
 
-    # Facets that are flat but for rounding are merged, which can fail, or avoided by moving the points by some 1e-11,
-    # which takes half the time.
+    # Facets that are coplanar but for rounding are merged, which can fail, or avoided by perturbing the points by some
+    # 1e-11, which takes half the time.
     try:
         facets = _facets(wrenches, "QJ")
     except QhullError:
@@ -119,10 +119,10 @@ def ball_radius(wrenches: Matrix) -> float:
             facets = _facets(wrenches, "Qt Qx")
         except QhullError as error:
             raise DefinitionError(
-                f"the wrenches of a grasp have no hull: {str(error).splitlines()[0]}",
+                f"the convex hull of a grasp's wrenches cannot be computed: {str(error).splitlines()[0]}",
                 hint="check that contacts do not nearly coincide",
             ) from error
-    # Of thousands of facets, the nearest by the offsets of the moved points are measured with the points as they are.
+    # Of thousands of facets, those nearest by the perturbed offsets are measured with the original points.
     nearest = facets[np.argsort(-facets[:, -1], kind="stable")[:_NEAREST_FACETS], :-1]
     return float(np.min(np.max(nearest @ wrenches, axis=1)))
 

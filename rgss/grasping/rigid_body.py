@@ -1,4 +1,4 @@
-"""Rigid-body measures (eq. 3.5) of distance, velocity and load, with one characteristic length."""
+"""Rigid-body norms (eq. 3.5) of displacement, velocity and load, with one characteristic length."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from rgss.scenes import Pose
 
 
 def configuration_distance_m(first: Pose, second: Pose, characteristic_length_m: float) -> float:
-    """Distance of two configurations of a body, √(|Δp|² + (ρ Δφ)²), in metres.
+    """Distance of two poses of a body, √(|Δp|² + (ρ Δφ)²), in m.
 
-    Δp is the way of the body frame's origin, best put at the centre of mass; Δφ is the angle from 0 to π of the
-    rotation from one orientation to the other. It is a metric, and the same in every inertial frame.
+    Δp is the displacement of the body frame's origin, preferably at the centre of mass; Δφ is the rotation angle, from
+    0 to π, between the two orientations. It is a metric, and invariant under changes of the inertial frame.
 
     Raises:
         DefinitionError: The length is not positive.
@@ -28,7 +28,7 @@ def configuration_distance_m(first: Pose, second: Pose, characteristic_length_m:
 
 
 def velocity_norm_m_s(twist: Twist, characteristic_length_m: float) -> float:
-    """Norm of a twist, √(|v|² + (ρ |ω|)²), in m/s; of the difference of two for a relative velocity.
+    """Norm of a twist, √(|v|² + (ρ |ω|)²), in m/s; of the difference of two twists for a relative velocity.
 
     Raises:
         DefinitionError: The length is not positive.
@@ -37,7 +37,7 @@ def velocity_norm_m_s(twist: Twist, characteristic_length_m: float) -> float:
 
 
 def wrench_norm_n(wrench: Wrench, characteristic_length_m: float) -> float:
-    """Norm of a wrench, √(|f|² + (|τ| / ρ)²), in newtons.
+    """Norm of a wrench, √(|f|² + (|τ| / ρ)²), in N.
 
     It is dual to the velocity norm: the power of a wrench on a twist never exceeds the product of the two.
 
@@ -71,6 +71,7 @@ def wrench_inner_product(first: Wrench, second: Wrench, characteristic_length_m:
 def _positive(characteristic_length_m: float) -> float:
     if not 0.0 < characteristic_length_m < math.inf:
         raise DefinitionError(
-            f"a characteristic length cannot be {characteristic_length_m:g} m", hint="give a length above zero"
+            f"a characteristic length must be positive, got {characteristic_length_m:g} m",
+            hint="give a length above zero",
         )
     return characteristic_length_m

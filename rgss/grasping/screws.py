@@ -1,4 +1,4 @@
-"""Twists and wrenches: the motion of a rigid body and the load on it."""
+"""Screws: twists (motion of a rigid body) and wrenches (load on it)."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from rgss.grasping.contact import Vector3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Twist:
-    """Velocity of a rigid body, t = (ω, v) (eq. 2.3).
+    """Twist: velocity of a rigid body, t = (ω, v) (eq. 2.3).
 
     Attributes:
         angular_rad_s: Angular velocity.
-        linear_m_s: Velocity of the body's point at the reference point.
+        linear_m_s: Velocity of the body at the reference point.
     """
 
     angular_rad_s: Vector3 = (0.0, 0.0, 0.0)
     linear_m_s: Vector3 = (0.0, 0.0, 0.0)
 
     def moved(self, offset_m: Vector3) -> Twist:
-        """The same motion with the reference point moved by an offset: v + ω × offset."""
+        """The same motion with the reference point shifted by an offset: v + ω × offset."""
         return Twist(
             angular_rad_s=self.angular_rad_s,
             linear_m_s=_triple(np.add(self.linear_m_s, np.cross(self.angular_rad_s, offset_m))),
@@ -31,7 +31,7 @@ class Twist:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wrench:
-    """Load on a rigid body, W = (τ, f) (eq. 2.4).
+    """Wrench: load on a rigid body, W = (τ, f) (eq. 2.4).
 
     Attributes:
         torque_n_m: Torque about the reference point.
@@ -42,16 +42,16 @@ class Wrench:
     force_n: Vector3 = (0.0, 0.0, 0.0)
 
     def moved(self, offset_m: Vector3) -> Wrench:
-        """The same load with the reference point moved by an offset: τ - offset × f."""
+        """The same load with the reference point shifted by an offset: τ - offset × f."""
         return Wrench(
             torque_n_m=_triple(np.subtract(self.torque_n_m, np.cross(offset_m, self.force_n))), force_n=self.force_n
         )
 
 
 def reciprocal_product(twist: Twist, wrench: Wrench) -> float:
-    """Power of a wrench on a twist about the same reference point, tᵀW = ω·τ + v·f, in watts (eq. 2.7).
+    """Reciprocal product: power of a wrench on a twist about the same reference point, tᵀW = ω·τ + v·f, in W (eq. 2.7).
 
-    Zero for a pair that is reciprocal: the load does no work on the motion.
+    Zero for a reciprocal pair: the load does no work on the motion.
     """
     return float(np.dot(twist.angular_rad_s, wrench.torque_n_m) + np.dot(twist.linear_m_s, wrench.force_n))
 

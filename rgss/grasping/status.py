@@ -1,4 +1,4 @@
-"""Contact status: apart, touching or penetrating; rolling or slipping."""
+"""Contact status: separated, touching or penetrating; rolling or slipping."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rgss.grasping.screws import Twist, Wrench, reciprocal_product
 
 
 class ContactState(str, Enum):
-    """State of two bodies by the gap between them."""
+    """Contact state by the gap between two bodies."""
 
     SEPARATED = "separated"
     TOUCHING = "touching"
@@ -22,7 +22,7 @@ class ContactState(str, Enum):
 
 
 class Tendency(str, Enum):
-    """Tendency of the gap: growing, constant, or shrinking (into penetration, if they touch)."""
+    """Tendency of the gap: growing, constant or shrinking (penetrating, if in contact)."""
 
     SEPARATING = "separating"
     STAYING = "staying"
@@ -34,7 +34,7 @@ class Sliding(str, Enum):
 
     Attributes:
         ROLLING: No relative tangential motion.
-        SLIP_EMERGING: None yet, but it accelerates.
+        SLIP_EMERGING: No relative velocity, but a relative acceleration.
         SLIPPING: Relative tangential motion.
     """
 
@@ -54,12 +54,12 @@ class ContactTolerances:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactStatus:
-    """A contact in words.
+    """Status of a contact.
 
     Attributes:
-        state: By the gap.
-        tendency: By the first derivative of the gap that is not zero.
-        sliding: By the tangential motion; None where the bodies are apart.
+        state: State by the gap.
+        tendency: Tendency by the first non-zero derivative of the gap.
+        sliding: State of the tangential motion; None if the bodies are separated.
     """
 
     state: ContactState
@@ -71,7 +71,7 @@ def contact_status(motion: ContactMotion, tolerances: ContactTolerances | None =
     """Status of a contact.
 
     A contact lasts only while the gap and its derivatives are zero; the first non-zero one gives the direction of its
-    change. An acceleration that is not known counts as zero.
+    change. An unknown acceleration counts as zero.
     """
     limits = tolerances or ContactTolerances()
     state = ContactState.TOUCHING
@@ -92,7 +92,7 @@ def contact_status(motion: ContactMotion, tolerances: ContactTolerances | None =
 
 
 def contact_normal_wrench(contact: ContactPoint, reference_m: Vector3) -> Wrench:
-    """The wrench of a force of 1 N along a contact's normal, about a reference point."""
+    """Wrench of a force of 1 N along a contact's normal, about a reference point."""
     offset = np.subtract(reference_m, contact.position_m)
     return Wrench(force_n=contact.normal).moved(tuple(offset.tolist()))
 
@@ -105,17 +105,17 @@ def twist_tendency(
     finger_velocity_m_s: Vector3 = (0.0, 0.0, 0.0),
     tolerance_m_s: float = 1e-9,
 ) -> Tendency:
-    """True if a twist of the object leaves a contact, keeps it, or would penetrate the finger.
+    """Tendency of a contact under a twist of the object: breaking, maintained or penetrating.
 
-    By the power of a unit force along the normal: tᵀW is at least the finger's speed along the normal for a motion that
-    the finger permits (eq. 2.5 to 2.8); a resting finger demands tᵀW ≥ 0.
+    Decided by the power of a unit force along the normal: tᵀW must be at least the finger's speed along the normal (eq.
+    2.5 to 2.8); for a resting finger tᵀW ≥ 0.
 
     Args:
         twist: Motion of the object about the reference point.
         contact: The contact.
         reference_m: The reference point.
         finger_velocity_m_s: Velocity of the finger's point.
-        tolerance_m_s: What counts as zero.
+        tolerance_m_s: Speeds up to it count as zero.
     """
     power = reciprocal_product(twist, contact_normal_wrench(contact, reference_m))
     return _tendency(power - float(np.dot(contact.normal, finger_velocity_m_s)), tolerance_m_s)

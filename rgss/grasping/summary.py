@@ -1,4 +1,4 @@
-"""Everything about one grasp in one value."""
+"""Summary of the analysis of one grasp."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ class GraspQuality:
 
     Attributes:
         contact_count: Number of contact points.
-        finger_count: Number of fingers that they belong to.
-        characteristic_length_m: What torques are divided by.
-        equilibrium: Whether a squeeze can balance itself.
+        finger_count: Number of their fingers.
+        characteristic_length_m: Characteristic length, the divisor of torques.
+        equilibrium: Whether the contacts can be in equilibrium without a load.
         equilibrium_margin_1: See `rgss.grasping.closure.equilibrium`; None, like the other two, if margins were not
-            asked for.
+        requested.
         force_closure: Whether every wrench can be resisted.
         force_closure_margin_1: See `rgss.grasping.closure.force_closure`.
         form_closure: Whether the normals alone immobilise the object.
@@ -38,7 +38,7 @@ class GraspQuality:
         q_gii_1: Isotropy of the ellipsoid of wrenches.
         q_gpri_1: Irregularity of the grasp polygon; None for fewer than three corners.
         q_diff_m: Distance from the polygon's centroid to the centre of mass.
-        q_smw_n: Smallest maximum wrench; None, like the load factor, if strength was not asked for.
+        q_smw_n: Smallest maximum wrench; None, like the load factor, if strength was not requested.
         net_wrench_n: Norm of the contacts' present net wrench.
         wrench_resistance: Whether the given load can be resisted; None if none was given.
         load_factor_1: The greatest multiple of that load; None if none was given, or a load of zero.
@@ -64,7 +64,7 @@ class GraspQuality:
     load_factor_1: float | None
 
     def metrics(self) -> dict[str, Metric]:
-        """The attributes by name, as a trial records them: verdicts as 0 or 1."""
+        """Attributes by name, as recorded by a trial: verdicts as 0 or 1."""
         values = {field.name: getattr(self, field.name) for field in fields(self)}
         return {name: int(value) if isinstance(value, bool) else value for name, value in values.items()}
 
@@ -82,26 +82,28 @@ def analyse_grasp(
     with_strength: bool = True,
     memory: GraspGeometryCache | None = None,
 ) -> GraspQuality:
-    """Analyse the grasp that contacts make.
+    """Analyse the grasp of a set of contacts.
 
     Args:
-        contacts: At least one, in one frame, best one that is fixed to the object (see `ContactPoint`).
-        centre_of_mass_m: The object's, in that frame.
+        contacts: The contacts, at least one, in one frame, preferably fixed to the object (see `ContactPoint`).
+        centre_of_mass_m: The object's centre of mass in that frame.
         finger_force_limit_n: Greatest normal force of a finger.
         grasp_axis: Normal of the plane of the grasp polygon, such as the gripper's axis; None to fit it to the
             contacts.
-        characteristic_length_m: What torques are divided by; None for the greatest distance of a contact from the
-            centre of mass. Give one length wherever grasps are compared.
-        external_wrench: A load about the centre of mass that is to be resisted, such as the weight.
+        characteristic_length_m: Characteristic length, the divisor of torques; None for the greatest distance of a
+            contact from the centre of mass. Use the same length for all grasps of a comparison.
+        external_wrench: Load about the centre of mass to be resisted, such as the weight.
         cone_edges: Edges of each friction pyramid.
-        with_margins: Whether to say how well the verdicts hold, by linear programs; the verdicts are the same without.
-        with_strength: Whether to say what the grasp resists: the smallest maximum wrench, by a hull, and the load, by
-            a linear program. Without margins and strength an analysis takes a few times less than with either.
-        memory: What remembers the grasp that was analysed before this one, if the same grasp is looked at again and
-            again: what depends on the geometry alone is then computed again only where a contact has moved.
+        with_margins: True to compute the margins of the verdicts, by linear programs; the verdicts are the same
+            without.
+        with_strength: True to compute the strength of the grasp: the smallest maximum wrench, by a convex hull, and the
+            load factor, by a linear program. An analysis without margins and strength is a few times as fast as with
+            either.
+        memory: Cache for repeated analysis of one grasp: the geometric measures are recomputed only if a contact has
+            moved.
 
     Raises:
-        DefinitionError: The contacts, the limit, the axis, the length or the load make no sense, or a solver failed.
+        DefinitionError: The contacts, the limit, the axis, the length or the load are invalid, or a solver failed.
     """
     grasp = Grasp.of(contacts, centre_of_mass_m, characteristic_length_m)
     require_force_limit(finger_force_limit_n)

@@ -1,4 +1,4 @@
-"""Kinematics of the arm: forward and inverse, Jacobians, dynamics, and freedom from collision."""
+"""Kinematics of the arm: forward and inverse kinematics, Jacobians, dynamics and collision checking."""
 
 from rgss.kinematics.arm import Arm
 from rgss.kinematics.branches import choose_branches

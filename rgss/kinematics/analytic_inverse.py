@@ -17,7 +17,7 @@ from rgss.scenes import JointKind, Pose
 
 Vector = NDArray[np.float64]
 
-# Of the chains that the solver decomposes, the complete ones.
+# The chains for which the solver finds every branch.
 _JOINTS = 6
 
 
@@ -49,7 +49,7 @@ class AnalyticInverse:
 
     @property
     def is_redundant(self) -> bool:
-        """Whether the configurations of a pose form a continuum; six joints have isolated ones."""
+        """True if the configurations of a pose form a continuum; an arm of six joints has isolated ones."""
         return False
 
     def solve(self, tool_pose_world: Pose) -> tuple[Vector, ...]:
@@ -85,19 +85,19 @@ class AnalyticInverse:
         return min(sorted_distinct(found), key=lambda q: float(np.max(np.abs(q - near))), default=None)
 
     def excess_of_ranges(self, tool_pose_world: Pose) -> tuple[RangeExcess, ...]:
-        """For each branch that reaches a pose, the joint that is farthest outside its planning range.
+        """Greatest violation of a planning range in each branch that reaches a pose.
 
         Args:
             tool_pose_world: Transform of the tool-centre frame to the world.
 
         Returns:
-            The least excess first; empty where the pose is out of reach, and without the branches
-            that keep all ranges.
+            One entry a branch, the least excess first, without the branches within all ranges; empty when the pose is
+            out of reach.
         """
         return excesses_of(self._branches(tool_pose_world), self.arm.robot.joints)
 
     def _choices(self, pose: Pose) -> list[list[list[float]]]:
-        """For each branch and joint, the angles within the planning range; none where it has no such angle."""
+        """Angles within the planning range for each branch and joint; empty if the joint has none."""
         ranges = [(joint.lower_rad, joint.upper_rad) for joint in self.arm.robot.joints]
         return [
             [whole_turns(float(angle), lower, upper) for angle, (lower, upper) in zip(branch, ranges, strict=True)]
@@ -106,7 +106,8 @@ class AnalyticInverse:
 
     def _branches(self, pose: Pose) -> list[Vector]:
         target = transform(pose).homogeneous
-        # The solver's tool frame is parallel to the world at zero; ours is turned by a constant.
+        # The solver's tool frame is parallel to the world at the zero configuration; ours differs by a constant
+        # rotation.
         asked = target.copy()
         asked[:3, :3] = target[:3, :3] @ self._rotation_at_zero.T
         return [
@@ -121,7 +122,7 @@ def _nearest(choices: list[float], angle: float) -> float:
 
 
 def _decomposition(arm: Arm) -> Any:
-    """The solver of an arm's geometry; None where none is known."""
+    """Solver for an arm's geometry; None if no decomposition is known."""
     from eaik.IK_HP import HPRobot
 
     if len(arm.robot.joints) != _JOINTS or any(joint.kind is not JointKind.REVOLUTE for joint in arm.robot.joints):

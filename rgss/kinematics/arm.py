@@ -51,16 +51,16 @@ class Arm:
 
     @property
     def lower_rad(self) -> Vector:
-        """Lower ends of the joints' planning ranges, shape (n,)."""
+        """Lower limits of the joints' planning ranges, in rad or m, shape (n,)."""
         return np.array([joint.lower_rad for joint in self.robot.joints])
 
     @property
     def upper_rad(self) -> Vector:
-        """Upper ends of the joints' planning ranges, shape (n,)."""
+        """Upper limits of the joints' planning ranges, in rad or m, shape (n,)."""
         return np.array([joint.upper_rad for joint in self.robot.joints])
 
     def tool_pose(self, q: Sequence[float] | Vector) -> Pose:
-        """Transform of the tool-centre frame to the world.
+        """Transform of the tool-centre frame to the world (forward kinematics).
 
         Args:
             q: Joint positions, shape (n,).
@@ -69,9 +69,9 @@ class Arm:
 
     @property
     def reach_m(self) -> float:
-        """Length of the arm from its first axis to the tool along the links, slides drawn out.
+        """Upper bound of the distance between any joint axis and the tool in m.
 
-        No axis is ever farther from the tool.
+        The link lengths summed from the first axis to the tool, with prismatic joints extended.
         """
         slides = math.fsum(
             max(abs(joint.lower_rad), abs(joint.upper_rad))
@@ -82,7 +82,7 @@ class Arm:
 
     @property
     def first_axis_m(self) -> tuple[float, float, float]:
-        """The origin of the first joint in the world, from which `reach_m` is counted."""
+        """Origin of the first joint in the world in m, shape (3,), from which `reach_m` is measured."""
         x, y, z = self._points[0].tolist()
         return (x, y, z)
 
@@ -111,8 +111,8 @@ class Arm:
         return self._tool_motion(rows, rates)
 
     def _tool_motion(self, rows: Vector, rates: Vector | None) -> tuple[Vector, Vector]:
-        # The tool is turned about one axis after another as these stand at the zero configuration, the last
-        # first (product of exponentials), by Rodrigues' formula: all configurations at once.
+        # The tool is rotated about one axis after another in their zero configuration, the last first (product of
+        # exponentials), by Rodrigues' formula: all configurations at once.
         cosines, sines = np.cos(rows), np.sin(rows)
         positions: Vector = np.tile(self._points[-1], (len(rows), 1))
         velocities = np.zeros((len(rows), 3))
@@ -152,9 +152,9 @@ class Arm:
         """Axes of the joints and a point of the tool at the zero configuration, in the world.
 
         Returns:
-            Unit directions, shape (n, 3), and the steps between points on consecutive axes, shape
-            (n + 1, 3): from the world's origin to the first, …, from the last to the tool centre. This is
-            the product-of-exponentials form that the analytic inverse kinematics takes.
+            Unit directions, shape (n, 3), and the steps between points on consecutive axes, shape (n + 1, 3): from the
+            world's origin to the first, …, from the last to the tool centre. This is the product-of-exponentials form,
+            the input of the analytic inverse kinematics.
         """
         zero = np.zeros(self._model.nq)
         jacobian = np.array(self._engine.computeJointJacobians(self._model, self._data, zero))
@@ -178,13 +178,13 @@ class Arm:
 
 
 def _turned(vectors: Vector, rodrigues: Vector, cosine: Vector, sine: Vector) -> Vector:
-    """Vectors (n, 3), each turned about an axis by its own angle."""
+    """Vectors, shape (n, 3), each rotated about an axis by its own angle."""
     parts = vectors @ rodrigues
     return parts[:, :3] + cosine * parts[:, 3:6] + sine * parts[:, 6:]
 
 
 def _rodrigues(axis: Vector) -> Vector:
-    """Makes of a vector its part along an axis, its part across it, and the axis cross the vector, shape (3, 9)."""
+    """Matrix, shape (3, 9), that splits a vector v into its parts along and across an axis a, and a × v."""
     x, y, z = axis
     along = np.outer(axis, axis)
     return np.hstack([along, np.eye(3) - along, np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])])

@@ -26,7 +26,7 @@ def choose_branches(
     home_weight: float = 0.01,
     largest_travel_rad: Mapping[Leg, float] = _NO_BOUNDS,
 ) -> list[Vector] | None:
-    """Choose one configuration for each waypoint so that the summed joint travel is least.
+    """Choose one configuration for each waypoint that minimises the summed joint travel.
 
     The travel of a leg is the Euclidean length of the weighted joint differences. The legs form a
     chain, or a cycle when the last returns to the first waypoint. Solved by dynamic programming
@@ -36,15 +36,14 @@ def choose_branches(
         candidates: For each waypoint, configurations, each of shape (n,).
         legs: Pairs (from, to) of waypoint indices; each starts where the one before ended, and the
             chain visits every waypoint.
-        weights: Weight of each joint in the travel; all one by default.
-        home: A configuration near which waypoints are preferred; it decides between cycles that
-            are whole turns apart.
-        home_weight: Cost of a radian away from home against a radian of travel.
-        largest_travel_rad: For some legs, the greatest change of any joint; a leg along which the
-            branch must not change has a small one.
+        weights: Weight of each joint in the travel; 1 by default.
+        home: Reference configuration; deviation from it decides between cycles that differ by whole turns.
+        home_weight: Cost of one radian of deviation from home, relative to one radian of travel.
+        largest_travel_rad: Greatest change of any joint along a leg, for some legs; small where the branch must not
+            change.
 
     Returns:
-        One configuration for each waypoint, or None when there is no choice that keeps the bounds.
+        One configuration for each waypoint; None if no choice satisfies the bounds.
 
     Raises:
         DefinitionError: The legs are not a chain or a cycle over all waypoints.
@@ -68,7 +67,7 @@ def choose_branches(
         cost, choice = _extend(cost, travel + arrival)
         came_from.append(choice)
     total = np.diag(cost)[:, None] if closed else cost
-    # Rounded, so that noise in the last digit cannot choose between equal ways.
+    # Rounded, so that rounding noise does not decide between equal costs.
     best = int(np.argmin(np.round(total, 9)))
     if not np.isfinite(total.flat[best]):
         return None
@@ -88,8 +87,8 @@ def _check_legs(legs: Sequence[Leg], waypoints: int) -> None:
     visited = order[:-1] if len(order) > 1 and order[-1] == order[0] else order
     if not chained or sorted(visited) != list(range(waypoints)):
         raise DefinitionError(
-            f"the legs {list(legs)} are no chain or cycle over the {waypoints} waypoints",
-            hint="let each leg start where the one before ends, and visit every waypoint once",
+            f"the legs must form a chain or cycle over all {waypoints} waypoints, got {list(legs)}",
+            hint="start each leg where the previous one ends, and visit every waypoint once",
         )
 
 
@@ -107,7 +106,7 @@ def _travel(start: Vector, end: Vector, scale: Vector, bound: float) -> Vector:
 
 
 def _extend(cost: Vector, step: Vector) -> tuple[Vector, NDArray[np.intp]]:
-    """Min-plus product: the cheapest way over each middle choice, and that choice."""
+    """Min-plus product: the least cost over all intermediate choices, and the choice that attains it."""
     best = np.empty((len(cost), step.shape[1]))
     choice = np.empty(best.shape, dtype=np.intp)
     for row, reach in enumerate(cost):

@@ -1,4 +1,4 @@
-"""Straight lines of the tool, followed in one branch of the inverse kinematics."""
+"""Cartesian straight-line motion of the tool within one branch of the inverse kinematics."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Quaternion = tuple[float, float, float, float]
 
 
 class LineBreak(Enum):
-    """Reason for which a straight line of the tool ends early."""
+    """Reason why a straight line of the tool ends early."""
 
     UNREACHABLE = "unreachable"
     BRANCH_ENDS = "branch_ends"
@@ -26,12 +26,12 @@ class LineBreak(Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class FollowedLine:
-    """A straight line of the tool as far as the arm follows it in one branch.
+    """Straight line of the tool as far as the arm can follow it in one branch.
 
     Attributes:
         configurations_rad: Joint positions, shape (k, n), from the start on.
         fraction: Share of the line that they cover.
-        broken: What ends it there; None if it is whole.
+        broken: Reason why it ends there; None if it is complete.
     """
 
     configurations_rad: Vector
@@ -48,7 +48,7 @@ def straight_line(
     step_rad: float = 0.02,
     largest_joint_step_rad: float = 0.2,
 ) -> Vector | None:
-    """Move the tool centre along a straight line, turning it evenly, without changing the branch.
+    """Move the tool centre along a straight line at constant turning rate, without changing the branch.
 
     Args:
         inverse: Inverse kinematics of the arm.
@@ -56,12 +56,12 @@ def straight_line(
         goal: Transform of the tool-centre frame to the world at the end.
         step_m: Greatest distance of the tool between two rows of the result.
         step_rad: Greatest turn of the tool between two rows of the result.
-        largest_joint_step_rad: Greatest change of a joint between two rows; more means that the branch
-            ends there, as it does at a singularity.
+        largest_joint_step_rad: Greatest change of a joint between two rows; a greater one means that the branch ends,
+            as at a singularity.
 
     Returns:
-        Joint positions, shape (k, n), from the start to the goal; None when the line leaves the reach
-        or the joints' ranges, or the branch ends on the way.
+        Joint positions, shape (k, n), from the start to the goal; None if the line leaves the reach or the joint
+        ranges, or the branch ends on the way.
     """
     line = follow_line(
         inverse,
@@ -84,14 +84,14 @@ def follow_line(
     step_rad: float = 0.02,
     largest_joint_step_rad: float = 0.2,
 ) -> FollowedLine:
-    """Move the tool centre along a straight line as far as the arm can follow it; the arguments are as above.
+    """Move the tool centre along a straight line as far as the arm can follow it.
 
     Args:
         inverse: Inverse kinematics of the arm.
         start: Joint positions at the start, shape (n,).
         goal: Transform of the tool-centre frame to the world at the end.
-        goal_configuration: Joint positions at the end, shape (n,). A redundant arm is led to them along the line;
-            for another arm the end follows from the branch.
+        goal_configuration: Joint positions at the end, shape (n,). A redundant arm converges to them along the line;
+            for other arms the branch determines the end.
         step_m: Greatest distance of the tool between two rows of the result.
         step_rad: Greatest turn of the tool between two rows of the result.
         largest_joint_step_rad: Greatest change of a joint between two rows.
@@ -128,7 +128,7 @@ def _angle(one: Quaternion, other: Quaternion) -> float:
 
 
 def _slerp(start: Quaternion, goal: Quaternion, fraction: float) -> Quaternion:
-    """Turn evenly from one orientation to another, the short way round (Shoemake 1985)."""
+    """Spherical linear interpolation of orientations along the shorter arc (Shoemake 1985)."""
     if math.dist(start, goal) > math.dist(start, [-value for value in goal]):
         goal = (-goal[0], -goal[1], -goal[2], -goal[3])
     half = 2 * math.asin(min(1.0, math.dist(start, goal) / 2))

@@ -1,4 +1,4 @@
-"""Collision checking of configurations: arm, gripper and workpiece against the scene and themselves."""
+"""Collision checking of configurations: arm, gripper and workpiece with the scene and with each other."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ Vector = NDArray[np.float64]
 
 _RANGE_TOLERANCE_RAD = 1e-9
 _QUERY_TOLERANCE = 1e-9
-# The engine takes its flag by position alone.
+# The engine accepts its flag by position only.
 _STOP_AT_FIRST, _FIND_ALL = True, False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NearestPair:
-    """Pair of parts with the least distance beyond its clearance.
+    """Pair of parts with the least margin, distance minus required clearance.
 
     Attributes:
-        first: The link, body or workpiece of the one.
-        second: That of the other.
-        distance_m: Their distance; negative where they overlap, by the depth.
-        clearance_m: The distance that they must keep; 0 where they must not touch.
+        first: Name of the first link, body or workpiece.
+        second: Name of the second.
+        distance_m: Their distance; minus the penetration depth if they overlap.
+        clearance_m: Required distance; 0 if they only must not touch.
     """
 
     first: str
@@ -45,29 +45,27 @@ class NearestPair:
 
     @property
     def room_m(self) -> float:
-        """Distance less the clearance; negative where the clearance is violated."""
+        """Distance minus clearance in m; negative if the clearance is violated."""
         return self.distance_m - self.clearance_m
 
 
 class CollisionModel:
-    """State validity of the arm in a scene, for one situation.
+    """State validity of the arm in a scene, in one collision context.
 
-    Checked are arm, gripper and carried workpiece against the scene's bodies and the standing
-    workpiece; the links of the arm against each other unless they are neighbours or touch however the arm
-    stands; gripper and carried
-    workpiece against the arm. Parts that cannot move relative to each other are not checked: the
-    gripper and what it holds, the base and the scene.
+    Checked pairs: arm, gripper and carried workpiece with the scene's bodies and the placed workpiece; the links of the
+    arm with each other, except neighbours and links that touch in every configuration; gripper and carried workpiece
+    with the arm. Parts that cannot move relative to each other are not checked: the gripper and the held workpiece, the
+    base and the scene.
 
     Args:
         scene: The scene with its arm.
         gripper: The gripper at the flange.
-        situation: Opening of the gripper, and where the workpiece is.
-        clearance_m: Distance below which a moving part counts as touching the scene or the standing
-            workpiece. It does not hold between links of the robot, nor between the workpiece and the
-            bodies that it stands on by intention.
+        situation: Opening of the gripper, and pose of the workpiece.
+        clearance_m: Distance below which a moving part counts as in contact with the scene or the placed workpiece. It
+            does not apply between links of the robot, nor between the workpiece and its intended supports.
 
     Raises:
-        DefinitionError: The robot is ill defined, or an allowed pair names what is not there.
+        DefinitionError: The robot is ill defined, or an allowed pair names an unknown part.
     """
 
     def __init__(
@@ -79,7 +77,7 @@ class CollisionModel:
         self._engine: Any = pinocchio
         self._model = build_model(scene.robot)
         self._data = self._model.createData()
-        # A view of where a query puts the last joint, which carries the gripper: what of its axes is vertical.
+        # A view of the last joint's placement, which a query updates: the vertical components of its axes.
         self._wrist_vertical = self._data.oMi[self._model.njoints - 1].rotation[2]
         self._lower_rad = tuple(joint.lower_rad - _RANGE_TOLERANCE_RAD for joint in scene.robot.joints)
         self._upper_rad = tuple(joint.upper_rad + _RANGE_TOLERANCE_RAD for joint in scene.robot.joints)
@@ -116,12 +114,12 @@ class CollisionModel:
         for request in self._state.distanceRequests:
             _forget_history(request)
         self._bounds = SeparationBounds.of(self._geometry, self._clear)
-        # The manager reads the margins when it is made and keeps references to what it is made from. With a
-        # few dozen solids, comparing all boxes takes half the time of keeping a tree of them in order.
+        # The manager reads the margins at construction and keeps references to its arguments. With a few dozen solids,
+        # comparing all boxes takes half the time of maintaining a tree.
         self._manager = pinocchio.BroadPhaseManager_NaiveCollisionManager(self._model, self._geometry, self._state)
 
     def is_valid(self, q: Sequence[float] | Vector) -> bool:
-        """True if a configuration keeps the joint ranges, touches nothing and keeps what it carries upright.
+        """True if a configuration is within the joint ranges, free of collision and carries the workpiece upright.
 
         Args:
             q: Joint positions, shape (n,).
@@ -144,8 +142,8 @@ class CollisionModel:
         """Index of the first configuration that is invalid; None if all are valid.
 
         Args:
-            qs: Joint positions, shape (k, n), each between two configurations that keep the joint ranges and so
-                within these itself.
+            qs: Joint positions, shape (k, n), each between two configurations within the joint ranges, and so within
+                them itself.
         """
         collide, model, data, manager = self._engine.computeCollisions, self._model, self._data, self._manager
         least = self._least_upright
@@ -161,7 +159,7 @@ class CollisionModel:
         return None
 
     def contacts(self, q: Sequence[float] | Vector) -> tuple[tuple[str, str], ...]:
-        """Name all pairs of parts that touch, or are nearer than the clearance.
+        """Pairs of parts that touch or violate the clearance.
 
         Args:
             q: Joint positions, shape (n,).
@@ -180,7 +178,7 @@ class CollisionModel:
         return tuple(sorted(touching))
 
     def distance(self, q: Sequence[float] | Vector) -> float:
-        """Distance in m between the two parts that are nearest to touching; negative when they overlap.
+        """Least distance in m of all checked pairs; negative if a pair overlaps.
 
         Args:
             q: Joint positions, shape (n,).
@@ -189,9 +187,10 @@ class CollisionModel:
         return min((float(result.min_distance) for result in self._state.distanceResults), default=float("inf"))
 
     def clearance_m(self, q: Sequence[float] | Vector) -> float:
-        """Least distance in m of what moves from the scene and the standing workpiece; infinite where nothing is.
+        """Least distance in m of the moving parts from the scene and the placed workpiece.
 
-        Of these pairs the clearance is demanded. The workpiece and the bodies that it stands on by intention are none.
+        Infinite if there is no such pair. The clearance is required of these pairs; the workpiece and its intended
+        supports are excluded.
 
         Args:
             q: Joint positions, shape (n,).
@@ -201,7 +200,7 @@ class CollisionModel:
         bounds = self._bounds.least_distances_m(state.oMg)
         least = math.inf
         for place in np.argsort(bounds, kind="stable").tolist():
-            # What is left is farther away than what was found.
+            # The remaining pairs are farther apart than the nearest found.
             if bounds[place] >= least:
                 break
             index = self._clear[place]
@@ -209,7 +208,7 @@ class CollisionModel:
         return least
 
     def nearest_pair(self, q: Sequence[float] | Vector) -> NearestPair | None:
-        """The pair of parts with the least distance beyond its clearance; None where no pair is checked.
+        """Pair of parts with the least margin, distance minus clearance; None if no pair is checked.
 
         Args:
             q: Joint positions, shape (n,).
@@ -224,7 +223,7 @@ class CollisionModel:
         return min(pairs, key=lambda pair: pair.room_m, default=None)
 
     def carried_tilt_rad(self, q: Sequence[float] | Vector) -> float | None:
-        """Angle between the axis of what is carried and the vertical; None where nothing has to stay upright.
+        """Angle in rad between the axis of the carried workpiece and the vertical; None if nothing must stay upright.
 
         Args:
             q: Joint positions, shape (n,).
@@ -238,7 +237,7 @@ class CollisionModel:
 def _uprightness(
     model: Any, scene: Scene, gripper: GripperGeometry, situation: CollisionContext
 ) -> tuple[float | None, Vector]:
-    """Least vertical part of the carried workpiece's axis, and that axis in the frame of the last joint."""
+    """Least vertical component of the carried workpiece's axis, and that axis in the frame of the last joint."""
     if situation.carried is None or situation.largest_tilt_rad is None:
         return None, np.zeros(3)
     flange = model.frames[model.getFrameId(scene.robot.flange)].placement
@@ -250,12 +249,12 @@ def _uprightness(
 def _forget_history(request: Any) -> None:
     """Make a query depend on its configuration alone.
 
-    By default each query starts from the result of the one before, so that a verdict within half a
-    millimetre of touching can depend on what was asked earlier.
+    By default each query starts from the result of the previous one, so that a verdict within half a millimetre of
+    contact can depend on earlier queries.
     """
     request.gjk_tolerance = _QUERY_TOLERANCE
     with warnings.catch_warnings():
-        # The attribute is deprecated in favour of gjk_initial_guess, yet overrules it while it is there.
+        # The attribute is deprecated in favour of gjk_initial_guess, but overrides it while it exists.
         warnings.simplefilter("ignore", DeprecationWarning)
         if hasattr(request, "enable_cached_gjk_guess"):
             request.enable_cached_gjk_guess = False

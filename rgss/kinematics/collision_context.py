@@ -1,4 +1,4 @@
-"""Carried object and obstacles of the arm during one move."""
+"""Collision context of one move: gripper opening, carried object and allowed contacts."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from rgss.scenes import Pose
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CollisionContext:
-    """The state of gripper and workpiece while the arm moves.
+    """State of gripper and workpiece during a move of the arm.
 
     Attributes:
-        opening_m: Distance of the finger pads from the gripper's axis.
-        standing: Transform of the workpiece to the world while it stands in the scene; None when it does not.
-        carried: Transform of the workpiece to the grasp-centre frame while it is held; None when it is not.
+        opening_m: Distance of the finger pads from the gripper's axis in m.
+        standing: Transform of the workpiece to the world while it is placed in the scene; None otherwise.
+        carried: Transform of the workpiece to the grasp-centre frame while it is held; None otherwise.
         largest_tilt_rad: Greatest angle between the carried workpiece's axis and the vertical; None for any.
         allowed: Pairs of names, in either order, that may touch.
     """

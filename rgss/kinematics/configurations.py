@@ -1,4 +1,4 @@
-"""Configurations that reach a pose: whole turns within the joints' ranges, their order, and excesses of the ranges."""
+"""Post-processing of inverse kinematics solutions: whole turns within the joint ranges, order, range violations."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rgss.scenes import Joint, JointKind
 Vector = NDArray[np.float64]
 
 TOLERANCE = 1e-6
-"""Greatest deviation, in m and in the entries of the rotation matrix, of a configuration that is kept."""
+"""Greatest accepted deviation of a configuration, in m and in the entries of the rotation matrix."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,8 +23,8 @@ class RangeExcess:
 
     Attributes:
         joint: The joint's name.
-        beyond_rad: How far its angle lies beyond the nearer end, whole turns considered; in m for a prismatic joint.
-        kind: What the joint's position is.
+        beyond_rad: Excess of its angle over the nearer limit, whole turns considered; in m for a prismatic joint.
+        kind: Kind of the joint.
     """
 
     joint: str
@@ -33,14 +33,14 @@ class RangeExcess:
 
 
 def excesses_of(configurations: Iterable[Vector], joints: Sequence[Joint]) -> tuple[RangeExcess, ...]:
-    """For each configuration, the joint that is farthest outside its planning range.
+    """Greatest violation of a planning range in each configuration.
 
     Args:
         configurations: Joint positions, each of shape (n,).
         joints: The joints.
 
     Returns:
-        The least excess first, without the configurations that keep all ranges.
+        One entry a configuration, the least excess first, without the configurations within all ranges.
     """
     found = []
     for q in configurations:
@@ -58,7 +58,7 @@ def excesses_of(configurations: Iterable[Vector], joints: Sequence[Joint]) -> tu
 
 
 def whole_turns(angle: float, lower: float, upper: float) -> list[float]:
-    """The same direction as often as it fits between two limits, ascending."""
+    """All angles between two limits that equal an angle modulo 2π, ascending."""
     turn = 2 * math.pi
     first = math.ceil((lower - angle) / turn - 1e-12)
     last = math.floor((upper - angle) / turn + 1e-12)
@@ -66,7 +66,7 @@ def whole_turns(angle: float, lower: float, upper: float) -> list[float]:
 
 
 def sorted_distinct(configurations: list[Vector]) -> tuple[Vector, ...]:
-    """Order configurations so that rounding noise cannot reorder them, and drop repetitions."""
+    """Configurations in an order that rounding noise does not change, without duplicates."""
     ordered: dict[tuple[float, ...], Vector] = {}
     for q in configurations:
         ordered.setdefault(tuple(round(float(angle), 6) + 0.0 for angle in q), q)

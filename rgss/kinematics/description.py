@@ -1,4 +1,4 @@
-"""The arm's rigid-body model in the world, read from its URDF."""
+"""Rigid-body model of the arm in the world, read from its URDF."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ from rgss.scenes import Pose, Robot, convex_parts
 
 
 def build_model(robot: Robot) -> Any:
-    """Build the Pinocchio model of an arm whose base stands where the scene puts it.
+    """Build the Pinocchio model of an arm with its base at the scene's pose.
 
-    Every frame of the model, and gravity, is expressed in the world, so that a tilted base
-    needs no further care.
+    Every frame of the model, and gravity, is expressed in the world, so that a tilted base needs no special case.
 
     Args:
         robot: The arm.
@@ -26,15 +25,14 @@ def build_model(robot: Robot) -> Any:
         model = pinocchio.buildModelFromXML(convex_parts(robot.urdf)[0])
     except (ValueError, RuntimeError) as error:
         raise DefinitionError(
-            f"the description of the robot {robot.id} cannot be read", hint=str(error).strip() or "it is no URDF"
+            f"the URDF of the robot {robot.id} cannot be read", hint=str(error).strip() or "it must be a valid URDF"
         ) from error
     found = tuple(model.names)[1:]
     wanted = tuple(joint.name for joint in robot.joints)
     if found != wanted:
         raise DefinitionError(
-            f"the robot {robot.id} has the joints {', '.join(wanted)}, but its description "
-            f"has {', '.join(found) or 'none'}",
-            hint="name the movable joints as the description does, from base to flange",
+            f"the robot {robot.id} has the joints {', '.join(wanted)}, but its URDF has {', '.join(found) or 'none'}",
+            hint="name the movable joints as the URDF does, from base to flange",
         )
     if not model.existFrame(robot.flange):
         links = [frame.name for frame in model.frames if frame.type == pinocchio.FrameType.BODY]
@@ -43,7 +41,7 @@ def build_model(robot: Robot) -> Any:
             hint=f"the links are {', '.join(links)}",
         )
     base = transform(robot.base)
-    # A joint's placement is relative to its parent joint, the universe's being the base frame.
+    # A joint's placement is relative to its parent joint; that of the universe is the base frame.
     for index in range(1, model.njoints):
         if model.parents[index] == 0:
             model.jointPlacements[index] = base * model.jointPlacements[index]
@@ -54,7 +52,7 @@ def build_model(robot: Robot) -> Any:
 
 
 def transform(pose: Pose) -> Any:
-    """The rigid transform of Pinocchio that equals a pose."""
+    """Pose as Pinocchio's SE3."""
     import numpy as np
     import pinocchio
 
@@ -62,7 +60,7 @@ def transform(pose: Pose) -> Any:
 
 
 def pose_of(placement: Any) -> Pose:
-    """The pose that equals a rigid transform of Pinocchio."""
+    """Pose from Pinocchio's SE3."""
     import pinocchio
 
     x, y, z, qx, qy, qz, qw = (float(value) for value in pinocchio.SE3ToXYZQUAT(placement))

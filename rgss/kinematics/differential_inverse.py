@@ -1,4 +1,4 @@
-"""Differential inverse kinematics: joint speeds with which the tool follows a velocity, within the joints' limits."""
+"""Differential inverse kinematics: joint speeds that track a tool velocity within the joints' limits."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ Vector = NDArray[np.float64]
 
 
 class DifferentialInverse:
-    """Joint speeds of least deviation from a velocity of the tool, within the limits of the joints.
+    """Joint speeds that track a velocity of the tool within the limits of the joints.
 
     They minimise
 
         |J q̇ - V|² + λ |q̇ - q̇_0|²   with   l <= q̇ <= u
 
-    where V is the velocity of the tool and q̇_0 are preferred joint speeds, which decide what the tool leaves open and
-    damp q̇ near a singularity. The bounds are the joints' speeds, and near the end of a joint's range the speed with
-    which it would reach the end in a stated time, so that it never leaves the range. The least-squares problem with
-    bounds is solved exactly (J. L. Stark and R. L. Parker, "Bounded-variable least squares", Computational Statistics
-    10, 1995). The velocity damper at the ends is that of B. Faverjon and P. Tournassoud, ICRA 1987.
+    where V is the velocity of the tool and q̇_0 are preferred joint speeds, which resolve the redundancy and damp q̇
+    near a singularity. The bounds are the joints' speeds, and near the end of a joint's range the speed with which it
+    would reach the end in a stated time, so that it never leaves the range. The least-squares problem with bounds is
+    solved exactly (J. L. Stark and R. L. Parker, "Bounded-variable least squares", Computational Statistics 10, 1995).
+    The velocity damper at the ends is that of B. Faverjon and P. Tournassoud, ICRA 1987.
     """
 
     def __init__(self, joints: Sequence[Joint], *, braking_s: float, damping: float = 1.0e-6) -> None:
-        """Take the limits.
+        """Precompute the limits.
 
         Args:
             joints: The arm's joints, in order.

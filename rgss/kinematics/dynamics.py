@@ -1,4 +1,4 @@
-"""Dynamics of the arm with what its flange carries."""
+"""Inverse dynamics of the arm with loads on its flange."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Load:
-    """A rigid body that moves with the flange.
+    """Rigid body attached to the flange.
 
     Attributes:
         mass_kg: Its mass.
         moments_kg_m2: Its principal moments of inertia about its own centre.
-        pose: Transform of its central principal frame to the flange.
+        pose: Transform of its principal frame at the centre of mass to the flange.
     """
 
     mass_kg: float
@@ -75,7 +75,7 @@ def gripper_loads(gripper: Gripper, opening_m: float) -> tuple[Load, ...]:
 
 
 def _linkage_loads(gripper: Gripper, linkage: Linkage, opening_m: float) -> tuple[Load, ...]:
-    """The links of a gripper as loads of the flange, with their inertias as the URDF has them."""
+    """Links of a gripper as loads of the flange, with the inertias of the URDF."""
     motion = LinkageMotion(linkage)
     poses = linkage.link_poses(motion.driven_at(motion.largest_opening_m - opening_m))
     loads = []
@@ -95,11 +95,11 @@ def workpiece_load(workpiece: Workpiece, pose: Pose) -> Load:
     """A held workpiece as a load of the flange.
 
     Args:
-        workpiece: What is held.
+        workpiece: The held workpiece.
         pose: Transform of its shape's frame to the flange.
     """
     if isinstance(workpiece.shape, Cylinder) and workpiece.gyration_m2 is None:
-        # What an arm's controller believes of a cylinder has its centre of mass in the middle.
+        # The controller's model of a cylinder has its centre of mass in the middle.
         return Load(
             mass_kg=workpiece.mass_kg, moments_kg_m2=solid_moments(workpiece.shape, workpiece.mass_kg), pose=pose
         )
@@ -115,7 +115,7 @@ class ArmDynamics:
 
         Args:
             robot: The arm.
-            loads: What its flange carries.
+            loads: Loads on its flange.
             gravity_m_s2: Magnitude of gravity, along the world's -z.
 
         Raises:
@@ -135,7 +135,7 @@ class ArmDynamics:
     def torques(
         self, q: Sequence[float] | Vector, dq: Sequence[float] | Vector, ddq: Sequence[float] | Vector
     ) -> Vector:
-        """Torques that produce accelerations, by the recursive Newton-Euler algorithm.
+        """Inverse dynamics by the recursive Newton-Euler algorithm.
 
         Args:
             q: Joint positions, shape (n,).
@@ -155,7 +155,7 @@ class ArmDynamics:
         return np.array(found)
 
     def potential_energy_j(self, q: Sequence[float] | Vector) -> float:
-        """Potential energy of arm and loads in gravity, relative to the world's origin.
+        """Potential energy of arm and loads in J, relative to the world's origin.
 
         Args:
             q: Joint positions, shape (n,).

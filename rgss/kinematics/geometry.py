@@ -1,4 +1,4 @@
-"""The solids that can collide, each with the joint it moves with."""
+"""Collision geometry: convex solids, each attached to a joint."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from rgss.scenes import (
     linkage_hulls,
 )
 
-# The engine takes its flag by position alone.
+# The engine accepts its flag by position only.
 _KEEP_TRIANGLES = True
 
 
@@ -39,10 +39,10 @@ class Part:
     """One convex solid.
 
     Attributes:
-        name: The link, body or workpiece that it belongs to; a name can have several parts.
-        chain: Number of the joint it moves with, 0 for the arm's base; None when it belongs to the scene.
-        joint: Index of that joint in the model, the universe for what stands still.
-        placement: Transform of the solid to the joint's frame (to the world where the joint is the universe).
+        name: Its link, body or workpiece; several parts can share a name.
+        chain: Number of its joint along the arm, 0 for the base; None if it belongs to the scene.
+        joint: Index of that joint in the model; the universe for a fixed solid.
+        placement: Transform of the solid to the joint's frame (to the world if the joint is the universe).
         shape: The solid.
     """
 
@@ -53,7 +53,7 @@ class Part:
     shape: Any
 
     def can_meet(self, other: Part) -> bool:
-        """True if the two can come together: not when nothing moves between them, nor as neighbouring links."""
+        """True if the pair must be checked: the two move relative to each other and are not neighbouring links."""
         if self.joint == other.joint:
             return False
         if self.chain is None or other.chain is None:
@@ -64,13 +64,13 @@ class Part:
 def collision_parts(
     model: Any, scene: Scene, gripper: GripperGeometry, situation: CollisionContext
 ) -> tuple[Part, ...]:
-    """List the solids of arm, gripper, workpiece and scene.
+    """Solids of arm, gripper, workpiece and scene.
 
     Args:
         model: The arm's model in the world.
         scene: The scene.
         gripper: The gripper at the flange.
-        situation: Opening of the gripper, and where the workpiece is.
+        situation: Opening of the gripper, and pose of the workpiece.
     """
     flange = model.frames[model.getFrameId(scene.robot.flange)]
     joint, to_joint = flange.parentJoint, flange.placement
@@ -118,14 +118,14 @@ def collision_parts(
 
 
 def arm_parts(model: Any, robot: Robot) -> list[Part]:
-    """List the solids of an arm.
+    """Solids of an arm.
 
     Args:
         model: The arm's model in the world.
         robot: The arm.
 
     Raises:
-        DefinitionError: A collision shape of the description cannot be read.
+        DefinitionError: A collision shape of the URDF cannot be read.
     """
     import pinocchio
 
@@ -135,7 +135,7 @@ def arm_parts(model: Any, robot: Robot) -> list[Part]:
     except (ValueError, RuntimeError) as error:
         raise DefinitionError(
             f"the collision shapes of the robot {robot.id} cannot be read",
-            hint=str(error).strip() or "use boxes and cylinders alone",
+            hint=str(error).strip() or "use boxes and cylinders only",
         ) from error
     primitive = [
         Part(
@@ -173,7 +173,7 @@ def _hull(vertices_m: Iterable[tuple[float, float, float]]) -> Any:
 
 
 def object_solids(shape: ObjectShape) -> tuple[tuple[Any, Pose], ...]:
-    """The collision engine's solids of the object, each with its place in the object's frame.
+    """Solids of an object for the collision engine, each with its transform to the object's frame.
 
     Args:
         shape: The object's shape.
@@ -187,7 +187,7 @@ def object_solids(shape: ObjectShape) -> tuple[tuple[Any, Pose], ...]:
 
 
 def solid_of(shape: Shape) -> Any:
-    """The collision engine's solid of a shape."""
+    """Solid of a shape for the collision engine."""
     import coal
 
     if isinstance(shape, Box):

@@ -19,7 +19,7 @@ Vector = NDArray[np.float64]
 
 
 class InverseKinematics(Protocol):
-    """Joint configurations that bring the tool centre of an arm to a pose."""
+    """Inverse kinematics of an arm's tool centre."""
 
     @property
     def arm(self) -> Arm:
@@ -27,7 +27,7 @@ class InverseKinematics(Protocol):
 
     @property
     def is_redundant(self) -> bool:
-        """Whether the configurations of a pose form a continuum, of which a sample is found."""
+        """True if the configurations of a pose form a continuum, of which a sample is returned."""
 
     def solve(self, tool_pose_world: Pose) -> tuple[Vector, ...]:
         """Find the configurations within the planning ranges that reach a pose, in lexicographic order.
@@ -37,7 +37,7 @@ class InverseKinematics(Protocol):
         """
 
     def nearest(self, tool_pose_world: Pose, reference: Sequence[float] | Vector) -> Vector | None:
-        """Find a configuration within the planning ranges near another; None where none is found.
+        """Find a configuration within the planning ranges near another; None if none is found.
 
         Args:
             tool_pose_world: Transform of the tool-centre frame to the world.
@@ -45,7 +45,7 @@ class InverseKinematics(Protocol):
         """
 
     def excess_of_ranges(self, tool_pose_world: Pose) -> tuple[RangeExcess, ...]:
-        """For each configuration outside the ranges that reaches a pose, the joint that is farthest outside.
+        """Greatest violation of a planning range in each configuration that reaches a pose and leaves a range.
 
         Args:
             tool_pose_world: Transform of the tool-centre frame to the world.
@@ -57,7 +57,7 @@ def inverse_kinematics(arm: Arm, *, is_turn_free: bool = False) -> InverseKinema
 
     Args:
         arm: The arm with its tool.
-        is_turn_free: Whether of a pose the position and the tool's axis alone are requested, which is numerical.
+        is_turn_free: True to request only the position and the tool's axis of a pose; solved numerically.
     """
     if is_turn_free:
         return NumericalInverse(arm, is_turn_free=True)

@@ -1,4 +1,4 @@
-"""Pairs of an arm's links that touch in every configuration, and so say nothing of a collision."""
+"""Permanent contacts of an arm's links, which collision checking ignores."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from rgss.scenes import Robot
 
 Vector = NDArray[np.float64]
 
-# The engine takes its flag by position alone.
+# The engine accepts its flag by position only.
 _FIND_ALL = False
 
 SAMPLES = 256
-"""Configurations that are looked at: the home, and points of a Sobol sequence over the joints' ranges."""
+"""Number of sampled configurations: home, and points of a Sobol sequence over the joint ranges."""
 
 
 @lru_cache(maxsize=16)
 def lasting_contacts(robot: Robot) -> frozenset[frozenset[str]]:
-    """Pairs of links that touch at the home and in every sampled configuration.
+    """Pairs of links that touch at home and in every sampled configuration.
 
-    Hulls of neighbours but one often overlap however the arm stands; so do links that a cover joins. Neighbours are
-    left out of collision checks in any case.
+    Convex hulls of links two joints apart often overlap in every configuration, as do links under a common cover.
+    Neighbouring links are never checked.
 
     Args:
         robot: The arm.
@@ -42,7 +42,7 @@ def lasting_contacts(robot: Robot) -> frozenset[frozenset[str]]:
 
 
 def touching_links(robot: Robot, q: Sequence[float]) -> tuple[tuple[str, str], ...]:
-    """Pairs of an arm's links that touch in a configuration, neighbours left out.
+    """Pairs of an arm's links that touch in a configuration, without neighbours.
 
     Args:
         robot: The arm.
@@ -53,7 +53,7 @@ def touching_links(robot: Robot, q: Sequence[float]) -> tuple[tuple[str, str], .
 
 
 class _LinkPairs:
-    """Pairs of the solids of an arm that can meet."""
+    """Checked pairs of an arm's solids."""
 
     def __init__(self, robot: Robot) -> None:
         import pinocchio
@@ -84,7 +84,7 @@ class _LinkPairs:
 
 def _sampled(robot: Robot) -> Iterator[Vector]:
     yield np.array(robot.home_rad)
-    # Where nothing touches at the home, the next is not asked for; the import takes longer than all checks.
+    # Lazy: if nothing touches at home no sample is needed, and the import takes longer than all checks.
     from scipy.stats.qmc import Sobol
 
     lower, upper = (np.array([getattr(joint, end) for joint in robot.joints]) for end in ("lower_rad", "upper_rad"))

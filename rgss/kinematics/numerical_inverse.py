@@ -26,7 +26,7 @@ _ITERATIONS = 60
 _CONVERGED = 1e-11
 _ERROR_DAMPING, _LEAST_DAMPING = 0.5, 1e-12
 _LARGEST_STEP = 1.0
-# Configurations nearer than this in every joint are one: an end of a descent, found twice.
+# Configurations nearer than this in every joint are duplicates: two descents with the same end.
 _SAME = 1e-5
 _REDUNDANT_SAME = 1e-2
 _DIGITS = 11
@@ -36,22 +36,22 @@ _POSE_FREEDOMS = 6
 class NumericalInverse:
     """Inverse kinematics of any serial arm by damped least squares from many starts.
 
-    The starts are the arm's home and the points of a Sobol sequence over the joints' ranges, so that the answer is a
-    function of arm and pose alone. All descents are made at once. An arm of six joints has isolated configurations, of
-    which all branches are kept that descents end in. An arm of more joints has a continuum: each descent gives one
-    member, and its positions are kept within the ranges on the way. An arm of fewer joints, which cannot turn its
-    tool freely, may turn it about its own axis where the whole pose is out of reach.
+    The starts are the arm's home and the points of a Sobol sequence over the joints' ranges, so that the result is a
+    function of arm and pose alone. All descents run at once. An arm of six joints has isolated configurations; every
+    branch that a descent reaches is kept. An arm of more joints has a continuum: each descent gives one member, and
+    keeps its positions within the ranges. An arm of fewer joints, which cannot orient its tool freely, may rotate it
+    about its own axis if the full pose is out of reach.
 
     Source: T. Sugihara, "Solvability-Unconcerned Inverse Kinematics by the Levenberg-Marquardt Method", IEEE T-RO
     27(5), 2011: the damping is proportional to the squared error.
 
-    Where the turn about the tool's axis is free, position and axis alone are requested, five freedoms. Their
-    configurations count as a continuum: an arm of more joints has one, and an arm of five has one if its last axis is
-    the tool's.
+    If the rotation about the tool's axis is free, only position and axis are requested, five degrees of freedom. The
+    configurations then count as a continuum: an arm of more joints has one, and an arm of five has one if its last axis
+    is the tool's.
 
     Args:
         arm: The arm with its tool.
-        is_turn_free: Whether the tool may be turned about its own axis, z.
+        is_turn_free: True if the tool may be rotated about its own axis, z.
     """
 
     def __init__(self, arm: Arm, *, is_turn_free: bool = False) -> None:
@@ -64,7 +64,7 @@ class NumericalInverse:
 
     @property
     def is_redundant(self) -> bool:
-        """Whether the configurations of a pose form a continuum, of which a sample is found."""
+        """True if the configurations of a pose form a continuum, of which a sample is returned."""
         return self._is_turn_free or len(self._joints) > _POSE_FREEDOMS
 
     def solve(self, tool_pose_world: Pose) -> tuple[Vector, ...]:
@@ -74,8 +74,8 @@ class NumericalInverse:
             tool_pose_world: Transform of the tool-centre frame to the world.
 
         Returns:
-            Joint positions, each of shape (n,), in lexicographic order: of isolated configurations with all whole
-            turns that stay within the ranges. Empty when none is found.
+            Joint positions, each of shape (n,), in lexicographic order; isolated configurations with all whole turns
+            within the ranges. Empty if none is found.
         """
         for residual in self._residuals(tool_pose_world):
             ends = self._reached(residual, self._starts(_STARTS))
@@ -92,9 +92,8 @@ class NumericalInverse:
             reference: Joint positions, shape (n,).
 
         Returns:
-            Joint positions, shape (n,): where the descent from the reference ends; should it end nowhere, of the ends
-            of the first starts that reach the pose the one with the smallest greatest joint difference; None when no
-            start reaches it.
+            Joint positions, shape (n,): the end of the descent from the reference; if it does not converge, among the
+            solutions of the first starts the one with the least maximum joint difference; None if no start converges.
         """
         near = np.asarray(reference, dtype=float)
         residuals = self._residuals(tool_pose_world)
@@ -114,13 +113,13 @@ class NumericalInverse:
         return None
 
     def excess_of_ranges(self, tool_pose_world: Pose) -> tuple[RangeExcess, ...]:
-        """For each configuration outside the ranges that reaches a pose, the joint that is farthest outside.
+        """Greatest violation of a planning range in each configuration that reaches a pose and leaves a range.
 
         Args:
             tool_pose_world: Transform of the tool-centre frame to the world.
 
         Returns:
-            The least excess first; empty where the pose is out of reach.
+            One entry a configuration, the least excess first; empty if the pose is out of reach.
         """
         for residual in self._residuals(tool_pose_world):
             found = excesses_of(self._reached(residual, self._starts(_STARTS), limited=False), self._joints)
@@ -137,16 +136,16 @@ class NumericalInverse:
         return (whole,) if len(self._joints) >= _POSE_FREEDOMS else (whole, axis)
 
     def _starts(self, count: int) -> Vector:
-        """The home, then quasi-random configurations, shape (count, n)."""
+        """Start configurations: home, then quasi-random points, shape (count, n)."""
         turns = np.array([joint.kind is JointKind.REVOLUTE for joint in self._joints])
-        # Isolated configurations are turned back into the ranges afterwards.
+        # Isolated configurations are brought back into the ranges by whole turns afterwards.
         free = turns & (not self.is_redundant)
         lower, upper = np.where(free, -math.pi, self._lower), np.where(free, math.pi, self._upper)
         shares = _sobol(len(self._joints), count - 1)
         return np.vstack([self._home, lower + shares * (upper - lower)])
 
     def _reached(self, residual: PoseResidual, starts: Vector, *, limited: bool = True) -> list[Vector]:
-        """The distinct configurations in which descents end that reach the pose."""
+        """Distinct ends of the descents that converge to the pose."""
         ends = np.round(self._descend(residual, starts, limited=limited and self.is_redundant), _DIGITS)
         same = _REDUNDANT_SAME if self.is_redundant else _SAME
         kept: list[Vector] = []
@@ -187,7 +186,7 @@ class NumericalInverse:
         return qs
 
     def _within(self, qs: Vector, steps: Vector, normal: Vector, gradient: Vector) -> Vector:
-        """Steps of which joints at their limits take no part that would leave them."""
+        """Steps without the components that would move a joint beyond its limit."""
         outside = ((qs <= self._lower) & (steps < 0.0)) | ((qs >= self._upper) & (steps > 0.0))
         rows = np.flatnonzero(outside.any(axis=1))
         if not len(rows):
@@ -199,7 +198,7 @@ class NumericalInverse:
         return steps
 
     def _turned(self, q: Vector) -> list[Vector]:
-        """A configuration with every whole turn of its joints that stays within the ranges."""
+        """All configurations within the ranges that equal one modulo whole turns."""
         choices = []
         for joint, position in zip(self._joints, q.tolist(), strict=True):
             if joint.kind is JointKind.REVOLUTE:
@@ -209,13 +208,13 @@ class NumericalInverse:
         return [np.clip(choice, self._lower, self._upper) for choice in itertools.product(*choices)]
 
     def _kept(self, q: Vector, near: Vector) -> list[Vector]:
-        """A configuration if it keeps the ranges, else the nearest of its whole turns that does."""
+        """A configuration if it is within the ranges, else the nearest equivalent one modulo whole turns."""
         if np.all((q >= self._lower) & (q <= self._upper)):
             return [q]
         return sorted(self._turned(q), key=lambda one: float(np.max(np.abs(one - near))))[:1]
 
     def _least_turn(self, difference: Vector) -> Vector:
-        """A difference of joint positions without whole turns; of a redundant arm as it is, for its ranges bound it."""
+        """Difference of joint positions modulo whole turns; unchanged for a redundant arm, whose ranges bound it."""
         if self.is_redundant:
             return difference
         turn = 2 * math.pi
@@ -230,7 +229,7 @@ def _principal(angles: Vector) -> Vector:
 
 @lru_cache(maxsize=16)
 def _sobol(dimensions: int, count: int) -> Vector:
-    """Points of a Sobol sequence in the unit cube after its first, the corner, shape (count, dimensions)."""
+    """Points of a Sobol sequence in the unit cube without its first, the corner, shape (count, dimensions)."""
     from scipy.stats.qmc import Sobol
 
     points: Vector = Sobol(dimensions, scramble=False).random_base2(math.ceil(math.log2(count + 1)))[1 : count + 1]

@@ -1,4 +1,4 @@
-"""Distances between the solids of a scene that stand still."""
+"""Overlaps between the fixed solids of a scene."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class Solid:
     """A named solid in the world.
 
     Attributes:
-        name: The body that it is.
+        name: Name of its body.
         shape: Its shape.
         pose: Transform of the shape's frame to the world.
     """
@@ -28,12 +28,12 @@ class Solid:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Overlap:
-    """Two solids that share space.
+    """Two solids that overlap.
 
     Attributes:
-        first: Name of the one.
-        second: Name of the other.
-        depth_m: How far one has to move before they only touch.
+        first: Name of the first.
+        second: Name of the second.
+        depth_m: Penetration depth: the least translation after which they only touch.
     """
 
     first: str
@@ -42,11 +42,11 @@ class Overlap:
 
 
 def overlaps(solids: Sequence[Solid], *, deeper_than_m: float) -> tuple[Overlap, ...]:
-    """The pairs of solids that overlap, in the order of the solids.
+    """Pairs of solids that overlap, in the order of the solids.
 
     Args:
         solids: The solids.
-        deeper_than_m: Pairs that overlap by less are left out; those that touch overlap by nothing.
+        deeper_than_m: Least penetration depth of a reported pair in m; solids in contact have depth 0.
     """
     import coal
 

@@ -16,12 +16,12 @@ _LEAST_SINE = 1e-12
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PoseResidual:
-    """What is left between tool and target; a radian counts as a metre.
+    """Residual between tool and target; a radian counts as a metre.
 
     Attributes:
         position_m: Position of the target in the world, shape (3,).
         rotation: Its orientation, shape (3, 3).
-        is_axis_alone: Whether of the orientation the tool's axis, z, is requested alone.
+        is_axis_alone: True if only the tool's axis, z, of the orientation is requested.
     """
 
     position_m: Array
@@ -29,10 +29,10 @@ class PoseResidual:
     is_axis_alone: bool = False
 
     def linearised(self, state: ChainState) -> tuple[Array, Array]:
-        """Residuals and the Jacobians of the motions that reduce them.
+        """Residuals and their Jacobians with respect to the joint positions.
 
         Args:
-            state: Where the chain is in k configurations.
+            state: State of the chain in k configurations.
 
         Returns:
             Residuals, shape (k, 6), of which the last three are a rotation vector, and Jacobians, shape (k, 6, n).
@@ -60,7 +60,7 @@ class PoseResidual:
 
 
 def _rotation_vectors(rotations: Array) -> Array:
-    """Axis times angle of rotations (k, 3, 3), shape (k, 3)."""
+    """Rotation vectors, axis times angle in rad, of rotation matrices (k, 3, 3), shape (k, 3)."""
     doubled = np.stack(
         [
             rotations[:, 2, 1] - rotations[:, 1, 2],

@@ -1,4 +1,4 @@
-"""Lower bounds of the distance of two parts, which cost little: a sphere round the one, a box round the other."""
+"""Cheap lower bounds of the distance of two parts: a bounding sphere of one, a bounding box of the other."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class SeparationBounds:
     Attributes:
         pairs: Indices of the two parts of each pair, shape (k, 2).
         centres_m: Centre of the box of each part, shape (m, 3).
-        halves_m: Half its edges, shape (m, 3); infinite where the part has no end.
-        radii_m: Radius of the sphere about that centre that the part lies in, shape (m,).
+        halves_m: Half its edges, shape (m, 3); infinite where the part is unbounded.
+        radii_m: Radius of the bounding sphere about that centre, shape (m,).
     """
 
     pairs: NDArray[np.intp]
@@ -32,7 +32,7 @@ class SeparationBounds:
 
     @classmethod
     def of(cls, geometry: Any, indices: Sequence[int]) -> SeparationBounds:
-        """Bounds for some pairs of a geometry model.
+        """Bounds for selected pairs of a geometry model.
 
         Args:
             geometry: Pinocchio's geometry model.
@@ -56,7 +56,7 @@ class SeparationBounds:
         )
 
     def least_distances_m(self, placements: Sequence[Any]) -> NDArray[np.float64]:
-        """Distance that the parts of each pair keep at least; minus infinity where they may overlap.
+        """Lower bound of the distance of each pair; minus infinity if the parts may overlap.
 
         Args:
             placements: Pose of each part in the world, as Pinocchio's SE3.
@@ -77,9 +77,9 @@ class SeparationBounds:
         boxes: NDArray[np.intp],
         spheres: NDArray[np.intp],
     ) -> NDArray[np.float64]:
-        """Distances from the box of one part to the sphere of the other."""
+        """Signed distance from the box of one part to the sphere of the other."""
         offsets = np.einsum("kji,kj->ki", turns[boxes], centres[spheres] - centres[boxes])
         beyond = np.linalg.norm(np.maximum(np.abs(offsets) - self.halves_m[boxes], 0.0), axis=1)
-        # Overlaps are measured by their depth, of which the distance of a sphere from a box says nothing.
+        # An overlap is measured by its depth, which the distance of a sphere from a box does not bound.
         apart = beyond - self.radii_m[spheres] - _ROUNDING_M
         return np.where(apart > 0.0, apart, -math.inf)

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ChainState:
-    """Where a chain is in k configurations.
+    """Tool frames and Jacobians of a chain in k configurations.
 
     Attributes:
         position_m: Position of the tool centre in the world, shape (k, 3).
@@ -29,7 +29,7 @@ class ChainState:
 
 
 class SerialChain:
-    """A serial arm as axes and points at its zero configuration.
+    """Product-of-exponentials form of a serial arm: its axes and points at the zero configuration.
 
     Source: K. M. Lynch, F. C. Park, "Modern Robotics", Cambridge University Press 2017, chapter 4.
 

@@ -1,4 +1,4 @@
-"""Measures of performance and effectiveness: definitions, expressions, estimates, verdicts."""
+"""Measures of performance and effectiveness: definitions, expressions, estimates and verdicts."""
 
 from rgss.measures.definition_digests import definition_digest
 from rgss.measures.definitions import (

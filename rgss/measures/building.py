@@ -1,4 +1,4 @@
-"""Construction of a consistent set of measures from the entries of a measures file."""
+"""Builder of a consistent set of measures from the entries of a measures file."""
 
 from __future__ import annotations
 
@@ -85,12 +85,12 @@ class _Builder:
         uses = {name: [other for other in one.names if other in expressions] for name, one in expressions.items()}
         order, cycles = evaluation_order(uses)
         for cycle in cycles:
-            message = f"measures depend on one another in a circle: {' → '.join(cycle)}"
-            self._report(cycle[0], "measures.cycle", message, hint="let one of them not use the next")
+            message = f"measures must not depend on each other in a cycle: {' → '.join(cycle)}"
+            self._report(cycle[0], "measures.cycle", message, hint="remove one of these dependencies")
         return order, transitive_use({name: one.names for name, one in expressions.items()}, order)
 
     def _differs(self, used: frozenset[str], sound: set[str]) -> bool | None:
-        """True if a measure of these symbols differs from trial to trial; None if that is unknown."""
+        """True if a measure of these symbols varies from trial to trial; None if unknown."""
         inputs = {entry.id: entry.source.startswith("trial.") for entry in self._entries.inputs}
         if any(inputs.get(name, False) for name in used):
             return True
@@ -110,7 +110,7 @@ class _Builder:
         return value
 
     def _bounds(self, index: int) -> Bounds:
-        """The least and the greatest value of a measure in one trial, in its unit, as far as they are declared."""
+        """Declared bounds of a measure's trial values, in its unit."""
         entry = self._entries.measures[index]
         rule = entry.estimate
         if rule is None:
@@ -119,7 +119,7 @@ class _Builder:
         for key, text in (("least", rule.least), ("most", rule.most)):
             location = ("measures", index, "estimate", key)
             if text is not None and rule.statistic is Estimator.PROPORTION:
-                self._refuse_bound(location, "a proportion lies between 0 and 1 as it is", "remove the bound")
+                self._refuse_bound(location, "a proportion is always between 0 and 1", "remove the bound")
                 return None, None
             try:
                 found.append(None if text is None else parse_quantity(text, entry.unit))
@@ -128,8 +128,8 @@ class _Builder:
                 found.append(None)
         least, most = found
         if least is not None and most is not None and least >= most:
-            message = f"no trial can give at least {least:g} and at most {most:g} {entry.unit}"
-            self._refuse_bound(("measures", index, "estimate", "least"), message, "state 'least' below 'most'")
+            message = f"'least' must be below 'most', got {least:g} and {most:g} {entry.unit}"
+            self._refuse_bound(("measures", index, "estimate", "least"), message, "correct the bounds")
         return least, most
 
     def _refuse_bound(self, location: tuple[str | int, ...], message: str, hint: str) -> None:
@@ -157,7 +157,7 @@ class _Builder:
                     self._report(name, "measures.unknown-symbol", message, offset=offset, hint=hint)
 
     def _check_kinds(self, expressions: dict[str, Expression], order: tuple[str, ...]) -> dict[str, int | None]:
-        """Check every unit; the number of entries of each measure where it is known."""
+        """Check every unit; returns the number of entries of each measure, if known."""
         kinds: dict[str, Kind | None] = {}
         for constant in self._entries.constants:
             kinds[constant.id] = Kind(dimension=dimension(constant.unit))
@@ -165,7 +165,7 @@ class _Builder:
             kinds[symbol.id] = Kind(dimension=dimension(symbol.unit), length=symbol.length)
             self._check_unit(("inputs", index, "unit"), symbol.unit)
             if symbol.of_design and not symbol.from_trial:
-                message = f"{symbol.source} is of the design as it is; 'of_design' is for values that trials compute"
+                message = f"{symbol.source} is a design value already; 'of_design' is for values computed by trials"
                 at = ("inputs", index, "of_design")
                 found = self._document.finding("measures.estimate", message, at, hint="remove 'of_design'")
                 self._findings.append(found)
@@ -181,7 +181,7 @@ class _Builder:
             if kind.dimension != declared:
                 message = f"the expression gives {si_unit(kind.dimension)}, the measure's unit is {entry.unit}"
                 self._report(name, "measures.unit", message, hint="correct the expression or the unit")
-            # Dependent measures are checked against the declared kind.
+            # Dependent measures are checked with the declared kind.
             kinds[name] = Kind(dimension=declared, length=kind.length)
             lengths[name] = kind.length
             proportion = entry.estimate is not None and entry.estimate.statistic is Estimator.PROPORTION
@@ -221,7 +221,7 @@ class _Builder:
         self._findings.append(finding)
 
     def _column(self, finding: Finding, expression: str, offset: int) -> int:
-        """The column of a character of an expression; its first where it is folded over lines."""
+        """Column of a character of an expression; the first column if the expression is folded over lines."""
         written = self._lines[finding.line - 1][finding.column - 1 :]
         if written.startswith(expression):
             return finding.column + offset

@@ -1,4 +1,4 @@
-"""Consistency checks between the entries of a measures file, except for expressions."""
+"""Consistency checks of the entries of a measures file, except expressions."""
 
 from __future__ import annotations
 
@@ -44,8 +44,8 @@ def check_roles(
     Args:
         document: The positions.
         entries: The file's entries.
-        used: Symbols that each measure depends on, directly or not.
-        by_trial: Whether each measure differs from trial to trial.
+        used: Symbols on which each measure depends, directly or not.
+        by_trial: Whether each measure varies from trial to trial.
         lengths: The number of entries of each measure; None for a single number.
     """
     findings: list[Finding] = []
@@ -165,7 +165,7 @@ def _kind_problems(
 
 def _estimate_problems(entry: MeasureEntry, by_trial: bool | None) -> Iterable[_Problem]:  # noqa: FBT001
     if by_trial is True and entry.estimate is None:
-        message = f"measure {entry.id!r} differs from trial to trial and has no 'estimate'"
+        message = f"measure {entry.id!r} varies from trial to trial and has no 'estimate'"
         yield ("estimate", message, (), "add 'estimate' with 'statistic' and 'over'")
     if by_trial is False and entry.estimate is not None:
         message = f"measure {entry.id!r} follows from the design alone; there is nothing to estimate"

@@ -9,18 +9,17 @@ from rgss.measures.definitions import Constant, InputSymbol, Measure, MeasureSet
 
 
 def definition_digest(measures: MeasureSet, id: str) -> str:  # noqa: A002 - the domain's word
-    """The SHA-256 of a measure's definition and of the definitions of all that it is computed from.
+    """SHA-256 of a measure's definition and of the definitions on which it depends.
 
-    It changes with an expression, a constant, the source of an input, a unit, the estimator, or
-    texts of definitions anywhere below the measure. It does not change with names,
-    with who traces to the measure, with its order in the file, nor with measures beside it.
+    It depends on the expressions, constants, sources of inputs, units, the estimator, and texts of definitions of the
+    measure and its dependencies. It does not depend on names, traces, order in the file, or other measures.
 
     Args:
         measures: The measures of a project.
         id: The measure.
 
     Raises:
-        DefinitionError: There is no such measure.
+        DefinitionError: The measure is unknown.
     """
     measure = measures.measure(id)
     below = measures.used[measure.id]
@@ -60,7 +59,7 @@ def _of_input(symbol: InputSymbol) -> dict[str, Any]:
 
 
 def _of_constant(constant: Constant) -> dict[str, Any]:
-    # The unit is only how the value is shown.
+    # The unit only affects the display of the value.
     return {"definition": _flat(constant.definition), "value": constant.value}
 
 

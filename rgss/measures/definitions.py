@@ -1,4 +1,4 @@
-"""Definitions of a measures file: constants, inputs, equations, assumptions and measures."""
+"""Definitions in a measures file: constants, inputs, equations, assumptions and measures."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _NEVER_NEGATIVE = tuple(((name, 1.0),) for name in ("time", "mass", "currency"))
 
 
 class MeasureKind(str, Enum):
-    """Kind of a measure: effectiveness concerns stakeholders, performance concerns engineers."""
+    """Kind of a measure: effectiveness (for stakeholders), performance (for engineers) or supplementary."""
 
     EFFECTIVENESS = "moe"
     PERFORMANCE = "mop"
@@ -36,9 +36,8 @@ class Direction(str, Enum):
 class Estimator(str, Enum):
     """Estimator of one value from trial values.
 
-    A mean is the mean of the trials' values; a proportion is the share of trials whose value
-    is complete, which is 1; a ratio is the sum of the numerators of a quotient over the sum of
-    its denominators.
+    A mean is the mean of the trials' values; a proportion is the share of trials with the value 1; a ratio is the sum
+    of a quotient's numerators divided by the sum of its denominators.
     """
 
     MEAN = "mean"
@@ -47,14 +46,14 @@ class Estimator(str, Enum):
 
 
 class Population(str, Enum):
-    """Population of an estimate: the trials that succeeded, or every one."""
+    """Population of an estimate: successful trials, or all trials."""
 
     SUCCESSFUL = "successful"
     ALL = "all"
 
 
 class Summary(str, Enum):
-    """Reduction of a row to the one number that is estimated."""
+    """Reduction of a row to the estimated number."""
 
     SUM = "sum"
     MEAN = "mean"
@@ -63,12 +62,12 @@ class Summary(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Constant:
-    """A number that is the same for every design.
+    """Number that is the same for every design.
 
     Attributes:
         id: Its symbol.
         value: Its value in SI.
-        unit: The unit it is shown in.
+        unit: Its display unit.
         definition: Its definition.
         source: Its source; empty when it is an assumption.
     """
@@ -81,9 +80,10 @@ class Constant:
 
 
 class InputSymbol(DocumentModel):
-    """A symbol whose value comes from a design, a component or a trial; values arrive in SI.
+    """Symbol with a value from a design, a component or a trial, in SI.
 
-    With ``of_design`` trials compute it from the design alone, without seed or draw, so that it is the same in all.
+    With ``of_design`` trials compute it only from the design, independently of seed and draws, so that it is the same
+    in all.
     """
 
     id: Identifier
@@ -95,17 +95,17 @@ class InputSymbol(DocumentModel):
 
     @property
     def from_trial(self) -> bool:
-        """True if it differs from trial to trial."""
+        """True if it varies from trial to trial."""
         return self.source.startswith("trial.")
 
     @property
     def metric(self) -> str:
-        """The name of its value in its source, such as ``path_length_m``."""
+        """Name of its value in its source, such as ``path_length_m``."""
         return self.source.split(".", 1)[1]
 
 
 class Assumption(DocumentModel):
-    """A decision on something that the sources leave open."""
+    """Decision on a point that the sources leave open."""
 
     id: Identifier
     statement: Text
@@ -114,7 +114,7 @@ class Assumption(DocumentModel):
 
 
 class Equation(DocumentModel):
-    """A numbered relation that measures realise; its number is quoted, since 4.10 would be a number."""
+    """Numbered relation realised by measures; its number is a text, since the number 4.10 would equal 4.1."""
 
     id: Text
     relation: Text
@@ -122,7 +122,7 @@ class Equation(DocumentModel):
 
 
 def _as_text(value: Any) -> Any:
-    """A pure number may be unquoted; its unit decides later whether it is valid."""
+    """Accept an unquoted number; its unit is validated later."""
     return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
 
@@ -137,7 +137,7 @@ NumberOrQuantityText = Annotated[
 
 
 class EstimateRule(DocumentModel):
-    """Estimator of a measure, the trials that it takes, and the bounds that none of their values can exceed."""
+    """Estimator of a measure, its population, and the bounds of the trial values."""
 
     statistic: Estimator
     over: Population
@@ -147,13 +147,13 @@ class EstimateRule(DocumentModel):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Alternative:
-    """Another reading of a measure's source.
+    """Alternative interpretation of a measure's source.
 
     Attributes:
         id: Its name among the measure's alternatives.
-        expression: The expression that it puts in the place of the measure's.
-        estimate: Estimate from trial values; None where it follows from the design alone.
-        rationale: Reason for this reading of the source.
+        expression: The expression that replaces the measure's.
+        estimate: Estimate from trial values; None if it depends only on the design.
+        rationale: Reason for this interpretation of the source.
     """
 
     id: str
@@ -164,27 +164,27 @@ class Alternative:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Measure:
-    """Quantity that designs are compared by.
+    """Quantity by which designs are compared.
 
     Attributes:
         id: Its id, which is also its symbol in expressions.
-        kind: What it is for.
+        kind: Its kind.
         name: Its name.
         definition: Its definition.
-        unit: The unit that it is given in.
-        si_per_unit: What one of that unit is in SI.
+        unit: Its unit.
+        si_per_unit: Value of that unit in SI.
         expression: Its value from constants, inputs and other measures.
         equation: The equation that it realises; None if none is published.
         better: Preferred direction.
         traces: Stakeholder needs that it measures.
         contributes_to: Measures of effectiveness that it contributes to.
-        estimate: Estimate from trial values; None when it follows from the design alone.
+        estimate: Estimate from trial values; None if it depends only on the design.
         summary: Reduction of a row to one number; None for a single number.
         length: The number of its entries; None for a single number.
-        simulated_as: The measure that a simulation shows of the same quantity; None where there is none.
-        alternatives: Other readings of its source.
-        least: The least value that a trial can give, in its unit; None where none is declared.
-        most: The greatest value that a trial can give; None where none is declared.
+        simulated_as: The measure of the same quantity from simulation; None if there is none.
+        alternatives: Alternative interpretations of its source.
+        least: The least possible trial value, in its unit; None if not declared.
+        most: The greatest possible trial value; None if not declared.
     """
 
     id: str
@@ -208,18 +208,18 @@ class Measure:
 
     @property
     def is_never_negative(self) -> bool:
-        """True if its unit is one of time, mass or money, so that no value is negative."""
+        """True if its unit is one of time, mass or money, whose values are not negative."""
         return dimension(self.unit) in _NEVER_NEGATIVE
 
     @property
     def from_trials(self) -> bool:
-        """True if it differs from trial to trial."""
+        """True if it varies from trial to trial."""
         return self.estimate is not None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeasureSet:
-    """Every measure of a project, consistent as a whole.
+    """Consistent set of all measures of a project.
 
     Attributes:
         constants: The constants, in the order of the file.
@@ -227,9 +227,9 @@ class MeasureSet:
         assumptions: The assumptions, in the order of the file.
         equations: The equations, in the order of the file.
         measures: The measures, in the order of the file.
-        evaluation_order: The measures, each after those that it depends on.
-        used: For each measure, the ids of all measures and the symbols of all inputs and
-            constants that it depends on, directly or not.
+        evaluation_order: The measures in topological order.
+        used: For each measure, the ids of all measures and the symbols of all inputs and constants on which it depends,
+        directly or not.
     """
 
     constants: tuple[Constant, ...]
@@ -241,10 +241,10 @@ class MeasureSet:
     used: Mapping[str, frozenset[str]]
 
     def measure(self, id: str) -> Measure:  # noqa: A002 - the domain's word
-        """The measure with an id.
+        """Measure by id.
 
         Raises:
-            DefinitionError: There is none.
+            DefinitionError: The id is unknown.
         """
         for measure in self.measures:
             if measure.id == id:
@@ -258,31 +258,30 @@ class MeasureSet:
         return tuple(measure for measure in self.measures if measure.kind is kind)
 
     def dependencies(self, id: str) -> tuple[str, ...]:  # noqa: A002 - the domain's word
-        """Ids of all measures that a measure depends on, directly or not, in evaluation order.
+        """Ids of all measures on which a measure depends, directly or not, in evaluation order.
 
-        Two measures of which one is among the other's dependencies count the same thing twice
-        when both are valued.
+        Valuing both a measure and one of its dependencies counts the same effect twice.
 
         Raises:
-            DefinitionError: There is no such measure.
+            DefinitionError: The measure is unknown.
         """
         used = self.used[self.measure(id).id]
         return tuple(other.id for other in self.evaluation_order if other.id in used)
 
     def sources(self, id: str) -> tuple[str, ...]:  # noqa: A002 - the domain's word
-        """The sources that a measure depends on, directly or not, such as ``design.tool_speed``.
+        """Sources on which a measure depends, directly or not, such as ``design.tool_speed``.
 
         Raises:
-            DefinitionError: There is no such measure.
+            DefinitionError: The measure is unknown.
         """
         used = self.used[self.measure(id).id]
         return tuple(symbol.source for symbol in self.inputs if symbol.id in used)
 
     def assumptions_of(self, id: str) -> tuple[Assumption, ...]:  # noqa: A002 - the domain's word
-        """The assumptions that a measure depends on, directly or not.
+        """Assumptions on which a measure depends, directly or not.
 
         Raises:
-            DefinitionError: There is no such measure.
+            DefinitionError: The measure is unknown.
         """
         reached = {id, *self.used[self.measure(id).id]}
         equations = {measure.equation for measure in self.measures if measure.id in reached}

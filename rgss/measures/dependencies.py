@@ -7,14 +7,14 @@ from graphlib import CycleError, TopologicalSorter
 
 
 def evaluation_order(uses: Mapping[str, Iterable[str]]) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
-    """Sort nodes so that each comes after those that it uses.
+    """Topological order of nodes.
 
     Args:
         uses: For each node, the nodes that it uses directly.
 
     Returns:
-        The order, without the nodes on cycles; and the cycles, each as a round that ends where
-        it begins. Cycles that share a node are found one after the other.
+        The order, without the nodes on cycles; and the cycles, each with its first node repeated at the end. Of cycles
+        that share a node one is reported.
     """
     left = {node: tuple(used) for node, used in uses.items()}
     cycles: list[tuple[str, ...]] = []
@@ -30,11 +30,11 @@ def evaluation_order(uses: Mapping[str, Iterable[str]]) -> tuple[tuple[str, ...]
 
 
 def transitive_use(uses: Mapping[str, Iterable[str]], order: Iterable[str]) -> Mapping[str, frozenset[str]]:
-    """Everything that each node uses, directly or not.
+    """Transitive closure of the use of each node.
 
     Args:
-        uses: For each node, what it uses directly; what is not itself a node is a leaf.
-        order: The nodes, each after those that it uses.
+        uses: For each node, the nodes and leaves that it uses directly.
+        order: The nodes in topological order.
     """
     reached: dict[str, frozenset[str]] = {}
     for node in order:
@@ -47,13 +47,13 @@ def _cycle(uses: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
     try:
         TopologicalSorter(uses).prepare()
     except CycleError as error:
-        # graphlib's round goes from what is used to what uses it.
+        # graphlib's cycle goes from the used node to the using one.
         return tuple(reversed(error.args[1]))
     return ()
 
 
 def _from_first(cycle: tuple[str, ...], order: tuple[str, ...]) -> tuple[str, ...]:
-    """The same round, begun at its node that comes first in the file."""
+    """The same cycle, starting at its first node in the file."""
     ring = cycle[:-1]
     start = min(range(len(ring)), key=lambda index: order.index(ring[index]))
     return (*ring[start:], *ring[:start], ring[start])

@@ -1,4 +1,4 @@
-"""Dimensional analysis of expressions: comparison of the units of an equation's two sides."""
+"""Dimensional analysis of expressions."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ _BASE_UNITS: tuple[tuple[str, str], ...] = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Kind:
-    """Kind of a value.
+    """Kind of a value: dimension and length.
 
     Attributes:
-        dimension: What it measures.
+        dimension: Its dimension.
         length: The number of its entries; None for a single number.
     """
 
@@ -49,7 +49,7 @@ class Kind:
 
 
 def si_unit(dimension: Dimension) -> str:
-    """The coherent SI unit of a dimension (money in US dollars), such as ``kg·m·s^-2``."""
+    """Coherent SI unit of a dimension (money in US dollars), such as ``kg·m·s^-2``."""
     exponents = dict(dimension)
     parts = [
         unit if exponents[base] == 1 else f"{unit}^{exponents[base]:g}"
@@ -66,10 +66,10 @@ def kind_of(
 
     Args:
         expression: The expression.
-        kinds: What each of its symbols is; None for a symbol of which that is not known.
+        kinds: Kind of each of its symbols; None if unknown.
 
     Returns:
-        Its kind, or None if that is unknown; and every contradiction in it.
+        Its kind, or None if unknown; and every inconsistency in it.
     """
     analysis = _Analysis(kinds)
     kind = analysis.kind(expression.root)

@@ -1,4 +1,4 @@
-"""The YAML form of measures."""
+"""Document models of measures."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class ConstantEntry(DocumentModel):
 
 
 class AlternativeEntry(DocumentModel):
-    """Another reading of a measure's source: another expression, another estimate, or both."""
+    """Alternative interpretation of a measure's source: another expression, another estimate, or both."""
 
     id: Identifier
     expression: Text | None = None
@@ -39,7 +39,7 @@ class AlternativeEntry(DocumentModel):
 
 
 class MeasureEntry(DocumentModel):
-    """Quantity that designs are compared by."""
+    """Quantity by which designs are compared."""
 
     id: Identifier
     kind: MeasureKind

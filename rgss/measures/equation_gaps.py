@@ -1,4 +1,4 @@
-"""Difference between the value of an equation and that of the simulation."""
+"""Model gaps: differences between the values of an equation and of the simulation."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from rgss.measures.definitions import MeasureSet
 from rgss.measures.estimates import Estimate
 
 NOTABLE = 0.10
-"""Relative difference from which an equation cannot replace the simulation."""
+"""Relative difference above which an equation cannot replace the simulation."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -17,11 +17,11 @@ class ModelGap:
     """Difference between an equation and the simulation for one variant.
 
     Attributes:
-        measure: Id of the measure that is an equation.
-        simulated_as: Id of the measure that the simulation shows.
+        measure: Id of the measure defined by the equation.
+        simulated_as: Id of the simulated measure.
         unit: Unit of both values: that of the measure.
-        by_equation: Its value.
-        simulated: Value that the simulation shows.
+        by_equation: Value of the equation.
+        simulated: Value of the simulation.
     """
 
     measure: str
@@ -32,7 +32,7 @@ class ModelGap:
 
     @property
     def relative(self) -> float:
-        """The simulation's value over the equation's, less 1; infinite where only the equation gives 0."""
+        """Simulation's value divided by the equation's, minus 1; infinite if only the equation gives 0."""
         if self.by_equation == 0.0:
             return 0.0 if self.simulated == 0.0 else float("inf")
         return self.simulated / self.by_equation - 1.0
@@ -44,7 +44,7 @@ class ModelGap:
 
 
 def model_gaps(measures: MeasureSet, estimates: Mapping[str, Estimate]) -> tuple[ModelGap, ...]:
-    """The differences of a variant, in the order of the measures; those whose values are not both known are left out.
+    """Differences of a variant, in the order of the measures, without those with an unknown value.
 
     Args:
         measures: The measures.

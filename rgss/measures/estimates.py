@@ -10,7 +10,7 @@ from functools import lru_cache
 from rgss.measures.mean_limits import mean_limits
 
 CONFIDENCE = 0.95
-"""Confidence of an interval; each of its ends is wrong with at most half of the rest."""
+"""Confidence level of an interval; each limit fails with at most half of the remaining probability."""
 
 _TAIL = (1.0 - CONFIDENCE) / 2.0
 _DIGITS = 12
@@ -21,14 +21,12 @@ class Estimate:
     """Estimate of a measure of one variant.
 
     Attributes:
-        value: The value; None where no trial gave one.
+        value: The value; None without trial values.
         unit: Its unit.
-        low: Lower end of the interval: the true value is lower with a probability of at most
-            2.5 %; None where it is unknown.
-        high: Upper end of the interval: the true value is higher with a probability of at most
-            2.5 %; None where it is unknown.
-        n: Trials behind it; 0 when it follows from the design alone (then low, high
-            and value are equal) or when there is no value.
+        low: Lower limit of the interval: the true value is lower with a probability of at most 2.5 %; None if unknown.
+        high: Upper limit of the interval: the true value is higher with a probability of at most 2.5 %; None if
+        unknown.
+        n: Number of trials; 0 if it depends only on the design (then low, high and value are equal) or without a value.
     """
 
     value: float | None
@@ -39,29 +37,29 @@ class Estimate:
 
     @staticmethod
     def exact(value: float, unit: str) -> Estimate:
-        """The estimate of a value that follows from the design alone."""
+        """Estimate of a value that depends only on the design."""
         return Estimate(value=value, unit=unit, low=value, high=value, n=0)
 
     @staticmethod
     def unknown(unit: str) -> Estimate:
-        """The estimate where no trial gave a value."""
+        """Estimate without trial values."""
         return Estimate(value=None, unit=unit, low=None, high=None, n=0)
 
 
 def mean_estimate(
     values: Sequence[float], unit: str, *, least: float | None = None, most: float | None = None
 ) -> Estimate:
-    """The mean of trial values with limits that assume no shape of their distribution.
+    """Mean of trial values with distribution-free confidence limits.
 
-    The limits are those of `rgss.measures.mean_limits`: valid for any distribution between the
-    bounds, and, on a side without a bound, for any whose values are at most ten times the mean size
-    of those that were seen. Bounds that trials contradict are widened to them.
+    The limits are those of `rgss.measures.mean_limits`: valid for any distribution between the bounds, and, on a side
+    without a bound, for any whose values are at most ten times the mean absolute value of the observed ones. Bounds are
+    widened to contain all trial values.
 
     Args:
         values: The trial values.
         unit: Their unit.
-        least: The least possible value; None where none is known.
-        most: The greatest possible value; None where none is known.
+        least: The least possible value; None if unknown.
+        most: The greatest possible value; None if unknown.
     """
     if not values:
         return Estimate.unknown(unit)
@@ -70,15 +68,14 @@ def mean_estimate(
 
 
 def proportion_estimate(successes: int, trials: int) -> Estimate:
-    """A proportion with the interval of Clopper and Pearson (1934), which is known for one trial too.
+    """Proportion with the Clopper-Pearson interval (1934), which is defined for one trial too.
 
-    Its ends are quantiles of two posteriors, Beta(k, n - k + 1) and Beta(k + 1, n - k): each has the
-    prior that is least favourable to its end, so that the coverage of each is at least its level.
-    Jeffreys's and Wilson's intervals are shorter, and wrong more often for some proportions.
+    Its limits are quantiles of Beta(k, n - k + 1) and Beta(k + 1, n - k); the coverage of each is at least its level.
+    Jeffreys's and Wilson's intervals are shorter, but below their level for some proportions.
 
     Args:
-        successes: Trials that count.
-        trials: All trials.
+        successes: Number of successes.
+        trials: Number of trials.
     """
     if trials == 0:
         return Estimate.unknown("1")
@@ -91,7 +88,7 @@ def _proportion_limits(successes: int, trials: int) -> tuple[float, float]:
     from scipy.special import betaincinv
 
     low, high = 0.0, 1.0
-    # Rounded, so that the last bits of a processor's functions do not show.
+    # Rounded, so that differences of processors in the last bits have no effect.
     if successes > 0:
         low = float(f"{float(betaincinv(successes, trials - successes + 1, _TAIL)):.{_DIGITS}g}")
     if successes < trials:

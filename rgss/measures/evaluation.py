@@ -12,10 +12,10 @@ from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.ratios import ratio_values
 
 Observed = float | int | None | Sequence[float | int | None]
-"""A metric as a trial recorded it."""
+"""Recorded metric of a trial."""
 
 COMPLETE = 1.0
-"""The value at which a trial counts towards a proportion."""
+"""Value of a trial that counts as a success of a proportion."""
 
 
 def evaluate(
@@ -27,13 +27,13 @@ def evaluate(
 ) -> dict[str, Estimate]:
     """Estimate every measure of one variant.
 
-    A measure that follows from the design alone is computed once. Any other is computed for
-    each trial and estimated over the trials, or the successful ones, in which it is known.
+    A measure that depends only on the design is computed once. Any other is computed for each trial and estimated over
+    all or the successful trials with a known value.
 
     Args:
         measure_set: The measures.
-        fixed: The value of each ``design.…`` and ``component.…`` source, in SI. Sources that
-            no measure names may be among them, texts too.
+        fixed: The value of each ``design.…`` and ``component.…`` source, in SI. Unused sources are allowed, including
+            texts.
         trials: The metrics of each trial, in SI; an absent key is an unknown value. A trial
             succeeded if its metric ``success`` is 1.
         variant: The variant's id, for messages.
@@ -42,10 +42,9 @@ def evaluate(
         The estimate of each measure by its id, in the order of the file, in the measure's unit.
 
     Raises:
-        DefinitionError: A value of the design is missing or is a text; a measure is not
-            defined for this design (a division by zero); a metric has not the shape declared; a
-            trial's value lies outside the bounds that its measure declares; trials differ in what
-            is declared to follow from the design.
+        DefinitionError: A value of the design is missing or is a text; a measure is undefined for this design (a
+        division by zero); a metric does not have the declared shape; a trial's value is outside the declared bounds of
+        its measure; trials differ in a value declared as ``of_design``.
     """
     design = design_values(measure_set, fixed=fixed, variant=variant)
     rows = [trial_values(measure_set, design=design, trial=trial) for trial in trials]
@@ -74,26 +73,26 @@ def evaluate(
 
 
 def _is_of_design(measure_set: MeasureSet, measure: Measure) -> bool:
-    """True if all that trials contribute to a measure follows from the design alone, by its declaration."""
+    """True if all trial inputs of a measure are declared as ``of_design``."""
     below = measure_set.used[measure.id]
     return all(symbol.of_design for symbol in measure_set.inputs if symbol.from_trial and symbol.id in below)
 
 
 def _same(measure: Measure, known: Sequence[float], variant: int) -> Estimate:
-    """The one value of a measure that has neither seed nor draw: nothing is uncertain of it."""
+    """Exact value of a measure that depends on neither seed nor draws."""
     if not known:
         return Estimate.unknown(measure.unit)
     if min(known) != max(known):
         raise DefinitionError(
             f"trials of variant {variant} give {measure.id} = {min(known):g} and {max(known):g} {measure.unit}, "
-            "though its inputs are declared to follow from the design",
+            "but its inputs are declared as of_design",
             hint="remove 'of_design' from the input in the measures file",
         )
     return Estimate(value=known[0], unit=measure.unit, low=known[0], high=known[0], n=len(known))
 
 
 def _mean(measure: Measure, known: Sequence[float], variant: int) -> Estimate:
-    """The mean of a measure's values, between the bounds that it declares or that its unit implies."""
+    """Mean of a measure's values, with bounds declared or implied by its unit."""
     for value in known:
         if (measure.least is not None and value < measure.least) or (measure.most is not None and value > measure.most):
             raise DefinitionError(
@@ -102,14 +101,14 @@ def _mean(measure: Measure, known: Sequence[float], variant: int) -> Estimate:
                 hint="correct 'least' and 'most' of its estimate in the measures file",
             )
     least = measure.least
-    # One trial has no variance, so that only a declared bound gives it an interval.
+    # One trial has no variance, so only a declared bound gives an interval.
     if least is None and measure.is_never_negative and len(known) > 1 and min(known) >= 0.0:
         least = 0.0
     return mean_estimate(known, measure.unit, least=least, most=measure.most)
 
 
 def design_values(measure_set: MeasureSet, *, fixed: Mapping[str, float | str], variant: int) -> dict[str, float]:
-    """The constants, inputs and measures that follow from a design alone.
+    """Constants, inputs and measures that depend only on a design.
 
     Args:
         measure_set: The measures.
@@ -153,18 +152,18 @@ def design_values(measure_set: MeasureSet, *, fixed: Mapping[str, float | str], 
 def trial_values(
     measure_set: MeasureSet, *, design: Mapping[str, float], trial: Mapping[str, Observed]
 ) -> dict[str, Value]:
-    """Every symbol's value in one trial.
+    """Value of every symbol in one trial.
 
     Args:
         measure_set: The measures.
-        design: What `design_values` gave for the trial's variant.
+        design: Result of `design_values` for the trial's variant.
         trial: The trial's metrics, in SI.
 
     Returns:
-        The values in SI by symbol: numbers and rows, None where unknown.
+        The values in SI by symbol: numbers and rows, None if unknown.
 
     Raises:
-        DefinitionError: A metric has not the shape that is declared for it.
+        DefinitionError: A metric does not have the declared shape.
     """
     values: dict[str, Value] = dict(design)
     for symbol in measure_set.inputs:

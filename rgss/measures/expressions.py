@@ -1,7 +1,7 @@
-"""Expressions of measures: a small part of Python's syntax, read into a tree that computes.
+"""Expressions of measures: a small subset of Python's syntax, parsed to an evaluable tree.
 
-A text from a file is never run. Python's parser is used for its grammar alone; each node of
-its tree is either of a kind listed here or refused.
+A text from a file is never executed. Python's parser is used only for its grammar; each node of its tree is of a kind
+listed here, or rejected.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ LARGEST_EXPONENT = 6
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExpressionProblem:
-    """Something wrong in an expression.
+    """Problem in an expression.
 
     Attributes:
-        rule: The id of the broken rule.
+        rule: The id of the violated rule.
         offset: Its position, in characters from the start of the expression.
         message: The problem.
         hint: Advice; may be empty.
@@ -38,37 +38,37 @@ class ExpressionProblem:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Number:
-    """A number written in an expression; without dimension."""
+    """Dimensionless number in an expression."""
 
     offset: int
     value: float
 
     def evaluate(self, values: Mapping[str, Value]) -> Value:  # noqa: ARG002 - every node takes the values
-        """Its value."""
+        """Value of the number."""
         return self.value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Name:
-    """A symbol: a constant, an input or another measure."""
+    """Symbol: a constant, an input or another measure."""
 
     offset: int
     id: str
 
     def evaluate(self, values: Mapping[str, Value]) -> Value:
-        """The symbol's value."""
+        """Value of the symbol."""
         return values[self.id]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Negative:
-    """The negative of a value."""
+    """Negation of a value."""
 
     offset: int
     operand: Node
 
     def evaluate(self, values: Mapping[str, Value]) -> Value:
-        """Minus the operand, entry by entry."""
+        """Negated operand, element-wise."""
         value = self.operand.evaluate(values)
         if isinstance(value, tuple):
             return tuple(None if entry is None else -entry for entry in value)
@@ -77,7 +77,7 @@ class Negative:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Binary:
-    """A sum, difference, product or quotient; `symbol` is one of ``+ - * /``."""
+    """Sum, difference, product or quotient; `symbol` is one of ``+ - * /``."""
 
     offset: int
     symbol: str
@@ -85,34 +85,34 @@ class Binary:
     right: Node
 
     def evaluate(self, values: Mapping[str, Value]) -> Value:
-        """The result, entry by entry; a number goes with each entry of a row."""
+        """Element-wise result; numbers are broadcast over rows."""
         compute = OPERATORS[self.symbol]
         return _combine(compute, self.left.evaluate(values), self.right.evaluate(values))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Power:
-    """A value to a power that is written as a plain number."""
+    """Power with a plain number as exponent."""
 
     offset: int
     base: Node
     exponent: float
 
     def evaluate(self, values: Mapping[str, Value]) -> Value:
-        """The power, entry by entry."""
+        """Element-wise power."""
         return _combine(math.pow, self.base.evaluate(values), self.exponent)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Call:
-    """A call of one of the listed functions."""
+    """Call of one of the listed functions."""
 
     offset: int
     function: str
     arguments: tuple[Node, ...]
 
     def evaluate(self, values: Mapping[str, Value]) -> Value:
-        """The function's result."""
+        """Result of the function."""
         return FUNCTIONS[self.function].evaluate(tuple(argument.evaluate(values) for argument in self.arguments))
 
 
@@ -121,10 +121,10 @@ Node = Number | Name | Negative | Binary | Power | Call
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Expression:
-    """An expression that was read.
+    """Parsed expression.
 
     Attributes:
-        text: As it is written.
+        text: Its text.
         root: Its tree.
         names: The symbols in it, each once, in the order of their first use, with the offset
             of that use.
@@ -135,15 +135,14 @@ class Expression:
     names: Mapping[str, int]
 
     def evaluate(self, values: Mapping[str, Value]) -> Value:
-        """Compute it.
+        """Evaluate the expression.
 
         Args:
             values: The value of each of its symbols, in SI. Numbers are floats; None is unknown.
 
         Returns:
-            The value in SI. It is None, or has None for an entry, where something that it
-            needs is unknown or the arithmetic is not defined (a division by zero, the root of
-            a negative number, a result that is not finite).
+            The value in SI. It is None, or has None entries, where an operand is unknown or the arithmetic is undefined
+            (division by zero, root of a negative number, non-finite result).
         """
         return self.root.evaluate(values)
 

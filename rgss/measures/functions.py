@@ -1,4 +1,4 @@
-"""The functions that an expression may call; a file cannot add one."""
+"""Functions available in expressions."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from enum import Enum
 from types import MappingProxyType
 
 Value = float | None | tuple[float | None, ...]
-"""A number or a row of numbers in SI; None where the value, or an entry of it, is unknown."""
+"""A number or a row of numbers in SI; None for an unknown value or entry."""
 
 
 class Shape(Enum):
@@ -26,11 +26,11 @@ class Function:
 
     Attributes:
         name: Its name in an expression.
-        shape: What it takes: one value, entry by entry; one row, reduced to a number; or
-            several numbers or one row, of which it picks the extreme.
+        shape: Its arguments: one value, element-wise; one row, reduced to a number; or several numbers or one row,
+        reduced to the extreme.
         dimension_power: The result's dimension as a power of the argument's.
-        compute: The function itself, on a number (entry by entry) or on a row of known numbers.
-        skips_unknown: Whether a reduction takes the known entries and passes over the others.
+        compute: The function of a number (element-wise) or of a row of known numbers.
+        skips_unknown: True if a reduction skips unknown entries.
     """
 
     name: str
@@ -40,7 +40,7 @@ class Function:
     skips_unknown: bool = False
 
     def evaluate(self, arguments: tuple[Value, ...]) -> Value:
-        """Call it; an unknown argument, or an undefined result, makes the result unknown."""
+        """Apply the function; an unknown argument or undefined result gives None."""
         if self.shape is Shape.ENTRY_BY_ENTRY:
             (argument,) = arguments
             if isinstance(argument, tuple):
@@ -57,7 +57,7 @@ class Function:
 
 
 def defined(compute: Callable[..., float], *arguments: float | list[float]) -> float | None:
-    """The result of a computation; None where it is not defined or not finite."""
+    """Result of a computation; None if undefined or not finite."""
     try:
         result = compute(*arguments)
     except (ZeroDivisionError, OverflowError, ValueError):
@@ -92,4 +92,4 @@ FUNCTIONS: Mapping[str, Function] = MappingProxyType(
         )
     }
 )
-"""Every function by its name; ``count`` is the number of known entries of a row."""
+"""The functions by name; ``count`` is the number of known entries of a row."""

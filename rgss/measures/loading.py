@@ -1,4 +1,4 @@
-"""Reading a measures file."""
+"""Loader of measures files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Confidence limits of a mean that assume no shape, only a range of the values."""
+"""Distribution-free confidence limits of a mean of bounded values."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from functools import lru_cache
 from statistics import NormalDist
 
 UNSEEN_FACTOR = 10.0
-"""Without a declared bound, a value that was not seen has at most so many times the mean size of those that were."""
+"""Assumed bound without a declared one, as a multiple of the mean absolute value of the observations."""
 
 MOST_EXACT = 64
-"""Of at most so many values the tail is exact; of more it is a saddlepoint approximation."""
+"""Greatest number of values for the exact tail; for more a saddlepoint approximation is used."""
 
 _TAIL_TOLERANCE = 1e-10
 _DIGITS = 9
@@ -21,25 +21,24 @@ _MOST_STEPS = 200
 def mean_limits(
     values: Sequence[float], *, least: float | None, most: float | None, tail: float
 ) -> tuple[float | None, float | None]:
-    """One-sided confidence limits of the mean, each wrong with at most the probability of its tail.
+    """One-sided confidence limits of the mean, each with at most the tail probability of failure.
 
-    The upper limit is the quantile of ``Σ w_i x_(i)`` over the order statistics and the upper bound,
-    with weights uniform on the simplex (Gaffke, "Three test statistics for a nonparametric one-sided
-    hypothesis on the mean of a nonnegative variable", 2005; Learned-Miller and Thomas, "A new
-    confidence interval for the mean of a bounded random variable", 2019): the Bayesian bootstrap
-    with one more observation at the bound. The lower limit mirrors it. Of values that are all 0 or 1
-    it is the limit of Clopper and Pearson. Its coverage is proven in Vlassis
-    and Thomas, "An exact distribution-free test for means of nonnegative random variables", 2026.
+    The upper limit is the quantile of ``Σ w_i x_(i)`` over the order statistics and the upper bound, with weights
+    uniform on the simplex (Gaffke, "Three test statistics for a nonparametric one-sided hypothesis on the mean of a
+    nonnegative variable", 2005; Learned-Miller and Thomas, "A new confidence interval for the mean of a bounded random
+    variable", 2019): the Bayesian bootstrap with one more observation at the bound. The lower limit is mirrored. For
+    values that are all 0 or 1 it equals the Clopper-Pearson limit. Its coverage is proven in Vlassis and Thomas, "An
+    exact distribution-free test for means of nonnegative random variables", 2026.
 
     Args:
         values: The observations; not empty.
-        least: The least possible value; None where none is known.
-        most: The greatest possible value; None where none is known.
+        least: The least possible value; None if unknown.
+        most: The greatest possible value; None if unknown.
         tail: Probability beyond each limit.
 
     Returns:
-        The lower and the upper limit; None on a side without a bound where there is one value only,
-        or where the assumed bound is beyond all numbers.
+        The lower and the upper limit; None on a side without a bound if there is only one value, or if the assumed
+        bound exceeds the range of floats.
     """
     seen = tuple(sorted(values))
     size = math.fsum(abs(each) / len(seen) for each in seen)
@@ -54,13 +53,13 @@ def mean_limits(
 
 @lru_cache(maxsize=4_096)
 def _upper_limit(seen: tuple[float, ...], bound: float, tail: float) -> float:
-    """The upper limit from values in ascending order and a bound that none exceeds."""
+    """Upper limit from values in ascending order and an upper bound."""
     count = len(seen)
     mean = math.fsum(each / count for each in seen)
     if bound <= seen[0]:
         return bound
     probability = _exact_tail if count <= MOST_EXACT else _saddlepoint_tail
-    # By Brunn and Minkowski's inequality this power of the tail is concave: regula falsi needs few steps.
+    # By the Brunn-Minkowski inequality this power of the tail is concave: regula falsi needs few steps.
     power = 1.0 / count
 
     def height(limit: float) -> float:
@@ -71,12 +70,12 @@ def _upper_limit(seen: tuple[float, ...], bound: float, tail: float) -> float:
 
 
 def _root(height: Callable[[float], float], low: float, high: float, *, below: float) -> float:
-    """The root of a decreasing function by regula falsi with halved ends (Illinois).
+    """Root of a decreasing function by the Illinois variant of regula falsi.
 
     Args:
         height: The function.
-        low: Where it is above 0; that is the answer if it is not.
-        high: Where it is ``below``.
+        low: Point with a positive value; returned if the value is not positive.
+        high: Point with the value ``below``.
         below: The function's value at the upper end.
     """
     at_low, at_high, side = height(low), below, 0
@@ -100,12 +99,12 @@ def _root(height: Callable[[float], float], low: float, high: float, *, below: f
 
 
 def _exact_tail(seen: tuple[float, ...], bound: float, limit: float) -> float:
-    """The probability that the mean with uniform weights exceeds a limit.
+    """Probability that the mean with uniform weights exceeds a limit.
 
-    Uniform weights are exponential ones over their sum, so that it is the probability that
-    ``Σ a_i E_i`` of what lies above, with ``a_i = x_i - limit``, exceeds ``Σ b_j E_j`` of what lies
-    below. Exponential variables have no memory: of the last two, ``a E`` is the larger with
-    probability ``a / (a + b)``, and its excess is distributed as itself. Sums of positive terms only.
+    Uniform weights are exponential variables divided by their sum, so it is the probability that ``Σ a_i E_i`` of the
+    values above the limit, with ``a_i = x_i - limit``, exceeds ``Σ b_j E_j`` of those below. Exponential variables are
+    memoryless: of the last two, ``a E`` is the larger with probability ``a / (a + b)``, and its excess has the same
+    distribution. All summands are positive.
     """
     above = [each - limit for each in (*seen, bound) if each > limit]
     below = [limit - each for each in seen if each < limit]
@@ -119,7 +118,7 @@ def _exact_tail(seen: tuple[float, ...], bound: float, limit: float) -> float:
 
 
 def _saddlepoint_tail(seen: tuple[float, ...], bound: float, limit: float) -> float:
-    """The same by Lugannani and Rice's formula (1980), for many values."""
+    """The same probability by the Lugannani-Rice formula (1980), for many values."""
     import numpy as np
 
     steps = np.array((*seen, bound)) - limit

@@ -1,4 +1,4 @@
-"""Parser of expressions, with every refused construct at its place."""
+"""Parser of expressions, with a finding for every rejected construct."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _NUMBER_LIKE = re.compile(r"(?<![\w.])\.?[0-9](?:[\w.]|(?<=[eE])[+-](?=[0-9]))*"
 _NUMBER = re.compile(r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _ALLOWED = f"numbers, symbols, + - * / **, parentheses, and calls of {', '.join(FUNCTIONS)}"
 _TOO_DEEP = f"nested more than {DEEPEST_NESTING} deep"
-_SPLIT = "split it into measures of their own"
+_SPLIT = "split it into several measures"
 _OPERATORS: tuple[tuple[type[ast.operator], str], ...] = (
     (ast.Add, "+"),
     (ast.Sub, "-"),
@@ -49,11 +49,11 @@ _REFUSED: tuple[tuple[type[ast.AST], str], ...] = (
 
 
 def parse_expression(text: str) -> Expression | tuple[ExpressionProblem, ...]:
-    """Read an expression.
+    """Parse an expression.
 
     Args:
-        text: One line: numbers, symbols, ``+ - * /``, ``**`` with a small number as exponent,
-            unary minus, parentheses, and calls of the listed functions.
+        text: One line: numbers, symbols, ``+ - * /``, ``**`` with a small number as exponent, unary minus, parentheses,
+            and calls of the listed functions.
 
     Returns:
         The expression, or every problem found in it.
@@ -84,7 +84,7 @@ def _unreadable(text: str) -> ExpressionProblem | None:
         return _problem(0, f"longer than {LONGEST_EXPRESSION} characters", _SPLIT)
     refused = _REFUSED_CHARACTER.search(text)
     if refused is not None:
-        return _problem(refused.start(), f"{refused.group()!r} has no place in an expression", f"write {_ALLOWED}")
+        return _problem(refused.start(), f"{refused.group()!r} is not allowed in an expression", f"write {_ALLOWED}")
     if not text:
         return _problem(0, "the expression is empty")
     for number in _NUMBER_LIKE.finditer(text):
@@ -94,7 +94,7 @@ def _unreadable(text: str) -> ExpressionProblem | None:
 
 
 class _Reader:
-    """Converter of Python's tree into ours, which collects problems and names."""
+    """Converter of Python's syntax tree, which collects problems and names."""
 
     def __init__(self) -> None:
         self.problems: list[ExpressionProblem] = []

@@ -1,4 +1,4 @@
-"""Ratio of means, such as picks per hour: total over total, not the mean of the trials' ratios."""
+"""Ratio of means, such as picks per hour: total divided by total, not the mean of the trials' ratios."""
 
 from __future__ import annotations
 
@@ -15,16 +15,17 @@ QUOTIENT = "/"
 def ratio_values(measure: Measure, rows: Sequence[Mapping[str, Value]]) -> list[float | None]:
     """Linearised values of a ratio of means, whose mean is the ratio.
 
-    Of numerators a and denominators b with means ā and b̄, r = ā/b̄ and the values are r + (a - r b) / b̄: their mean
-    is r, and their variance over n is the variance of r to the first order (delta method; Cochran 1977, section 2.11).
+    For numerators a and denominators b with means ā and b̄, r = ā/b̄ and the values are r + (a - r b) / b̄: their mean
+    is r, and their variance divided by n is the variance of r to first order (delta method; Cochran 1977, section
+    2.11).
 
     Args:
-        measure: A measure that is estimated as a ratio, so that its expression is a quotient.
+        measure: A measure estimated as a ratio, with a quotient as expression.
         rows: Value of every symbol in each trial, in SI.
 
     Returns:
-        A value in the measure's unit for each row; None for those in which numerator or denominator is unknown, and
-        for all where the denominators sum to 0.
+        A value in the measure's unit for each row; None for those with an unknown numerator or denominator, and for all
+        if the denominators sum to 0.
     """
     root = measure.expression.root
     if not isinstance(root, Binary) or root.symbol != QUOTIENT:

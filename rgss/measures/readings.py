@@ -1,4 +1,4 @@
-"""Alternative readings of a measure's source, and the simulated twin of a measure that is an equation."""
+"""Alternative interpretations of a measure's source, and the simulated counterpart of an equation measure."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from rgss.quantities import dimension
 Rebuild = Callable[[LoadedDocument[MeasuresDocument]], "MeasureSet | list[Finding]"]
 
 _NOT_ASKED = "measures.contribution"
-"""An alternative may leave out what contributes to the measure as the source defines it."""
+"""Rules that do not apply to alternatives, which may omit contributing measures."""
 
 
 def with_readings(
     measures: MeasureSet, loaded: LoadedDocument[MeasuresDocument], rebuild: Rebuild
 ) -> MeasureSet | list[Finding]:
-    """The measures with their alternatives and simulated twins, or every problem of these.
+    """Measures with their alternatives and simulated counterparts, or every problem of these.
 
     Args:
-        measures: The measures, consistent as they are.
+        measures: The consistent measures.
         loaded: The file's entries with their positions.
-        rebuild: Builds the measures of other entries; each alternative is checked as if the file had it.
+        rebuild: Function that builds measures from entries; each alternative is checked as if it were in the file.
     """
     findings: list[Finding] = []
     found: dict[str, Measure] = {}
@@ -50,7 +50,7 @@ def with_readings(
 
 
 def with_alternative(measures: MeasureSet, measure: str, alternative: str) -> MeasureSet:
-    """The measures with one of them read in another way; what depends on it follows.
+    """Measures with an alternative of one of them; dependent measures follow.
 
     Args:
         measures: The measures.
@@ -58,7 +58,7 @@ def with_alternative(measures: MeasureSet, measure: str, alternative: str) -> Me
         alternative: Id of the alternative.
 
     Raises:
-        DefinitionError: There is no such measure or alternative, or measures would depend on one another in a circle.
+        DefinitionError: The measure or alternative is unknown, or measures would depend on each other in a cycle.
     """
     read = measures.measure(measure)
     known = {one.id: one for one in read.alternatives}
@@ -74,8 +74,8 @@ def with_alternative(measures: MeasureSet, measure: str, alternative: str) -> Me
     )
     if cycles:
         raise DefinitionError(
-            f"measures would depend on one another in a circle: {' → '.join(cycles[0])}",
-            hint="take one of the alternatives at a time",
+            f"measures would depend on each other in a cycle: {' → '.join(cycles[0])}",
+            hint="use one alternative at a time",
         )
     return replace(
         measures,
@@ -86,7 +86,7 @@ def with_alternative(measures: MeasureSet, measure: str, alternative: str) -> Me
 
 
 def _alternative(entry: MeasureEntry, alternative: AlternativeEntry) -> Alternative | None:
-    """An alternative as it was read; None where its expression cannot be, which is among the findings."""
+    """Parsed alternative; None if its expression is invalid, which has a finding."""
     expression = parse_expression(alternative.expression or entry.expression)
     if not isinstance(expression, Expression):
         return None
@@ -108,12 +108,12 @@ def _twin_findings(
     known = {one.id: one for one in measures.measures}
     problem, hint = "", ""
     if twin not in known or twin == entry.id:
-        problem, hint = f"{twin!r} is not another measure", "name the measure that the simulation shows"
+        problem, hint = f"{twin!r} is not another measure", "name a measure that is computed from trials"
     elif dimension(known[twin].unit) != dimension(entry.unit):
         problem = f"{twin!r} is measured in {known[twin].unit!r}, {entry.id!r} in {entry.unit!r}"
         hint = "name a measure of the same quantity"
     elif known[twin].estimate is None:
-        problem = f"{twin!r} follows from the design alone; no simulation shows it"
+        problem = f"{twin!r} depends only on the design, not on simulation"
         hint = "name a measure that is computed from trials"
     elif known[twin].length is not None and known[twin].summary is None:
         problem = f"{twin!r} is a row"
@@ -145,7 +145,7 @@ def _alternative_findings(
 def _read_as(
     loaded: LoadedDocument[MeasuresDocument], index: int, alternative: AlternativeEntry
 ) -> LoadedDocument[MeasuresDocument]:
-    """The entries as they would be if the file had the alternative in place of the measure's own definition."""
+    """Entries with the alternative in place of the measure's definition."""
     entry = loaded.value.measures[index]
     changes = {
         "expression": alternative.expression or entry.expression,

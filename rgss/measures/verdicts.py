@@ -1,4 +1,4 @@
-"""Verdict of an estimate on a criterion."""
+"""Verdict of a criterion from an estimate."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rgss.requirements import Criterion, Statistic
 
 
 class Verdict(str, Enum):
-    """Verdict of the evidence on a requirement."""
+    """Verdict of a requirement from evidence."""
 
     MET = "met"
     NOT_MET = "not_met"
@@ -20,22 +20,22 @@ class Verdict(str, Enum):
 
 
 class StaleCause(str, Enum):
-    """Cause of staleness: the input that changed since the evidence was made."""
+    """Cause of staleness: the changed input of the evidence."""
 
     REQUIREMENT = "requirement"
-    """The requirement: its sentence, its criterion or how it is verified."""
+    """The requirement: its text, its criterion or its verification method."""
     MEASURE = "measure"
-    """The definition of its measure, or of anything that the measure is computed from."""
+    """The definition of its measure, or of one of its dependencies."""
     MODEL = "model"
-    """What is simulated: the design, the scene, the study's settings."""
+    """Inputs of the simulation: design, scene, settings of the study."""
     CODE = "code"
-    """The source of rgss that makes trials."""
+    """The source code of rgss for trials."""
     ENGINES = "engines"
     """The version of an engine."""
 
 
 def meets(criterion: Criterion, value: float, unit: str) -> bool:
-    """True if one value satisfies a criterion, whatever its statistic.
+    """True if a value satisfies a criterion, regardless of its statistic.
 
     A value within `rgss.requirements.RELATIVE_TOLERANCE` of the threshold counts as equal to it.
 
@@ -45,35 +45,33 @@ def meets(criterion: Criterion, value: float, unit: str) -> bool:
         unit: Its unit.
 
     Raises:
-        DefinitionError: The value's unit measures something else than the threshold's.
+        DefinitionError: The dimensions of the value's and the threshold's units differ.
     """
     try:
         threshold = criterion.threshold_in(unit)
     except QuantityError as error:
         raise DefinitionError(
-            f"criterion {criterion} cannot judge a value in {unit!r}", hint="correct the threshold's unit"
+            f"the value must be in a unit of criterion {criterion}, got {unit!r}", hint="correct the threshold's unit"
         ) from error
     return criterion.comparison.holds(value, threshold)
 
 
 def judge(criterion: Criterion, estimate: Estimate, *, stale: bool = False) -> Verdict:
-    """Judge an estimate of a criterion's measure.
+    """Verdict of a criterion from an estimate of its measure.
 
-    A criterion on the value is met only when the value and the far end of its interval keep the
-    threshold, and not met only when the value and the near end miss it; otherwise, and where that
-    end is unknown (one trial), the evidence is inconclusive. An end is wrong in at most 2.5 % of
-    studies, so a verdict of met, or of not met, is too. A criterion on an end of the interval is met
-    or not by that end alone.
+    A criterion on the value is met only if the value and the unfavourable limit of its interval satisfy the threshold,
+    and not met only if the value and the favourable limit violate it; otherwise, and if that limit is unknown (one
+    trial), it is inconclusive. A limit fails in at most 2.5 % of studies, so a verdict of met or not met does too. A
+    criterion on a limit of the interval is decided by that limit only.
 
     Args:
         criterion: The criterion.
-        estimate: The estimate of its measure from the evidence that holds now.
-        stale: Whether there is evidence for the verdict, but something that it
-            depends on changed since; see `StaleCause`. Such a verdict is stale, whatever else
-            is known; without any evidence, old or new, it is not run.
+        estimate: The estimate of its measure from current evidence.
+        stale: True if evidence exists, but an input has changed since; see `StaleCause`. The verdict is then stale in
+            any case; without any evidence it is not run.
 
     Raises:
-        DefinitionError: The estimate's unit measures something else than the threshold's.
+        DefinitionError: The dimensions of the estimate's and the threshold's units differ.
     """
     if stale:
         return Verdict.STALE

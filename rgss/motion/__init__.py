@@ -1,4 +1,4 @@
-"""Motion: planning by random trees on a counted clock, shortening, smoothing and timing of paths."""
+"""Motion planning with a counted clock; simplification, blending and timing of paths."""
 
 from rgss.motion.blending import SmoothPath, blend
 from rgss.motion.clock import ClockKind, PlanningClock

@@ -1,4 +1,4 @@
-"""Rounding the corners of a joint path, so that a move does not stop at each of them."""
+"""Blending of the corners of a joint path, so that a move does not stop at each of them."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _BEZIER = np.array(
 # Distances of the control points from the corner as fractions of the blend's reach: with equal steps along
 # both tangents the curve has unit speed and no curvature at its ends.
 _BLEND_OFFSETS = np.array([1.0, 0.6, 0.2])
-# How far a blend stays from its corner, as a fraction of reach × |difference of the directions|.
+# Deviation of a blend from its corner, as a fraction of reach × |difference of the directions|.
 _BLEND_DEPTH = 0.1875
 
 
@@ -42,7 +42,7 @@ _BLEND_DEPTH = 0.1875
 class SmoothPath:
     """A path in joint space with two continuous derivatives between its stops.
 
-    Piecewise quintic in a parameter s that is the arc length on straight pieces and near it on blends.
+    Piecewise quintic in a parameter s, which equals the arc length on straight pieces and approximates it on blends.
 
     Attributes:
         breaks: The parameter at the ends of the pieces, shape (pieces + 1,), from 0.
@@ -77,12 +77,12 @@ class SmoothPath:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class BlendedPath:
-    """A joint path with its corners rounded, and how that went.
+    """Result of the blending of a joint path.
 
     Attributes:
         path: The smooth path.
         is_valid: Whether every state that was checked along it is valid.
-        blended: Number of corners that are rounded.
+        blended: Number of blended corners.
         stops: Number of corners at which the motion comes to rest.
         checks: Number of validity checks.
     """
@@ -97,19 +97,18 @@ class BlendedPath:
 def blend(
     path: JointPath, validity: StateValidity, *, resolution_rad: float, largest_deviation_rad: float = 0.1
 ) -> BlendedPath:
-    """Round the corners of a path as far as that keeps it valid.
+    """Blend the corners of a path as far as it stays valid.
 
-    A corner between the directions u and v is replaced, from a reach r before it to r after it, by the
-    quintic Bézier curve that meets both segments with their direction and without curvature, so that the
-    path has two continuous derivatives. The curve stays within the triangle of the corner, 0.1875 r |v - u|
-    away from it. A blend that touches something is halved, up to six times; then, or where the path nearly
-    turns back, the motion stops at the corner.
+    A corner between the directions u and v is replaced, from a reach r before it to r after it, by the quintic Bézier
+    curve that meets both segments with their direction and without curvature, so that the path has two continuous
+    derivatives. The curve stays within the triangle of the corner, 0.1875 r |v - u| away from it. The reach of a blend
+    in collision is halved up to six times; after that, or if the path nearly reverses, the motion stops at the corner.
 
     Args:
         path: A valid polyline.
         validity: State-validity checker.
-        resolution_rad: Greatest distance between two checked states. The straight pieces are checked where
-            the polyline was, so that they are valid if it was; the blends four times as densely.
+        resolution_rad: Greatest distance between two checked states. The straight pieces are checked at the states of
+            the polyline, so that they are valid if it was; the blends four times as densely.
         largest_deviation_rad: Greatest distance of a blend from its corner.
 
     Raises:
@@ -142,7 +141,7 @@ def blend(
 
 
 def unblended(path: JointPath, validity: StateValidity, *, resolution_rad: float) -> BlendedPath:
-    """Keep the corners of a path: a motion along it comes to rest at each of them.
+    """Polyline as a smooth path with a stop at each corner.
 
     Args:
         path: A valid polyline.
@@ -164,7 +163,9 @@ def unblended(path: JointPath, validity: StateValidity, *, resolution_rad: float
 
 def _require_resolution(resolution_rad: float) -> None:
     if not resolution_rad > 0.0:
-        raise MotionError(f"a path cannot be checked every {resolution_rad:g} rad", hint="give a distance above zero")
+        raise MotionError(
+            f"the resolution must be above 0 rad, got {resolution_rad:g} rad", hint="give a distance above zero"
+        )
 
 
 class _Counter:
@@ -191,7 +192,7 @@ def _valid_reach(
         piece = _blend_piece(corner, incoming, outgoing, reach)
         count = max(2, math.ceil(2 * reach / (resolution_rad / _BLEND_DENSITY))) + 1
         powers = np.linspace(0.0, 2 * reach, count)[:, None] ** np.arange(6)
-        # A blend stays in the triangle of its corner, and so within the joints' ranges.
+        # A blend lies in the triangle of its corner, and so within the joint ranges.
         if counted.are_valid(powers @ piece):
             return reach
         reach /= 2
@@ -231,7 +232,7 @@ def _assemble(corners: Vector, directions: Vector, lengths: Vector, reaches: Vec
 
 
 def _straight_states(corners: Vector, lengths: Vector, reaches: Vector, resolution_rad: float) -> Vector:
-    """The states at which the polyline is checked, as far as they are not cut off by blends."""
+    """States at which the polyline is checked, without those that blends replace."""
     states = [corners[:1]]
     for index, length in enumerate(lengths):
         segment = segment_states(corners[index], corners[index + 1], resolution_rad)

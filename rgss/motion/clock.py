@@ -1,4 +1,4 @@
-"""Planning clock: the time that a search costs."""
+"""Planning clock: time charged for a search."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ class ClockKind(str, Enum):
 class PlanningClock:
     """Clock of the planning time of a search.
 
-    A counted clock charges the same time for each state-validity check, so that a seed gives the same
-    result on any machine. A wall clock measures, and its results differ from run to run.
+    A counted clock charges the same time for each state-validity check, so that a seed gives the same result on any
+    machine. A wall clock measures the time, and its results differ from run to run.
 
     Attributes:
         kind: Kind of the clock.
-        charge_s: What a counted clock charges for one check.
+        charge_s: Time that a counted clock charges for one check, in s.
 
     Raises:
-        MotionError: A counted clock charges nothing for a check.
+        MotionError: A counted clock charges zero or less for a check.
     """
 
     kind: ClockKind = ClockKind.COUNTED
@@ -39,28 +39,33 @@ class PlanningClock:
     def __post_init__(self) -> None:
         if self.kind is ClockKind.COUNTED and not self.charge_s > 0.0:
             raise MotionError(
-                f"a planning clock cannot charge {self.charge_s:g} s for a check",
-                hint="charge more than zero, or use the wall clock",
+                f"the charge of a counted clock must be above 0 s a check, got {self.charge_s:g} s",
+                hint="give a time above zero, or use the wall clock",
             )
 
     def checks_within(self, limit_s: float) -> int:
-        """Number of checks that fit into a time; their time is at most the limit.
+        """Greatest number of checks whose time is at most a limit.
 
         Args:
-            limit_s: The time, inclusive.
+            limit_s: The limit in s, inclusive.
 
         Raises:
             MotionError: The limit is negative, or the clock does not count.
         """
         if self.kind is ClockKind.WALL:
-            raise MotionError("a wall clock cannot tell how many checks fit into a time", hint="use a counted clock")
+            raise MotionError(
+                "the number of checks within a limit needs a counted clock, got a wall clock",
+                hint="use a counted clock",
+            )
         if not 0.0 <= limit_s < math.inf:
-            raise MotionError(f"a planning time of {limit_s:g} s is no limit", hint="give a time of zero or more")
+            raise MotionError(
+                f"the planning time must be at least 0 s, got {limit_s:g} s", hint="give a time of zero or more"
+            )
         # 4 s at 0.1 ms are 40,000 checks, although 4 / 0.0001 is less in binary.
         return math.floor(limit_s / self.charge_s * (1 + 1e-12))
 
     def time_s(self, checks: int) -> float:
-        """Time that a number of checks takes.
+        """Time in s charged for a number of checks.
 
         Args:
             checks: Number of state-validity checks.
@@ -69,7 +74,9 @@ class PlanningClock:
             MotionError: The clock does not count.
         """
         if self.kind is ClockKind.WALL:
-            raise MotionError("a wall clock charges nothing for a check", hint="use a counted clock")
+            raise MotionError(
+                "the time of a number of checks needs a counted clock, got a wall clock", hint="use a counted clock"
+            )
         return checks * self.charge_s
 
     def start(self) -> Callable[[int], float]:

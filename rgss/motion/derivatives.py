@@ -1,4 +1,4 @@
-"""Derivatives of a path with respect to its parameter: of the joints, and of the tool centre that they move."""
+"""Derivatives of joint angles and tool centre with respect to the path parameter."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class PathDerivatives:
     tool_second: Vector
 
     def every(self, stride: int) -> PathDerivatives:
-        """Those at every stride-th point, from the first on."""
+        """Derivatives at every stride-th point, from the first on."""
         return PathDerivatives(
             first=self.first[::stride],
             second=self.second[::stride],
@@ -40,9 +40,10 @@ class PathDerivatives:
 
 
 def path_derivatives(path: SmoothPath, parameters: Vector, tool: ToolKinematics) -> PathDerivatives:
-    """The derivatives, without any difference quotient: where the path bends sharply these are a tenth off.
+    """Derivatives in closed form.
 
-    With p' = Σ_i v_i q'_i from the columns (v_i, ω_i) of the Jacobian in the order of the joints along the arm,
+    Difference quotients have errors of 10 % where the path bends sharply. With p' = Σ_i v_i q'_i from the columns (v_i,
+    ω_i) of the Jacobian in the order of the joints along the arm,
 
         p'' = Σ_i v_i q''_i + Σ_i Σ_k ω_min(i,k) × v_max(i,k) q'_i q'_k,
 
@@ -51,13 +52,13 @@ def path_derivatives(path: SmoothPath, parameters: Vector, tool: ToolKinematics)
 
     Args:
         path: The path.
-        parameters: Points s of it, shape (n,).
+        parameters: Path parameters s, shape (n,).
         tool: Kinematics of the tool centre.
     """
     first, second = path(parameters, 1), path(parameters, 2)
     jacobians = np.array([tool.tool_jacobian(q) for q in path(parameters)])
     shifts, spins = jacobians[:, :3] * first[:, None, :], jacobians[:, 3:] * first[:, None, :]
-    # The spin of the joints before each one, and half of its own, since the double sum has each pair twice.
+    # The angular velocity of the joints before each one, and half of its own: the double sum has each pair twice.
     carrying = np.cumsum(spins, axis=2) - 0.5 * spins
     bending = 2.0 * np.sum(np.cross(carrying, shifts, axis=1), axis=2)
     return PathDerivatives(

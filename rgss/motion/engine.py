@@ -1,4 +1,4 @@
-"""Loading of OMPL, in this module alone, with a workaround for its crash at exit."""
+"""Lazy import of OMPL, with a workaround for its crash at exit."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ class Engine(NamedTuple):
 
 @lru_cache(maxsize=1)
 def load_engine() -> Engine:
-    """Import OMPL on first use, with its log silent.
+    """Import OMPL on first use and silence its log.
 
-    The loader of the 1.7.0 wheel opens a second copy of libompl beside the one that the extension
-    modules link, and the interpreter then crashes at exit with status 134 or 139. The extension
-    modules need no help to find their library, so the loader is switched off before they are imported.
+    The loader of the 1.7.0 wheel opens a second copy of libompl beside the one that the extension modules link, and the
+    interpreter then crashes at exit with status 134 or 139. The extension modules find their library without it, so the
+    loader is disabled before they are imported.
     """
     import ompl
 

@@ -30,26 +30,29 @@ class MotionLimits:
     def __post_init__(self) -> None:
         if len(self.speed_rad_s) != len(self.acceleration_rad_s2):
             raise MotionError(
-                f"there are {len(self.speed_rad_s)} joint speeds but {len(self.acceleration_rad_s2)} accelerations",
+                f"joint speed and acceleration limits must be equally many, got {len(self.speed_rad_s)} "
+                f"and {len(self.acceleration_rad_s2)}",
                 hint="give one of each for every joint",
             )
         values = (*self.speed_rad_s, *self.acceleration_rad_s2, self.tool_speed_m_s, self.tool_acceleration_m_s2)
         if not all(value > 0.0 for value in values):
-            raise MotionError(f"a motion cannot keep a limit of {min(values):g}", hint="let every limit be above zero")
+            raise MotionError(
+                f"motion limits must be positive, got {min(values):g}", hint="give every limit a value above zero"
+            )
 
 
 def require_joints(limits: MotionLimits, joints: int) -> None:
-    """Check that limits are for the joints of a path.
+    """Require one limit for each joint of a path.
 
     Args:
         limits: The limits.
         joints: Number of joints of the path.
 
     Raises:
-        MotionError: They are for another number of joints.
+        MotionError: The numbers of joints differ.
     """
     if len(limits.speed_rad_s) != joints:
         raise MotionError(
-            f"the path has {joints} joints, but there are limits for {len(limits.speed_rad_s)}",
+            f"the limits must be for {joints} joints, those of the path, got limits for {len(limits.speed_rad_s)}",
             hint="give limits for every joint",
         )

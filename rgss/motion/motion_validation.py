@@ -1,4 +1,4 @@
-"""Validation of straight motions between two states as in OMPL, with fewer calls into the engine."""
+"""Discrete validation of straight motions, equivalent to OMPL's, with fewer calls into the engine."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ def motion_validator(
     is_valid: Callable[[Sequence[float]], bool],
     first_invalid: Callable[[Vector], int | None],
 ) -> Any:
-    """A motion validator that finds what the engine's own ``DiscreteMotionValidator`` finds, check for check.
+    """Motion validator with the results and check counts of OMPL's ``DiscreteMotionValidator``.
 
-    The engine's own hands each state between the two to Python, where it is read joint by joint, which
-    takes a third of the time of a check. Here the two ends are read and what is between them is
-    computed at once, by the same arithmetic and in the same order.
+    OMPL's own passes each intermediate state to Python, where it is read joint by joint; that takes a third of the time
+    of a check. Here only the two ends are read; the states between are computed at once, by the same arithmetic and in
+    the same order.
 
     Args:
         engine: The planning engine.
@@ -38,10 +38,10 @@ def motion_validator(
     space = information.getStateSpace()
 
     class StraightMotion(engine.base.MotionValidator):  # type: ignore[misc, name-defined]
-        """Straight motions of a real vector space, checked state by state."""
+        """OMPL motion validator for straight motions of a real vector space."""
 
         def checkMotion(self, start: Any, end: Any, last_valid: Any = None) -> bool:  # noqa: N802 - the engine's name
-            """True if a motion is valid; with a third argument, put into it how far it is."""
+            """True if a motion is valid; a third argument receives the last valid state and its fraction."""
             pieces = space.validSegmentCount(start, end)
             if last_valid is not None:
                 return self._is_valid_until(start, end, pieces, last_valid)
@@ -79,7 +79,7 @@ def _rising(pieces: int) -> Vector:
 
 @lru_cache(maxsize=4096)
 def _halving(pieces: int) -> Vector:
-    """The same by halving, so that a bad motion is found out early; the order is the engine's."""
+    """The same fractions in bisection order, OMPL's, so that an invalid motion is detected early."""
     order: list[int] = []
     spans = [(1, pieces - 1)] if pieces > 1 else []
     for low, high in spans:

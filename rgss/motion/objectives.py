@@ -9,11 +9,11 @@ from rgss.motion.engine import Engine
 
 
 def objective_of(engine: Engine, information: Any, cost_of: Callable[[Any], float] | None) -> Any:
-    """An objective whose cost threshold any path meets, so that a planner ends at its first path.
+    """Optimisation objective whose cost threshold any path meets, so that a planner ends at its first path.
 
-    Without a cost of states it is the length of the path in rad. With the cost c it is the *mechanical work* of
-    Jaillet, Cortés and Siméon (2010), the criterion that TRRT is made for: the sum of the increases of c along the
-    path, to which OMPL adds 1e-5 of its length.
+    Without a cost of states it is the path length in rad. With the cost c it is the *mechanical work* of Jaillet,
+    Cortés and Siméon (2010), the criterion of TRRT: the sum of the increases of c along the path, to which OMPL adds
+    1e-5 of its length.
 
     Args:
         engine: The planning engine.
@@ -25,7 +25,7 @@ def objective_of(engine: Engine, information: Any, cost_of: Callable[[Any], floa
         made = base.PathLengthOptimizationObjective(information)
     else:
         made = _work_against(engine, information, cost_of)
-    # A planner that improves paths would go on to its limit, and a shorter limit could not be read off the search.
+    # An optimising planner would run to its limit, and the result under a shorter limit would be unknown.
     made.setCostThreshold(base.Cost(float("inf")))
     return made
 
@@ -34,7 +34,7 @@ def _work_against(engine: Engine, information: Any, cost_of: Callable[[Any], flo
     base = engine.base
 
     class WorkAgainstCost(base.MechanicalWorkOptimizationObjective):  # type: ignore[misc, name-defined]
-        """Increases of a cost of states."""
+        """Mechanical-work objective over a cost of states."""
 
         def stateCost(self, state: Any) -> Any:  # noqa: N802 - the engine's name
             """The cost of a state."""

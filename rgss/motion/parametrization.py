@@ -1,4 +1,4 @@
-"""The time-optimal rate along a path, by reachability analysis (toppra)."""
+"""Time-optimal path parameterisation by reachability analysis (toppra)."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class RateConstraints:
 
 
 def fastest_rates(grid: Vector, largest_squares: Vector, constraints: list[RateConstraints]) -> Vector | None:
-    """Find the fastest motion along a path, from rest to rest.
+    """Fastest motion along a path, from rest to rest.
 
     Source: H. Pham, Q.-C. Pham, "A New Approach to Time-Optimal Path Parameterization Based on Reachability
     Analysis", IEEE T-RO 34(3), 2018.

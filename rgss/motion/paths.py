@@ -39,7 +39,7 @@ def path_length(positions: ArrayLike) -> float:
 
 
 def segment_states(start: Vector, end: Vector, resolution_rad: float, *, density: int = 1) -> Vector:
-    """Evenly spaced states after the start of a segment up to its end, no further apart than the resolution.
+    """Evenly spaced states of a segment, without its start, at most the resolution apart.
 
     Args:
         start: First end, not itself among the states.
@@ -56,7 +56,7 @@ def segment_states(start: Vector, end: Vector, resolution_rad: float, *, density
 
 @lru_cache(maxsize=1024)
 def coarse_to_fine(count: int) -> tuple[int, ...]:
-    """The indices 0..count-1, the last first and then by halving, so that a bad segment is found out early.
+    """Indices 0..count-1 in bisection order, the last first, so that an invalid segment is detected early.
 
     Args:
         count: Number of indices.

@@ -1,4 +1,4 @@
-"""The table of planners as the installed OMPL declares them; ``python -m`` of this module writes it out."""
+"""Table of the planners of the installed OMPL; ``python -m`` of this module prints it."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ _FRACTIONS = ("0.5", "2.5", "12.5")
 
 
 def planner_table() -> dict[str, Any]:
-    """The planners of the installed OMPL that can be made for an arm's joint space, as plain data.
+    """Planners of the installed OMPL that can be constructed for an arm's joint space, as plain data.
 
-    Of each parameter it has OMPL's own default and range suggestion, and the type that OMPL's conversion accepts.
+    Each parameter has OMPL's default and range suggestion, and the type that OMPL's conversion accepts.
     """
     engine = load_engine()
     planners = {}
@@ -66,7 +66,7 @@ def _type_of(planner: Any, name: str, entry: dict[str, str]) -> ParameterType:
 
 
 def _keeps(planner: Any, name: str, text: str) -> bool:
-    """True if a parameter keeps a fraction that is set; an integer parameter truncates it."""
+    """True if a parameter stores a fraction; an integer parameter truncates it."""
     try:
         return bool(planner.params().setParam(name, text)) and planner.params()[name].getValue() == text
     except RuntimeError:  # a value that the setter refuses

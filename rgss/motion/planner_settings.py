@@ -1,6 +1,6 @@
-"""Planner settings: an OMPL planner with its parameters and its objective, and the use of an unverified path.
+"""Planner settings: OMPL planner, parameters, objective, and handling of an unverified path.
 
-They are data: modules that only pass them on do not depend on OMPL.
+Plain data, independent of OMPL.
 """
 
 from __future__ import annotations
@@ -10,9 +10,9 @@ from enum import Enum
 
 
 class Objective(str, Enum):
-    """Cost of a path that a planner keeps low.
+    """Optimisation objective of a planner.
 
-    The cost of a state is charged like a validity check; a path length is not, for it needs no query of the scene.
+    The cost of a state is charged like a validity check; a path length is not, since it needs no query of the scene.
     """
 
     PATH_LENGTH = "path_length"
@@ -28,7 +28,7 @@ class PlannerSettings:
         algorithm: Its class in ``ompl.geometric``.
         parameters: Name in OMPL's parameter set and value in SI of each parameter that is set, by name; OMPL's own
             default for every other.
-        objective: The cost that it keeps low; OMPL's own default if None.
+        objective: Its optimisation objective; OMPL's default if None.
     """
 
     algorithm: str
@@ -39,7 +39,7 @@ class PlannerSettings:
         object.__setattr__(self, "parameters", tuple(sorted(self.parameters)))
 
     def with_parameter(self, name: str, value: float) -> PlannerSettings:
-        """The same planner with another value of a parameter.
+        """Copy of the settings with another value of a parameter.
 
         Args:
             name: Its name in OMPL's parameter set.
@@ -49,12 +49,12 @@ class PlannerSettings:
 
     @property
     def has_no_cost(self) -> bool:
-        """True for a TRRT that accepts every transition, and so is an RRT."""
+        """True for a TRRT that accepts every transition and so is equivalent to an RRT."""
         return self.algorithm == "TRRT" and self.objective is None
 
 
 class OnUnverified(str, Enum):
-    """Use of a path that is not valid at the resolution of its verification."""
+    """Handling of a path that is not valid at its verification resolution."""
 
     FAIL = "fail"
     REPAIR = "repair"

@@ -1,4 +1,4 @@
-"""Planners of OMPL that can be run here."""
+"""Supported planners of OMPL."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ SOURCE_PLANNERS = ("RRT", "TRRT", "STRIDE")
 """The planners of the source's design space (Table 4.3)."""
 
 ROADMAP_PLANNERS = frozenset({"PRM", "PRMstar"})
-"""Planners whose roadmap is grown milestone by milestone, as OMPL's own driver looks for a solution by a wall clock."""
+"""Planners whose roadmap is grown milestone by milestone here, because OMPL's driver depends on a wall clock."""
 
 _COST_PLANNERS = frozenset({"TRRT", "FMT", "BFMT"})
-_TO_THE_LIMIT = "it goes on to its limit, so that a shorter limit cannot be read off its search"
+_TO_THE_LIMIT = "it always runs to its limit, so that the result under a shorter limit is unknown"
 
 _REFUSED: Mapping[str, str] = MappingProxyType(
     {
@@ -24,20 +24,20 @@ _REFUSED: Mapping[str, str] = MappingProxyType(
         "SST": _TO_THE_LIMIT,
         "SPARS": "it looks for a solution in a second thread, by a wall clock",
         "SPARStwo": "it looks for a solution in a second thread, by a wall clock",
-        "STRRTstar": "it needs a space of states with time",
+        "STRRTstar": "it needs a state space with time",
     }
 )
 
 
 @lru_cache(maxsize=1)
 def available_planners() -> Mapping[str, OmplPlanner]:
-    """The planners that can be run here, by name: those of the wheel without those that `refusal_of` names."""
+    """Names of the supported planners: those of the wheel that `refusal_of` does not exclude."""
     known = {name: planner for name, planner in ompl_planners().items() if name not in _REFUSED}
     return MappingProxyType(known)
 
 
 def refusal_of(name: str) -> str:
-    """The reason why a planner of OMPL cannot be run here; empty if it can, or is none of OMPL.
+    """Reason why a planner of OMPL is not supported; empty if it is supported or unknown.
 
     Args:
         name: A planner's class in ``ompl.geometric``.

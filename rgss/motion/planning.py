@@ -30,7 +30,7 @@ _SIMPLIFICATION_STREAM = 2
 _REPAIR_STREAM = 3
 
 
-# long function: the stages of one plan in order, each with what the clock makes of it.
+# long function: the stages of one plan in order, each with its charge to the clock.
 def plan(
     problem: PlanningProblem,
     validity: StateValidity,
@@ -46,10 +46,10 @@ def plan(
     cost: StateCost | None = None,
     on_graph: Callable[[SearchGraph], None] | None = None,
 ) -> PlanResult:
-    """Plan one move, verify the path that is found, and shorten it.
+    """Plan one move, verify the path found, and shorten it.
 
-    With a counted clock the result is a function of the arguments: neither the machine, nor the process, nor earlier
-    calls change it, and neither the budget nor the clock changes the path of a search that is solved.
+    With a counted clock the result is a function of the arguments, independent of machine, process and earlier calls;
+    budget and clock do not change the path of a solved search.
 
     Args:
         problem: The move.
@@ -57,14 +57,15 @@ def plan(
         planner: The planner with its parameters, or the name of one with OMPL's.
         seed: Seed of the search and of the simplification, at least 0.
         budget_checks: Greatest number of validity checks of search, verification and repair.
-        simplification_checks: Greatest number of validity checks of looking for shortcuts; 0 leaves the path as found.
+        simplification_checks: Greatest number of validity checks of the search for shortcuts; 0 leaves the path as
+            found.
         clock: The planning clock.
         limit_s: Greatest time of the search by a wall clock; with a counted clock the budget alone counts.
         simplification_limit_s: Greatest time of the simplification and the final check of its result by the planning
-            clock. A path that cannot be checked by then is left as it was found.
-        on_unverified: What is done with a path that is not valid at the resolution of its verification.
+            clock. A path that cannot be checked by then is returned as found.
+        on_unverified: Handling of a path that is not valid at its verification resolution.
         cost: Cost of a state, for an objective that needs it; each evaluation is charged like a check.
-        on_graph: Callback with the graph of the first search, before anything of its path is repaired.
+        on_graph: Callback with the graph of the first search, before its path is repaired.
 
     Raises:
         MotionError: The planner is unknown or refused, or the seed or a budget is negative.
@@ -74,7 +75,7 @@ def plan(
     if (known := _known_without_search(problem, validity)) is not None:
         return known
     counted = clock.kind is ClockKind.COUNTED
-    load_engine()  # The first use in a process takes longer than many a search and must not count as one.
+    load_engine()  # The first use in a process takes longer than many searches and must not count as search time.
     elapsed_s = clock.start()
     found = _verified_search(
         problem,
@@ -123,12 +124,12 @@ def _limit_checks(clock: PlanningClock, limit_s: float) -> int | None:
 
 
 def _known_without_search(problem: PlanningProblem, validity: StateValidity) -> PlanResult | None:
-    """The result of a problem that is ill posed or trivial; None of one that needs a search."""
+    """Result of an ill-posed or trivial problem; None if a search is needed."""
     for state, outcome in ((problem.start, PlanOutcome.INVALID_START), (problem.goal, PlanOutcome.INVALID_GOAL)):
         if not problem.in_range(state) or not validity.is_valid(state):
             return PlanResult(outcome=outcome, path=None, checks=0, simplification_checks=0, search_time_s=0.0)
     if problem.start == problem.goal:
-        # A planner may wander off and come back.
+        # A planner may leave the start and return to it.
         return PlanResult(
             outcome=PlanOutcome.SOLVED,
             path=JointPath(np.array([problem.start, problem.goal])),
@@ -141,7 +142,7 @@ def _known_without_search(problem: PlanningProblem, validity: StateValidity) -> 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Found:
-    """A search with the verification of its path; `checks` are those of both, and of repairs."""
+    """Search with the verification of its path; `checks` includes search, verification and repairs."""
 
     corners: Vector | None
     checks: int
@@ -229,10 +230,10 @@ def _check_arguments(
     if not simplification_limit_s >= 0.0:
         raise MotionError(
             f"the simplification limit must be at least 0 s, got {simplification_limit_s:g} s",
-            hint="0 leaves a path as it was found",
+            hint="0 leaves the path as found",
         )
 
 
 def _derived_seed(seed: int, *stream: int) -> int:
-    """An independent seed, at least 1, for each use of a trial's seed."""
+    """Independent seed, at least 1, derived from a trial's seed."""
     return int(np.random.SeedSequence([seed, *stream]).generate_state(1)[0]) or 1

@@ -12,7 +12,7 @@ from rgss.motion.paths import JointPath
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanningProblem:
-    """One move to plan.
+    """Planning problem of one move.
 
     Attributes:
         lower_rad: Lower end of each joint's planning range.
@@ -21,7 +21,7 @@ class PlanningProblem:
         goal: Joint angles in rad at the end.
         resolution_rad: Greatest Euclidean distance in joint space between two states of a motion that a search
             checks.
-        verification_resolution_rad: The same for the path that is found and will run; as the search if None.
+        verification_resolution_rad: The same for the path found, which will be executed; `resolution_rad` if None.
 
     Raises:
         MotionError: The numbers of joints differ, a range is empty, or a resolution is not positive.
@@ -40,25 +40,28 @@ class PlanningProblem:
         sizes = (len(self.lower_rad), len(self.upper_rad), len(self.start), len(self.goal))
         if len(set(sizes)) != 1 or 0 in sizes:
             raise MotionError(
-                "a planning problem needs ranges, start and goal of the same number of joints",
+                "ranges, start and goal must have the same number of joints",
                 hint=f"found {', '.join(str(size) for size in sizes)}",
             )
         if not all(low < high for low, high in zip(self.lower_rad, self.upper_rad, strict=True)):
-            raise MotionError("a joint's planning range is empty", hint="let its lower end be below its upper end")
+            raise MotionError(
+                "a joint's planning range is empty",
+                hint="let its lower limit be below its upper limit",
+            )
         for resolution_rad in (self.resolution_rad, self.verified_every_rad):
             if not 0.0 < resolution_rad < math.inf:
                 raise MotionError(
-                    f"a path cannot be checked every {resolution_rad:g} rad", hint="give a distance above zero"
+                    f"the resolution must be above 0 rad, got {resolution_rad:g} rad", hint="give a distance above zero"
                 )
 
     @property
     def verified_every_rad(self) -> float:
-        """Greatest distance between two checked states of the path that will run."""
+        """Verification resolution in effect, in rad."""
         given = self.verification_resolution_rad
         return self.resolution_rad if given is None else given
 
     def in_range(self, state: tuple[float, ...]) -> bool:
-        """True if a state keeps the planning ranges."""
+        """True if a state is within the planning ranges."""
         return all(low <= value <= high for low, value, high in zip(self.lower_rad, state, self.upper_rad, strict=True))
 
 
@@ -66,23 +69,22 @@ class PlanningProblem:
 class PlanResult:
     """Result of the planning of one move.
 
-    A search is *solved within* a budget when the number of checks at its solution, those of verifying and
-    repairing its path included, is at most the budget; otherwise the budget counts as spent to its end. A search
-    with a budget is the beginning of the same search with a larger one, so that every smaller limit can be read off
-    one search.
+    A search is *solved within* a budget if the number of checks at its solution, including verification and repair, is
+    at most the budget; otherwise the whole budget counts as spent. A search with a budget is a prefix of the same
+    search with a larger one, so that one search gives the result under every smaller limit.
 
     Attributes:
-        outcome: How it ended.
+        outcome: The outcome.
         path: The simplified path; None unless solved.
         checks: Validity checks of the search, of the verification and of repairs: those up to the solution, or
             the whole budget.
         simplification_checks: Validity checks of the simplification and of its result.
         search_time_s: Time of the search by the planning clock.
         simplification_time_s: Time of the simplification by the planning clock.
-        verification_checks: Those of `checks` that verified the path.
-        repairs: Motions of the path that were planned anew, because they were not valid.
-        simplification_unlimited_from: A limit of the simplification in checks from which on no limit changes its
-            result; None if its own did.
+        verification_checks: Share of `checks` spent on verifying the path.
+        repairs: Number of invalid motions of the path that were replanned.
+        simplification_unlimited_from: Least limit of the simplification in checks that does not change its result; None
+        if its own limit did.
     """
 
     outcome: PlanOutcome
@@ -97,7 +99,7 @@ class PlanResult:
 
 
 def spent(checks: int, time_s: float) -> PlanResult:
-    """The result of a search that was ended before it found a path."""
+    """Result of a search that ended without a path."""
     return PlanResult(
         outcome=PlanOutcome.BUDGET_SPENT, path=None, checks=checks, simplification_checks=0, search_time_s=time_s
     )

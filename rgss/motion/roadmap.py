@@ -1,4 +1,4 @@
-"""Graphs of planners: probabilistic roadmaps, grown one milestone at a time, and what any search has kept."""
+"""Planner graphs: probabilistic roadmaps grown one milestone at a time, and the graph of any search."""
 
 from __future__ import annotations
 
@@ -22,25 +22,25 @@ def solve_by_roadmap(
     angles_of: Callable[[Any], tuple[float, ...]],
     is_over: Callable[[], bool],
 ) -> Vector | None:
-    """Grow a roadmap until start and goal are connected; the shortest path through it.
+    """Shortest path through a roadmap that is grown until start and goal are connected.
 
-    OMPL's own ``PRM::solve`` looks for a solution in a second thread by a wall clock, so that its result differs from
-    run to run. Here the roadmap is searched after each milestone that was added, and nothing is left to the clock.
+    OMPL's ``PRM::solve`` searches for a solution in a second thread by a wall clock, so that its result differs from
+    run to run. Here the roadmap is searched after each added milestone, independently of any clock.
 
     Args:
         engine: The planning engine.
-        algorithm: A PRM of it that is set up with its problem.
+        algorithm: A PRM of the engine, set up with its problem.
         information: Its space information.
         angles_of: Reads the joint angles (rad) of a state.
         is_over: Termination predicate.
 
     Returns:
-        Corners of the path in rad, shape (n, joints); None where it was ended before.
+        Corners of the path in rad, shape (n, joints); None if it was terminated before.
     """
     condition = engine.base.PlannerTerminationCondition
     predicate = engine.base.PlannerTerminationConditionFn
     at_once = predicate(lambda: True)
-    # Adds start and goal as the first two milestones, and grows nothing.
+    # Adds start and goal as the first two milestones without growing the roadmap.
     algorithm.solve(condition(at_once))
     while True:
         corners = _shortest_path(engine, algorithm, information, angles_of)
@@ -84,7 +84,7 @@ def _shortest_path(
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SearchGraph:
-    """States that a planner kept, and the motions between them.
+    """Graph of a planner: its states and the motions between them.
 
     Attributes:
         states_rad: The states, shape (n, joints).
@@ -98,11 +98,11 @@ class SearchGraph:
 def graph_of(
     engine: Engine, algorithm: Any, information: Any, angles_of: Callable[[Any], tuple[float, ...]], *, joints: int
 ) -> SearchGraph:
-    """The graph of a planner after its search.
+    """Graph of a planner after its search.
 
     Args:
         engine: The planning engine.
-        algorithm: A planner of it.
+        algorithm: A planner of the engine.
         information: Its space information.
         angles_of: Reads the joint angles (rad) of a state.
         joints: Number of joints.

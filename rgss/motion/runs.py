@@ -1,4 +1,4 @@
-"""Motions between two stops of a path: their grid, and the trajectory that they are joined to."""
+"""Motions between two stops of a path: their parameter grid, and their concatenation to a trajectory."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _FEWEST_CELLS = 24
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Run:
-    """A motion between two stops, from rest to rest.
+    """Motion between two stops, from rest to rest.
 
     Attributes:
         parameters: The path's parameter s at the knots, shape (n,).
@@ -37,13 +37,13 @@ class Run:
 
 
 def run_grid(path: SmoothPath, first: int, last: int, refinement: int) -> Vector:
-    """Grid points between two stops: at the ends of all pieces, and denser where the path turns.
+    """Parameter grid between two stops: the ends of all pieces, denser where the path turns.
 
     Args:
         path: The path.
         first: Index of the break at which the run begins.
         last: Index of the break at which it ends.
-        refinement: How many times as many cells as at 1.
+        refinement: Multiple of the number of cells.
     """
     breaks = path.breaks[first : last + 1]
     starts, ends = path(breaks[:-1], 1), path(breaks[1:] - 1e-12 * np.diff(breaks), 1)
@@ -55,14 +55,14 @@ def run_grid(path: SmoothPath, first: int, last: int, refinement: int) -> Vector
         for start, end, count in zip(breaks[:-1], breaks[1:], counts, strict=True)
     ]
     grid = np.concatenate(parts)
-    # The reachability analysis divides by the length of a cell, and one of rounding errors makes the motion creep.
+    # The reachability analysis divides by the cell length; a cell as short as a rounding error stalls the motion.
     apart = np.append(True, np.diff(grid) > _SHORTEST_CELL_RAD) & (breaks[-1] - grid > _SHORTEST_CELL_RAD)
     apart[0] = True
     return np.append(grid[apart], breaks[-1])
 
 
 def joined(path: SmoothPath, runs: Sequence[Run]) -> Trajectory:
-    """The trajectory that runs through all runs, one after the other; at rest if there is none.
+    """Trajectory through all runs in sequence; a rest if there is none.
 
     Args:
         path: The path.

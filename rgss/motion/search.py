@@ -1,4 +1,4 @@
-"""One run of an OMPL planner whose effort is counted in validity checks."""
+"""Run of an OMPL planner with its effort counted in validity checks."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class SearchResult:
     """Result of a search.
 
     Attributes:
-        corners: Corners of the path found in rad, shape (n, joints); None when it was ended before.
-        checks: Validity checks made, and evaluations of a cost; a search that is ended exceeds its budget by what
-            its last step takes.
+        corners: Corners of the path found in rad, shape (n, joints); None if it was terminated before.
+        checks: Number of validity checks and cost evaluations; a terminated search exceeds its budget by the checks of
+        its last step.
     """
 
     corners: Vector | None
@@ -64,7 +64,7 @@ def search(
         MotionError: OMPL refuses a parameter, or the objective needs a cost that is not given.
     """
     engine = load_engine()
-    # The engine's states are read element by element, which is most of what a check costs beside its verdict.
+    # Reading the engine's states element by element is most of the overhead of a check.
     angles_of = itemgetter(*range(len(problem.start))) if len(problem.start) > 1 else lambda state: (state[0],)
     is_valid_at = validity.is_valid
     checks = 0
@@ -82,12 +82,12 @@ def search(
         checks += len(states) if index is None else index + 1
         return index
 
-    # Every random generator of the engine draws its seed from one generator of the process when it is
-    # made; seeding that one before anything is made leaves no trace of what ran before.
+    # Every random generator of the engine draws its seed from one generator of the process at construction; seeding
+    # that one first makes the search independent of earlier ones.
     engine.util.RNG.setSeed(seed)
     information = _space(engine, problem)
     information.setStateValidityChecker(engine.base.StateValidityCheckerFn(lambda state: is_valid(angles_of(state))))
-    # The engine keeps a pointer to it and no count.
+    # The engine keeps a pointer without owning the object.
     validator = motion_validator(engine, information, angles_of, is_valid, first_invalid)
     information.setMotionValidator(validator)
     information.setup()
@@ -97,7 +97,7 @@ def search(
     def cost_at(state: Any) -> float:
         nonlocal checks
         angles = angles_of(state)
-        # A planner compares a new state with one whose cost it had before, which a tree would keep.
+        # A planner compares a new state with one whose cost was evaluated before; another tree would cache it.
         if angles not in costs:
             checks += 1
             costs[angles] = _cost_of(cost, angles)
@@ -141,7 +141,7 @@ def _solved(
 
 
 def _objective(planner: PlannerSettings) -> Objective | None:
-    """The objective of a planner; one that improves paths must be given one, or it goes on to its limit."""
+    """Objective of a planner; an optimising planner needs one, or it runs to its limit."""
     if planner.objective is None and available_planners()[planner.algorithm].optimizing:
         return Objective.PATH_LENGTH
     return planner.objective
@@ -149,7 +149,7 @@ def _objective(planner: PlannerSettings) -> Objective | None:
 
 def _cost_of(cost: StateCost | None, angles: Sequence[float]) -> float:
     if cost is None:
-        raise MotionError("the objective of the planner needs the cost of a state", hint="give 'cost'")
+        raise MotionError("the planner's objective needs the cost of a state, got none", hint="pass 'cost'")
     return cost(angles)
 
 
@@ -159,7 +159,7 @@ def _algorithm(engine: Engine, information: Any, planner: PlannerSettings) -> An
     for name, value in planner.parameters:
         text = repr(float(value)) if known[name].type is ParameterType.REAL else str(int(value))
         if not algorithm.params().setParam(name, text):
-            raise MotionError(f"{planner.algorithm} does not take {name} = {text}", hint="give another value")
+            raise MotionError(f"{planner.algorithm} rejects {name} = {text}", hint="give another value")
     return algorithm
 
 
@@ -172,7 +172,7 @@ def _space(engine: Engine, problem: PlanningProblem) -> Any:
         bounds.setHigh(index, upper)
     space.setBounds(bounds)
     information = engine.base.SpaceInformation(space)
-    # The engine takes the resolution as a fraction of the diagonal of the space.
+    # The engine expects the resolution as a fraction of the diagonal of the space.
     information.setStateValidityCheckingResolution(problem.resolution_rad / space.getMaximumExtent())
     return information
 

@@ -1,4 +1,4 @@
-"""Path simplification by shortcuts, within a limit of its own."""
+"""Path simplification by shortcuts, with its own limit."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _SMALLEST_RANDOM_GAIN = 0.001
 _LARGEST_FRUITLESS_RUN = 60
 _FINAL_DENSITY = 4
 _CHECKS_BETWEEN_LOOKS = 32
-"""By a wall clock; a look at it costs a fraction of a check."""
+"""Termination predicate by a wall clock; reading it takes a fraction of a check."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -33,8 +33,8 @@ class ShortenedPath:
 
     Attributes:
         corners: The corners in rad, shape (n, joints).
-        checks: Validity checks that it took, those of the final check included.
-        unlimited_from: A limit in checks from which on no limit changes the result; None if this one's did.
+        checks: Number of validity checks, including the final check.
+        unlimited_from: Least limit in checks that does not change the result; None if the limit of this run did.
     """
 
     corners: Vector
@@ -54,29 +54,28 @@ def shorten(
 ) -> ShortenedPath:
     """Shorten a valid polyline by replacing stretches of it with straight segments.
 
-    Three stages follow each other while the budget lasts. Each corner is joined with the furthest corner
-    that it can be joined with. Then the path is cut into equal stretches and the two points are joined
-    that save most. Then random pairs of points are tried, until many in a row have saved nothing. The
-    result depends on the path, the generator's state and the budget alone.
+    Three stages run in sequence while the budget lasts. First each corner is connected with the furthest corner that it
+    can be connected with. Then the path is cut into equal stretches, and the two points are connected that save most.
+    Then random pairs of points are tried until many in a row have saved nothing. The result depends only on the path,
+    the generator's state and the budget.
 
-    Shortcuts pass close by what is in the way. The result is therefore checked once more, four times as
-    densely; where it touches something between the states that were checked before, the shortcuts are
-    taken back one by one. What that final check of the path so far needs is kept back from the limit. A
-    path that cannot be checked to the end within the limit is not used: the longer one before it is, and
-    at last the path as it was found, which the planner has checked.
+    Shortcuts pass close to obstacles. The result is therefore checked again, four times as densely; if it collides
+    between the states checked before, the shortcuts are reverted one by one. The checks that this final check needs are
+    reserved from the limit. A path that cannot be checked completely within the limit is not used: the longer one
+    before it is, and finally the path as found, which the planner has checked.
 
     Args:
         points: Corners of a valid path in rad, shape (n, joints).
         validity: State-validity checker.
-        generator: Source of the random choices.
-        budget_checks: Greatest number of validity checks of looking for shortcuts.
+        generator: Random generator.
+        budget_checks: Greatest number of validity checks of the search for shortcuts.
         resolution_rad: Greatest distance between the states that are checked.
         limit_checks: Greatest number of validity checks altogether, the final check included; None for no limit.
-        is_over: Termination predicate of a wall clock; nothing that is checked after it is true is used.
+        is_over: Termination predicate of a wall clock; results of checks after it holds are not used.
     """
     check = _CheckBudget(validity, budget_checks, limit_checks, is_over)
     paths = [points]
-    # What is found before the budget is spent is kept.
+    # Shortcuts found before the budget is spent are kept.
     with contextlib.suppress(_BudgetSpentError):
         for path in _improvements(points, check, generator, resolution_rad):
             paths.append(path)
@@ -86,9 +85,9 @@ def shorten(
 
 
 def _last_valid(paths: Sequence[Vector], check: _CheckBudget, resolution_rad: float) -> Vector:
-    """The last path that the dense check finds valid within what is left of the limit; the first needs none."""
+    """Last path that passes the dense check within the rest of the limit; the first needs no check."""
     check.search_is_over()
-    # Paths share most of their segments, and each is checked once.
+    # Paths share most of their segments; each is checked once.
     valid: set[tuple[bytes, bytes]] = set()
     touching: set[tuple[bytes, bytes]] = set()
     with contextlib.suppress(_BudgetSpentError):
@@ -122,10 +121,10 @@ class _BudgetSpentError(Exception):
 
 
 class _CheckBudget:
-    """Counts validity checks and refuses those beyond a budget or after a time.
+    """Counter of validity checks that refuses those beyond a budget or a time limit.
 
-    Looking for shortcuts has a budget of its own within the limit of the whole, of which it leaves what the
-    cheapest final check needs, as soon as one can be afforded.
+    The search for shortcuts has its own budget within the total limit. From the total it reserves the checks of the
+    cheapest final check, as soon as one fits.
     """
 
     def __init__(
@@ -144,26 +143,26 @@ class _CheckBudget:
 
     @property
     def unlimited_from(self) -> int | None:
-        """Least limit that leaves all checks so far and what was kept back; None if the limit refused a check.
+        """Least limit that covers all checks so far and the reserve; None if the limit refused a check.
 
-        Under any such limit the same checks are made: none is refused, and as much is kept back.
+        Under any greater limit the same checks are made: none is refused, and the reserve is the same.
         """
         return None if self._was_limited else self._needed
 
     def keep_back(self, checks: int) -> None:
-        """Leave a number of checks of the limit for the final check of a path that was found."""
+        """Reserve a number of checks of the limit for the final check of a path."""
         self._kept_back = min(self._kept_back, checks)
         self._need(self.spent + checks)
         if self.spent + self._kept_back <= self._limit:
             self._budget = min(self._search_budget, self._limit - self._kept_back)
 
     def search_is_over(self) -> None:
-        """Release the checks that were kept back."""
+        """Release the reserved checks."""
         self._budget = self._limit
         self._own_budget, self._kept_back = math.inf, 0
 
     def affords(self, checks: int) -> bool:
-        """Whether a number of checks is left."""
+        """True if a number of checks is left."""
         self._need(self.spent + checks)
         is_left = self.spent + checks <= self._budget
         self._was_limited |= not is_left
@@ -173,7 +172,7 @@ class _CheckBudget:
         """True if all states, which lie between valid ones, are valid; checked in order up to the first invalid one.
 
         Raises:
-            _BudgetSpentError: The budget or the time ends before that is known.
+            _BudgetSpentError: The budget or the time ends before the result is known.
         """
         affordable = int(min(len(states), self._budget - self.spent))
         size = max(1, affordable) if self._is_over is None else _CHECKS_BETWEEN_LOOKS
@@ -228,7 +227,7 @@ def _pull_rope(path: Vector, joined: Callable[[Vector, Vector], bool]) -> Iterat
         direct = np.linalg.norm(rope[:, None] - rope[None], axis=2)
         starts, ends = np.triu_indices(len(rope), 2)
         gains = (along[ends] - along[starts]) - direct[starts, ends]
-        # Rounded, so that noise in the last digit cannot choose between equal gains.
+        # Rounded, so that rounding noise does not decide between equal gains.
         order = np.argsort(-np.round(gains, 9), kind="stable")
         worth = order[gains[order] > _SMALLEST_ROPE_GAIN * along[-1]]
         pairs = ((int(starts[index]), int(ends[index])) for index in worth)
@@ -267,7 +266,7 @@ def _arc_lengths(path: Vector) -> list[float]:
 
 @lru_cache(maxsize=1024)
 def _coarse_to_fine(count: int) -> NDArray[np.int64]:
-    """`coarse_to_fine` as what picks rows; not to be written to."""
+    """`coarse_to_fine` as a read-only index array."""
     return np.array(coarse_to_fine(count), dtype=np.int64)
 
 
@@ -278,7 +277,7 @@ def _at(path: Vector, along: Sequence[float], segment: int, distance: float) -> 
 
 
 def _subdivided(path: Vector, stretches: int) -> Vector:
-    """The path with corners added so that no segment is longer than a fraction of the whole."""
+    """The path with added corners, so that no segment is longer than a fraction of the path."""
     longest = path_length(path) / stretches
     points = [path[:1]]
     for start, end in itertools.pairwise(path):

@@ -1,4 +1,4 @@
-"""Timing of a path, as fast as joints and tool allow."""
+"""Time-optimal timing of a path within joint and tool limits."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Vector = NDArray[np.float64]
 _POINTS_OF_CELL = 4
 _REFINEMENTS = 2
 _TOLERATED_EXCESS = 1.02
-# Half-planes of the polygon inside the circle of the tool's tangential and normal acceleration.
+# Half-planes of the polygon inscribed in the circle of the tool's tangential and normal acceleration.
 _POLYGON_ANGLES = np.linspace(0.0, math.pi, 9)
 _POLYGON_INRADIUS = math.cos(math.pi / 16)
 
@@ -43,8 +43,8 @@ class TimedMove:
     Attributes:
         outcome: The outcome.
         trajectory: The motion; None unless it could be timed.
-        blended: Corners of the path that are rounded.
-        stops: Corners of the path at which the motion comes to rest.
+        blended: Number of blended corners.
+        stops: Number of corners at which the motion comes to rest.
     """
 
     outcome: TimingOutcome
@@ -62,27 +62,27 @@ def time_move(
     resolution_rad: float,
     largest_deviation_rad: float = 0.1,
 ) -> TimedMove:
-    """Round the corners of a path, check what will run, and time it.
+    """Blend the corners of a path, check the blended path and time it.
 
     Args:
         path: A valid polyline.
         validity: State-validity checker.
         tool: Kinematics of the tool centre.
-        limits: What the motion keeps.
+        limits: Limits of the motion.
         resolution_rad: Greatest distance in joint space between two checked states.
-        largest_deviation_rad: Greatest distance of a rounded corner from the corner itself.
+        largest_deviation_rad: Greatest distance of a blend from its corner.
     """
     blended = blend(path, validity, resolution_rad=resolution_rad, largest_deviation_rad=largest_deviation_rad)
     return time_blended(blended, tool, limits)
 
 
 def time_blended(blended: BlendedPath, tool: ToolKinematics, limits: MotionLimits) -> TimedMove:
-    """Time a path whose corners are rounded; one rounded path serves every set of limits.
+    """Time a blended path; the same blended path can be timed under any limits.
 
     Args:
         blended: The path.
         tool: Kinematics of the tool centre.
-        limits: What the motion keeps.
+        limits: Limits of the motion.
     """
     trajectory = None
     outcome = TimingOutcome.IN_COLLISION
@@ -95,17 +95,17 @@ def time_blended(blended: BlendedPath, tool: ToolKinematics, limits: MotionLimit
 def fastest_trajectory(path: SmoothPath, tool: ToolKinematics, limits: MotionLimits) -> Trajectory | None:
     """Time a smooth path from rest to rest, with a rest at each of its stops.
 
-    The limits are constraints of the optimisation at the ends of each grid cell. In between they are
-    verified: where one is exceeded by more than two hundredths the grid is refined, and what excess remains is
-    removed by slowing the motion down evenly, so that the limits hold at every verified point.
+    The limits are constraints of the optimisation at the ends of each grid cell. Between them they are
+    verified: if one is exceeded by more than 2 % the grid is refined, and the remaining excess is removed by slowing
+    the motion uniformly, so that the limits hold at every verified point.
 
     Args:
         path: The path.
         tool: Kinematics of the tool centre.
-        limits: What the motion keeps.
+        limits: Limits of the motion.
 
     Returns:
-        The motion; None when the optimisation finds none.
+        The motion; None if the optimisation finds none.
 
     Raises:
         MotionError: The limits are not for the joints of the path.
@@ -145,7 +145,7 @@ def _timed_run(path: SmoothPath, first: int, last: int, tool: ToolKinematics, li
 
 
 def _largest_squares(at: PathDerivatives, limits: MotionLimits) -> Vector:
-    """The greatest (ds/dt)² that keeps the speeds of joints and tool."""
+    """Greatest (ds/dt)² within the speed limits of joints and tool."""
     joints = np.max(np.abs(at.first) / np.array(limits.speed_rad_s), axis=1)
     tool = np.linalg.norm(at.tool_first, axis=1) / limits.tool_speed_m_s
     squares: Vector = np.maximum(joints, tool) ** -2

@@ -14,12 +14,10 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Trajectory:
-    """A timed motion from rest to rest.
-
-    Between its knots the path's parameter s moves with constant acceleration.
+    """Timed motion from rest to rest, with constant acceleration of the path parameter s between its knots.
 
     Attributes:
-        path: The path that it follows exactly.
+        path: The path of the motion.
         parameters: The path's parameter s at the knots, shape (n,).
         rates: Its rate ds/dt at the knots in 1/s, shape (n,).
         times_s: Time at the knots, shape (n,), from 0.

@@ -1,4 +1,4 @@
-"""Interfaces of a robot for planning and timing, which the kinematics implements."""
+"""Interfaces of a robot for planning and timing, implemented by `rgss.kinematics`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 
 class StateValidity(Protocol):
-    """Validity of configurations."""
+    """State-validity checker: the planner's predicate over configurations."""
 
     def is_valid(self, q: Sequence[float] | NDArray[np.float64]) -> bool:
         """True if a configuration is valid.
@@ -23,7 +23,7 @@ class StateValidity(Protocol):
 
 @runtime_checkable
 class BatchValidity(StateValidity, Protocol):
-    """Validity of many configurations at once, faster than one after another."""
+    """Batched state-validity checker."""
 
     def first_invalid_between(self, qs: NDArray[np.float64]) -> int | None:
         """Index of the first invalid configuration; None if all are valid.
@@ -35,7 +35,7 @@ class BatchValidity(StateValidity, Protocol):
 
 
 def first_invalid_between(validity: StateValidity) -> Callable[[NDArray[np.float64]], int | None]:
-    """Function that finds the first invalid one of configurations (n, joints) between two valid ones."""
+    """Function that finds the first invalid configuration (n, joints) between two valid ones."""
     if isinstance(validity, BatchValidity):
         return validity.first_invalid_between
 

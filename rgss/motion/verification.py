@@ -1,4 +1,4 @@
-"""Verification of a path between the states at which its search checked it."""
+"""Verification of a path at a finer resolution than that of its search."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rgss.motion.validity import StateValidity, first_invalid_between
 Vector = NDArray[np.float64]
 
 Replan = Callable[[Vector, Vector, int, int], tuple[Vector | None, int]]
-"""Replanning of a motion: its ends, its number, the checks so far; its corners, if any, and the checks that it took."""
+"""Callback that replans a motion from its ends, number and the check count; returns corners or None, and its checks."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -42,16 +42,16 @@ class Verification:
 def verified(
     corners: Vector, validity: StateValidity, *, resolution_rad: float, replan: Replan | None = None
 ) -> Verification:
-    """Check the motions of a path at a resolution, and replan those that are not valid.
+    """Check the motions of a path at a resolution, and replan the invalid ones.
 
-    Motions are checked in order, each by halving. A motion that touches something between its ends is replaced by
-    a path between the same ends which is searched for at the same resolution, and so needs no check of its own.
+    Motions are checked in order, each by bisection. A motion that collides between its ends is replaced by a path
+    between the same ends, planned at the same resolution, which needs no further check.
 
     Args:
         corners: Corners of the path in rad, shape (n, joints); every corner is valid.
         validity: State-validity checker.
         resolution_rad: Greatest Euclidean distance in joint space between two checked states.
-        replan: Replans a motion; None ends the verification at the first that is not valid.
+        replan: Callback that replans a motion; None ends the verification at the first invalid motion.
     """
     find = first_invalid_between(validity)
     kept, checks, repair_checks, repairs = [corners[:1]], 0, 0, 0

@@ -1,4 +1,4 @@
-"""Headless rigid-body physics: world, actuation, contacts."""
+"""Headless rigid-body simulation: worlds, actuation, contacts, rendering."""
 
 from rgss.physics.camera import VIEWS, Camera, View
 from rgss.physics.contact_world import ContactWorld

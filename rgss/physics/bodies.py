@@ -1,4 +1,4 @@
-"""Bodies of a physics client: fixed ones of one primitive shape, and the object."""
+"""Bodies of a physics client: fixed primitive shapes, and the object."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ _ALONG_X = (0.0, _HALF_TURN, 0.0, _HALF_TURN)
 def add_body(
     engine: Any, client: int, shape: Shape, pose: Pose, mass_kg: float, *, centre_of_mass_m: float = 0.0
 ) -> int:
-    """Add a body; returns the engine's number of it.
+    """Add a body; returns its id in the engine.
 
     Args:
         engine: The engine's module.
         client: The physics client.
         shape: Its solid.
         pose: Transform of the shape's frame to the world.
-        mass_kg: Its mass; 0 for a body that does not move.
+        mass_kg: Its mass; 0 for a fixed body.
         centre_of_mass_m: Height of its centre of mass above the centre of its shape; its moments of inertia about
             the centre of mass are those of the homogeneous shape.
 
     Raises:
-        SimulationError: The engine refuses it.
+        SimulationError: The engine rejects it.
     """
     body = int(
         engine.createMultiBody(
@@ -49,14 +49,14 @@ def add_body(
             pose.position_m,
             pose.quaternion_xyzw,
             baseInertialFramePosition=(0.0, 0.0, centre_of_mass_m),
-            # What stands still is not an articulated body without links: the same results, to the bit, for less
-            # time. What moves is one, since the engine has a rougher law of friction between two that are not.
+            # A fixed body is not a multibody: the same results, bit for bit, in less time. A moving body is one, since
+            # the engine's friction model between two bodies that are not multibodies is coarser.
             useMaximalCoordinates=int(mass_kg == 0.0),
             physicsClientId=client,
         )
     )
     if body < 0:
-        raise SimulationError("the physics engine refused a body", hint="check its sizes")
+        raise SimulationError("the physics engine rejected a body", hint="check its sizes")
     return body
 
 
@@ -69,11 +69,11 @@ def add_object(engine: Any, client: int, workpiece: Workpiece) -> tuple[int, Pos
         workpiece: The object.
 
     Returns:
-        The engine's number of it, and the transform of its principal axes, whose pose the engine reports, to the frame
-        of its shape.
+        Its id in the engine, and the transform of its principal axes, whose pose the engine reports, to the frame of
+        its shape.
 
     Raises:
-        SimulationError: The engine refuses it.
+        SimulationError: The engine rejects it.
     """
     shape, mass_kg, pose = workpiece.shape, workpiece.mass_kg, workpiece.pose
     at_m = (*workpiece.centre_of_mass_across_m, workpiece.centre_of_mass_m)
@@ -106,7 +106,7 @@ def add_object(engine: Any, client: int, workpiece: Workpiece) -> tuple[int, Pos
             )
         )
     if body < 0:
-        raise SimulationError("the physics engine refused the object", hint="check its sizes")
+        raise SimulationError("the physics engine rejected the object", hint="check its sizes")
     engine.changeDynamics(body, -1, localInertiaDiagonal=moments, physicsClientId=client)
     return body, frame
 
@@ -126,8 +126,10 @@ def _lying(engine: Any, client: int, shape: LyingCylinder) -> int:
 def _shape(engine: Any, client: int, shape: Shape) -> int:
     sizes = shape.size_m if isinstance(shape, Box) else (shape.radius_m, shape.height_m)
     if not all(0.0 < size < math.inf for size in sizes):
-        # The engine accepts some of these silently and prints messages about the others.
-        raise SimulationError(f"a body cannot have the sizes {sizes}", hint="give lengths greater than zero")
+        # The engine accepts some of these silently and only prints a message for the others.
+        raise SimulationError(
+            f"the sizes of a body must be positive, got {sizes}", hint="give lengths greater than zero"
+        )
     if isinstance(shape, Box):
         half = [size / 2 for size in shape.size_m]
         return int(engine.createCollisionShape(engine.GEOM_BOX, halfExtents=half, physicsClientId=client))

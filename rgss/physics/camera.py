@@ -1,4 +1,4 @@
-"""Pictures of a scene."""
+"""Rendering of a scene with shadows."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ class View:
     """Viewpoint of a camera.
 
     Attributes:
-        azimuth_rad: Direction from what it looks at to the camera, from the world's x towards its y.
-        elevation_rad: Height of the camera as an angle above the horizontal.
-        distance_m: Distance of the camera from what it looks at.
-        follows_tool: Whether it looks at the grasp centre; else just above the middle of the task.
+        azimuth_rad: Azimuth of the camera seen from its target, from the world's x towards its y.
+        elevation_rad: Elevation of the camera above the horizontal, seen from its target.
+        distance_m: Distance of the camera from its target.
+        follows_tool: True if the target is the grasp centre; else it is just above the middle of the task.
     """
 
     azimuth_rad: float
@@ -49,7 +49,7 @@ VIEWS: Mapping[str, View] = MappingProxyType(
         "side": View(azimuth_rad=math.radians(230), elevation_rad=math.radians(8), distance_m=2.8),
     }
 )
-"""Views by name, for scenes as large as an arm's reach."""
+"""Predefined views by name, for scenes of the size of an arm's reach."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,10 +57,10 @@ class _Background:
     """Image of the fixed bodies from the camera.
 
     Attributes:
-        picture: Its colours (height, width, 3), shaded by itself.
+        picture: Its colours (height, width, 3), with the shadows of the fixed bodies.
         depths: Its depths at the finer resolution.
-        darkness: The share (height, width) of the colour that goes where no light falls.
-        receiver: How the light that follows what moves sees it.
+        darkness: Share (height, width) of the colour that is lost in full shadow.
+        receiver: Its points as seen from the light that follows the moving bodies.
     """
 
     picture: Array
@@ -70,15 +70,15 @@ class _Background:
 
 
 class Camera:
-    """A camera before a scene; a context manager that closes its stage."""
+    """Camera of a scene; a context manager that closes its stage."""
 
     def __init__(self, scene: Scene, gripper: Gripper, view: View, *, width: int, height: int) -> None:
-        """Set up.
+        """Build the stage and the light.
 
         Args:
-            scene: What there is to see.
+            scene: The scene to render.
             gripper: The gripper on the robot's flange.
-            view: Where the camera stands.
+            view: The viewpoint.
             width: Width of the pictures in pixels.
             height: Height of the pictures in pixels.
 
@@ -108,7 +108,7 @@ class Camera:
         self._stage.close()
 
     def picture(self, posture: Posture) -> Picture:
-        """Draw the scene.
+        """Render the scene.
 
         Args:
             posture: Posture of everything that moves.
@@ -147,15 +147,15 @@ class Camera:
         return _Background(
             picture=picture * (1 - shadow)[:, :, np.newaxis],
             depths=depths,
-            # What is shaded already gets no darker.
+            # Points already in shadow do not get darker.
             darkness=(loss - shadow) / (1 - shadow),
             receiver=light.receiver(points),
         )
 
     def _window(self, lens: Lens) -> Window | None:
-        """The part of the picture that what moves can cover; None if it is out of sight."""
+        """Window of the picture that the moving bodies can cover; None if they are out of view."""
         columns, rows, _ = lens.project(np.array(self._stage.corners(), dtype=np.float32))
-        if np.isnan(columns).any():  # some of it is behind the camera
+        if np.isnan(columns).any():  # some of the points are behind the camera
             return Window(top=0, bottom=lens.height, left=0, right=lens.width)
         left, top = (max(0, math.floor(values.min()) - 1) for values in (columns, rows))
         right, bottom = (
@@ -185,7 +185,7 @@ class Camera:
 
 
 def _coarse(values: NDArray[Any]) -> Array:
-    """The mean of each block of pixels."""
+    """Mean of each block of pixels (box filter)."""
     n = _SUPERSAMPLING
     total: Array = values[0::n, 0::n].astype(np.float32)
     for row in range(n):

@@ -1,4 +1,4 @@
-"""Reading the engine's contact points."""
+"""Reader of the engine's contact points."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class ContactReader:
         scene_names: Mapping[int, str],
         principal: Pose | None = None,
     ) -> None:
-        """Register the engine's numbers of bodies and links.
+        """Register the engine's ids of bodies and links.
 
         Args:
             engine: The engine's module.
@@ -36,7 +36,7 @@ class ContactReader:
             link_names: Names of the robot's links.
             scene_names: Names of the scene's bodies.
             principal: Transform of the workpiece's principal axes, whose pose the engine reports, to the frame of its
-                shape, in which positions are given; None where they are the same.
+                shape, in which positions are given; None if they coincide.
         """
         self._principal = Pose() if principal is None else principal
         self._is_turned = self._principal.quaternion_xyzw != Pose().quaternion_xyzw
@@ -56,8 +56,8 @@ class ContactReader:
         The arm's base link does not move and so is never reported, wherever it is mounted.
 
         Args:
-            standing: What touched what when the workpiece was last seen to stand at rest without the robot, if
-                it was; as long as the robot touches nothing, it goes on to do so.
+            standing: Contacts observed when the workpiece last rested without contact to the robot, if it did; they
+                remain valid as long as the robot touches nothing.
         """
         if standing is not None and not self._engine.getContactPoints(self._robot, -1, -2, -2, self._client):
             return standing
@@ -68,7 +68,7 @@ class ContactReader:
         robot, workpiece = self._robot, self._workpiece
         names, finger_of_link = self._scene_names, self._finger_of_link
         is_robot_touching = False
-        # All are requested: for one body's alone, the engine names it A, yet does not turn the friction round.
+        # All contacts are queried: a query for one body reports it as A without inverting the friction.
         for point in self._engine.getContactPoints(-1, -1, -2, -2, self._client):
             force = point[9]
             if force <= 0.0 and point[8] > 0.0:
@@ -95,11 +95,11 @@ class ContactReader:
                 other += force
                 continue
             forces[finger] += force
-            # The engine gives friction as it acts on body A.
+            # The engine reports friction as it acts on body A.
             pressed.append((sign, point))
         if is_robot_touching:
             return Contacts(tuple(forces), other, tuple(pressed), robot_bodies, workpiece_bodies)
-        # So it is for half of the time, with one body under the workpiece or none.
+        # This is the case half of the time, with one body under the workpiece or none.
         resting = self._resting.get(workpiece_bodies)
         if resting is None:
             nothing = (0.0,) * len(forces)
@@ -113,10 +113,10 @@ class ContactReader:
         return math.fsum(point[9] for point in points if robot not in (point[1], point[2]))
 
     def finger_contacts(self, step_s: float) -> tuple[FingerContact, ...]:
-        """The points at which fingers press on the workpiece after the last step, by finger and from low to high.
+        """Contact points of the fingers on the workpiece in the last step, by finger and ascending height.
 
         Args:
-            step_s: Length of that step, at whose start the engine found them.
+            step_s: Length of that step, at whose start the engine detected them.
         """
         found = []
         transform = self._workpiece_pose_before(step_s).inverse()
@@ -153,7 +153,7 @@ class ContactReader:
         return tuple(sorted(found, key=lambda point: (point.finger, point.position_m[2])))
 
     def _workpiece_pose_before(self, step_s: float) -> Pose:
-        """Pose of the workpiece before a step: the engine moves a body with the velocity that it has afterwards."""
+        """Pose of the workpiece before a step, which the engine integrates with the velocity after the step."""
         engine, client = self._engine, self._client
         (x, y, z), turned = engine.getBasePositionAndOrientation(self._workpiece, physicsClientId=client)
         (vx, vy, vz), (wx, wy, wz) = engine.getBaseVelocity(self._workpiece, physicsClientId=client)

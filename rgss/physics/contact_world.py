@@ -1,4 +1,4 @@
-"""Interface of the world of a contact trial for the task program and its monitors, for any engine."""
+"""Engine-independent interface of the world of a contact trial, for the task program and its monitors."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rgss.scenes import Gripper, Pose, Scene
 
 
 class ContactWorld(Protocol):
-    """Arm, hand, workpiece and scene in contact, stepped at a fixed rate; a context manager that frees its engine."""
+    """Simulated arm, hand, workpiece and scene, stepped at a fixed rate; a context manager that frees its engine."""
 
     @property
     def scene(self) -> Scene:
@@ -29,7 +29,7 @@ class ContactWorld(Protocol):
 
     @property
     def grip_fault(self) -> str:
-        """Why a suction cup that was switched on does not hold the workpiece; empty where it does, and for fingers."""
+        """Reason why a switched-on suction cup does not hold the workpiece; empty if it does, and for fingers."""
 
     def __enter__(self) -> ContactWorld: ...
 
@@ -38,7 +38,7 @@ class ContactWorld(Protocol):
     ) -> None: ...
 
     def close(self) -> None:
-        """Free what the engine holds; closing twice is allowed."""
+        """Free the engine's resources; closing twice is allowed."""
 
     def reset_arm(self, configuration_rad: Sequence[float]) -> None:
         """Put the arm at rest at a configuration, fingers open, without stepping."""
@@ -63,21 +63,21 @@ class ContactWorld(Protocol):
         """Second-order correction of the workpiece's position after a step in which the hand carried it.
 
         Args:
-            arc_m: Displacement of the tool over the step less that along its tangent, in the world.
+            arc_m: Displacement of the tool over the step minus that along its initial velocity, in the world, in m.
         """
 
-    def solve_freely(self, *, free: bool) -> None:
-        """Let the solver do less while nothing is held, or all again; an engine may ignore it.
+    def reduce_solver_effort(self, *, free: bool) -> None:
+        """Reduce the solver's effort while nothing is held, or restore it; an engine may ignore this.
 
         Args:
-            free: Whether the hand is empty and moves.
+            free: True while the hand is empty and moves.
         """
 
     def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
         """Joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step."""
 
     def finger_travel_m(self) -> tuple[float, ...]:
-        """Travel of each finger from its open end."""
+        """Travel of each finger from its open end in m."""
 
     def workpiece_pose(self) -> Pose:
         """Transform of the workpiece to the world."""
@@ -89,14 +89,14 @@ class ContactWorld(Protocol):
             name: The object.
         """
 
-    def concern(self, scene: Scene) -> None:
-        """Let the workpiece be another object, or be released at another place.
+    def set_workpiece(self, scene: Scene) -> None:
+        """Make another object the workpiece, or change the place where it is released.
 
         Args:
-            scene: The scene with that object as its workpiece, where it now stands.
+            scene: The scene with that object as its workpiece, at its present pose.
 
         Raises:
-            SimulationError: The engine knows one object alone, and this is another.
+            SimulationError: The engine supports only one object, and this is another.
         """
 
     def tool_pose(self) -> Pose:
@@ -109,12 +109,12 @@ class ContactWorld(Protocol):
         """Contacts of the last step.
 
         Args:
-            standing: The contacts when the workpiece was last seen to stand at rest without the robot, if it was;
-                as long as the robot touches nothing, they hold.
+            standing: Contacts observed when the workpiece last rested without contact to the robot, if it did; they
+                remain valid as long as the robot touches nothing.
         """
 
     def support_force_n(self) -> float:
-        """Sum of the normal forces of the scene's bodies on the workpiece in the last step."""
+        """Sum in N of the normal forces of the scene's bodies on the workpiece in the last step."""
 
     def finger_contacts(self) -> tuple[FingerContact, ...]:
-        """The points at which fingers press on the workpiece, by finger and from low to high."""
+        """Contact points of the fingers on the workpiece, by finger and ascending height."""

@@ -1,4 +1,4 @@
-"""Contacts of one physics step, sorted by the touching bodies."""
+"""Contacts of one physics step, grouped by the bodies in contact."""
 
 from __future__ import annotations
 
@@ -8,15 +8,13 @@ from typing import Any, NamedTuple
 
 
 class Contacts(NamedTuple):
-    """Contacts after a step.
-
-    One is made at every step, and a named tuple in a third of the time of a dataclass.
+    """Contacts of one step; a named tuple, created in a third of the time of a dataclass, since each step creates one.
 
     Attributes:
         finger_forces_n: Normal force of each finger on the workpiece.
         other_force_n: Normal force of every other link of the robot on the workpiece.
-        pressed: The points between fingers and workpiece as the engine reports them, each with the sign with which
-            its friction acts on the workpiece.
+        pressed: Contact points between fingers and workpiece as reported by the engine, each with the sign of its
+        friction on the workpiece.
         robot_bodies: Pairs (link, body) of the robot touching the scene.
         workpiece_bodies: Scene bodies that the workpiece touches.
     """
@@ -29,7 +27,7 @@ class Contacts(NamedTuple):
 
     @property
     def finger_force_sum_n(self) -> float:
-        """Sum of the fingers' normal forces."""
+        """Sum of the fingers' normal forces in N."""
         return math.fsum(self.finger_forces_n)
 
     @property
@@ -51,22 +49,22 @@ class Contacts(NamedTuple):
 
     @property
     def fingers_touching(self) -> int:
-        """Number of fingers that press on the workpiece."""
+        """Number of fingers in contact with the workpiece."""
         return sum(force > 0.0 for force in self.finger_forces_n)
 
 
 @dataclass(frozen=True, slots=True)
 class FingerContact:
-    """One point at which a finger presses on the workpiece, in the frame of the workpiece.
+    """Contact point of a finger on the workpiece, in the frame of the workpiece.
 
-    The engine finds contacts at the start of a step and then moves the bodies, so that places in the
-    world are of a moment ago; in the frame of the workpiece as it stood then they are what they were.
+    The engine detects contacts at the start of a step and then moves the bodies, so that positions in the world are
+    outdated after the step; in the frame of the workpiece at the start of the step they are consistent.
 
     Attributes:
         finger: Index of the finger.
         position_m: The point on the workpiece.
-        normal: Unit normal into the workpiece, as the engine has it: while a contact lasts it keeps
-            its direction in the world, however the workpiece is turned.
+        normal: Unit normal into the workpiece, from the engine: while a contact lasts it keeps its direction in the
+        world, also when the workpiece rotates.
         gap_m: Distance of the surfaces along the normal, negative where they penetrate.
         normal_force_n: Force along the normal.
         friction_n: Friction force on the workpiece.

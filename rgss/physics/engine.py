@@ -1,4 +1,4 @@
-"""The one place where PyBullet is imported and where a client is opened."""
+"""Lazy import of PyBullet and management of its clients; no other module imports it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _MESSAGE = re.compile(r"b3(Error|Warning)\[[^\]]*\]:\s*")
 @lru_cache(maxsize=1)
 def pybullet() -> Any:
     """The engine's module, imported on first use so that start-up stays light."""
-    with _engine_output():  # it announces its build time
+    with _engine_output():  # it prints its build time on import
         import pybullet as module
 
     return module
@@ -74,7 +74,7 @@ class ClientOwner:
 def load_urdf_text(
     client: int, text: str, *, position: Any, orientation: Any, flags: int, is_fixed: bool = True
 ) -> int:
-    """Load a URDF, with a fixed base by default, from its text; the engine itself reads files only.
+    """Load a URDF from its text, with a fixed base by default; the engine itself reads only files.
 
     Raises:
         SimulationError: The engine could not read the description.
@@ -104,10 +104,10 @@ def load_urdf_text(
 
 @contextmanager
 def _engine_output() -> Iterator[BinaryIO]:
-    """Keep what the engine's C code prints off standard output and error, and give it as a file.
+    """Redirect the output of the engine's C code from standard output and error to a file.
 
-    Python's own streams do not see it, so the descriptors beneath them are turned aside; a
-    result on standard output would be mixed with it otherwise.
+    It bypasses Python's streams, so the file descriptors are redirected; otherwise it would mix with a result on
+    standard output.
     """
     with tempfile.TemporaryFile() as caught:
         saved = {}
@@ -115,7 +115,7 @@ def _engine_output() -> Iterator[BinaryIO]:
             for descriptor in (_STANDARD_OUTPUT, _STANDARD_ERROR):
                 try:
                     saved[descriptor] = os.dup(descriptor)
-                except OSError:  # closed, as it may be for a background process
+                except OSError:  # closed, as it may be in a background process
                     continue
                 os.dup2(caught.fileno(), descriptor)
             yield caught
@@ -126,7 +126,7 @@ def _engine_output() -> Iterator[BinaryIO]:
 
 
 def _reported_errors(output: BinaryIO) -> str:
-    """The errors among the engine's messages, on one line; it leads from the cause to its consequences."""
+    """Error messages of the engine on one line, from the cause to its consequences."""
     output.seek(0)
     parts = _MESSAGE.split(output.read().decode("utf-8", errors="replace"))
     errors = [text for kind, text in zip(parts[1::2], parts[2::2], strict=True) if kind == "Error"]

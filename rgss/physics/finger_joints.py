@@ -1,4 +1,4 @@
-"""Joints of a gripper in a picture, where nothing drives them."""
+"""Joint positions of a gripper for rendering, without drives."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from rgss.scenes import GripperGeometry, LinkageMotion, finger_joint, link_names
 
 
 def finger_joint_names(geometry: GripperGeometry) -> list[str]:
-    """The joints of sliding fingers, or all that move in a linkage.
+    """Names of the joints of sliding fingers, or of all movable joints of a linkage.
 
     Args:
         geometry: The gripper's shape.
@@ -21,11 +21,11 @@ def finger_joint_names(geometry: GripperGeometry) -> list[str]:
 
 
 def finger_joint_positions(geometry: GripperGeometry, travel_m: Sequence[float]) -> Sequence[float]:
-    """Positions of those joints where the pads have a travel from open.
+    """Positions of those joints at a travel of the pads from open.
 
     Args:
         geometry: The gripper's shape.
-        travel_m: The travel of each pad.
+        travel_m: Travel of each pad in m.
     """
     linkage = geometry.linkage
     if linkage is None:

@@ -1,4 +1,4 @@
-"""Snapshot of object, tool and fingers, from which derived quantities are computed on demand."""
+"""Snapshot of object, tool and fingers; derived quantities are computed on demand."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ Quadruple = tuple[float, float, float, float]
 
 
 class HandView(NamedTuple):
-    """Object, flange and fingers at one instant.
+    """Snapshot of object, flange and fingers at one instant.
 
-    An object that is carried is looked at many times a second, and mostly nothing but its place is requested.
+    A carried object is sampled many times a second, and mostly only its position is needed.
 
     Attributes:
         workpiece_m: Position of the workpiece in the world.
         workpiece_xyzw: Its orientation.
         flange_m: Position of the flange in the world.
         flange_xyzw: Its orientation, and so that of the tool.
-        grasp_centre_m: The grasp centre in the flange's frame, shifted against it and not turned.
-        travel_m: How far each finger has closed.
+        grasp_centre_m: Position of the grasp centre in the flange's frame; both have the same orientation.
+        travel_m: Travel of each finger from open.
     """
 
     workpiece_m: Triple
@@ -33,19 +33,19 @@ class HandView(NamedTuple):
 
     @property
     def tool(self) -> Pose:
-        """Transform of the grasp centre to the world."""
+        """Transform of the grasp-centre frame to the world."""
         flange = Pose(position_m=self.flange_m, quaternion_xyzw=self.flange_xyzw)
         (x, y, z), (dx, dy, dz) = self.flange_m, flange.rotate(self.grasp_centre_m)
         return Pose(position_m=(x + dx, y + dy, z + dz), quaternion_xyzw=self.flange_xyzw)
 
     @property
     def held(self) -> Pose:
-        """Transform of the workpiece to the grasp centre."""
+        """Transform of the workpiece to the grasp-centre frame."""
         return Pose(position_m=self.workpiece_m, quaternion_xyzw=self.workpiece_xyzw).relative_to(self.tool)
 
     @property
     def held_at_m(self) -> Triple:
-        """Position of the workpiece from the grasp centre, in the tool's frame: that of `held`, to the bit."""
+        """Position of the workpiece in the grasp-centre frame, in m: that of `held`, bit for bit."""
         x, y, z, w = self.flange_xyzw
         cx, cy, cz = self.grasp_centre_m
         tx, ty, tz = 2 * (y * cz - z * cy), 2 * (z * cx - x * cz), 2 * (x * cy - y * cx)

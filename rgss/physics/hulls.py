@@ -1,4 +1,4 @@
-"""Triangles of the hull of a convex shape's corners."""
+"""Triangulation of convex hulls."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Point = tuple[float, float, float]
 
 
 def hull_triangles(corners: Sequence[Point]) -> NDArray[np.intp]:
-    """Triangles of a convex hull by the indices of their corners, counter-clockwise from outside, shape (t, 3).
+    """Triangles of a convex hull as indices of their corners, counter-clockwise seen from outside, shape (t, 3).
 
     Args:
         corners: The corners, not all in a plane.
@@ -29,7 +29,7 @@ def hull_triangles(corners: Sequence[Point]) -> NDArray[np.intp]:
 
 
 def mesh_text(corners: Sequence[Point]) -> str:
-    """A convex shape as the text of a Wavefront OBJ file.
+    """Convex shape as the text of a Wavefront OBJ file.
 
     Args:
         corners: Its corners.

@@ -1,8 +1,9 @@
 """Drive of a gripper's linkage in PyBullet: a motor on the driven joint, gears to the joints that follow it.
 
-A gear of the engine holds two joints at a ratio as a constraint of the solver. Each joint is geared to the driven one
-itself: along a chain of gears errors add up and the solver converges more slowly. The gears pass the motor's effort to
-both pads, so a pad's force follows from the mechanism; they need more iterations of the solver than fingers that slide.
+A gear of the engine holds two joints at a ratio as a constraint of the solver. Each joint is geared directly to the
+driven one: along a chain of gears errors add up and the solver converges more slowly. The gears transmit the motor's
+effort to both pads, so that a pad's force follows from the mechanism; they need more iterations of the solver than
+sliding fingers.
 """
 
 from __future__ import annotations
@@ -13,14 +14,14 @@ from typing import Any
 from rgss.scenes import Linkage, LinkageMotion, link_names_of
 
 LEAST_ITERATIONS = 600
-"""Iterations of the solver with which the joints of a linkage follow within `docs/grippers.md`'s bound."""
+"""Iterations of the solver that keep the error of a linkage's joints within the bound of `docs/grippers.md`."""
 
 _GEAR_FORCE = 1.0e4
 _GEAR_CORRECTION = 0.2
 
 
 class LinkageDrive:
-    """The joints of one linkage in a physics client."""
+    """Drive of the joints of one linkage in a physics client."""
 
     def __init__(
         self, engine: Any, client: int, robot: int, linkage: Linkage, joints: Mapping[str, int], *, step_s: float
@@ -32,7 +33,7 @@ class LinkageDrive:
             client: The physics client.
             robot: The robot's body.
             linkage: The mechanism.
-            joints: Numbers of the engine's joints by their names.
+            joints: The engine's joint ids by name.
             step_s: Length of a step.
         """
         self._engine, self._client, self._robot = engine, client, robot
@@ -54,7 +55,7 @@ class LinkageDrive:
 
     @property
     def largest_error(self) -> float:
-        """Greatest difference of a joint from where it should follow the driven one, in rad or m."""
+        """Greatest deviation of a joint from its ratio to the driven joint, in rad or m."""
         driven = self._position(self._driven)
         return max(
             abs(self._position(joint) - self._linkage.joint_position(index, driven))
@@ -62,10 +63,10 @@ class LinkageDrive:
         )
 
     def reset(self, travel_m: float) -> None:
-        """Put the mechanism at rest where each pad has a travel from open.
+        """Put the mechanism at rest at a travel of each pad from open.
 
         Args:
-            travel_m: The travel.
+            travel_m: The travel in m.
         """
         driven = self._motion.driven_at(travel_m)
         for index, joint in self._joints.items():
@@ -73,11 +74,11 @@ class LinkageDrive:
             self._engine.resetJointState(self._robot, joint, position, 0.0, physicsClientId=self._client)
 
     def hold(self, travel_m: float, *, stiff: bool = False) -> None:
-        """Hold the mechanism where each pad has a travel from open.
+        """Hold the mechanism at a travel of each pad from open.
 
         Args:
-            travel_m: The travel.
-            stiff: Whether a motor of unlimited effort holds each joint, as where nothing is touched.
+            travel_m: The travel in m.
+            stiff: True to hold each joint by a motor of unlimited effort, for use without contact.
         """
         self._command = None
         driven = self._motion.driven_at(travel_m)
@@ -103,14 +104,14 @@ class LinkageDrive:
         self.before_step()
 
     def before_step(self) -> None:
-        """Set the motor by the Jacobian where the mechanism is: torque 2 J F, speed v / J."""
+        """Set the motor by the Jacobian J at the present position: torque 2 J F, speed v / J."""
         if self._command is None:
             return
         velocity_m_s, force_n = self._command
         linkage, driven = self._linkage, self._position(self._driven)
         transmission = self._motion.transmission(driven)
         end = linkage.closed if velocity_m_s >= 0.0 else linkage.opened
-        # The engine's own stop yields to the motor by a tenth of a millimetre and more.
+        # The engine's own joint limit yields to the motor by a tenth of a millimetre and more.
         left = abs(end - driven) / self._step_s if (end - driven) * self._towards * velocity_m_s > 0.0 else 0.0
         speed = min(abs(velocity_m_s) / transmission, linkage.speed, left)
         self._engine.setJointMotorControl2(
@@ -123,7 +124,7 @@ class LinkageDrive:
         )
 
     def travel_m(self) -> tuple[float, ...]:
-        """Travel of each pad from open, by the driven joint."""
+        """Travel of each pad from open in m, from the driven joint."""
         travel_m = self._motion.travel_m(self._position(self._driven))
         return (travel_m,) * len(self._linkage.pads)
 

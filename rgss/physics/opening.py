@@ -1,4 +1,4 @@
-"""Opening a contact world by its settings: in PyBullet, or in the engine that the settings are those of."""
+"""Factory of contact worlds: PyBullet, or the engine of the settings."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from rgss.scenes import Gripper, Scene
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OtherEngineSettings(PhysicsSettings):
-    """Settings of a contact engine other than PyBullet, which open a world of that engine.
+    """Settings of a contact engine other than PyBullet, with the factory of its worlds.
 
-    The engine is an input of a trial like its rate, so that evidence of two engines has different keys. It is met
-    through this class alone: the code of PyBullet's trials does not depend on the other engine's.
+    The engine is an input of a trial like its rate, so that evidence of two engines has different keys. It is accessed
+    only through this class, so that the code of PyBullet's trials does not depend on it.
 
     Attributes:
         engine: Name of the engine.
@@ -29,12 +29,12 @@ class OtherEngineSettings(PhysicsSettings):
     code: str
 
     def open(self, scene: Scene, gripper: Gripper, *, joint_offsets_rad: Sequence[float] = ()) -> ContactWorld:
-        """A fresh world of the engine.
+        """New world of the engine.
 
         Args:
             scene: Fixed bodies, workpiece and robot.
             gripper: The gripper on the robot's flange.
-            joint_offsets_rad: True less reported angle of each joint of the arm; empty where they are the same.
+            joint_offsets_rad: True minus reported angle of each joint of the arm; empty if they are equal.
 
         Raises:
             SimulationError: The engine cannot build it.
@@ -45,13 +45,13 @@ class OtherEngineSettings(PhysicsSettings):
 def open_world(
     scene: Scene, gripper: Gripper, settings: PhysicsSettings, *, joint_offsets_rad: Sequence[float] = ()
 ) -> ContactWorld:
-    """A fresh world of the engine that the settings name.
+    """New world of the engine that the settings name.
 
     Args:
         scene: Fixed bodies, workpiece and robot.
         gripper: The gripper on the robot's flange.
-        settings: Step length and solver; PyBullet's unless they are those of another engine.
-        joint_offsets_rad: True less reported angle of each joint of the arm; empty where they are the same.
+        settings: Step length and solver; those of another engine select it, else PyBullet.
+        joint_offsets_rad: True minus reported angle of each joint of the arm; empty if they are equal.
 
     Raises:
         SimulationError: The engine cannot build it.

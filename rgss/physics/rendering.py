@@ -1,4 +1,4 @@
-"""Drawing with the engine's software renderer: colours, depths, and where a pixel lies in the world."""
+"""Rendering with the engine's software renderer: colours, depths, projection and unprojection."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ Vector = tuple[float, float, float]
 
 TOWARDS_LIGHT: Vector = (-2.0, -1.2, 4.0)
 AMBIENT, DIFFUSE = 0.56, 0.46
-"""What of a colour is seen in the shadow, and what comes to it where light falls on it straight."""
+"""Ambient share of a colour, and diffuse share at perpendicular incidence."""
 
 _SPECULAR = 0.03
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Window:
-    """A part of a picture, in pixels; the last row and column are outside.
+    """Rectangle of a picture in pixels; its end row and column are exclusive.
 
     Attributes:
         top: First row.
@@ -41,14 +41,14 @@ class Window:
     right: int
 
     def scaled(self, factor: int) -> Window:
-        """The same part of a picture with so many times the rows and columns."""
+        """The same window at a multiple of the resolution."""
         return Window(
             top=self.top * factor, bottom=self.bottom * factor, left=self.left * factor, right=self.right * factor
         )
 
     @property
     def slices(self) -> tuple[slice, slice]:
-        """Slices of this part in an array of rows and columns."""
+        """Slices of the window in an array of rows and columns."""
         return slice(self.top, self.bottom), slice(self.left, self.right)
 
 
@@ -58,13 +58,13 @@ class Lens:
 
     Attributes:
         eye_m: Position of the camera.
-        target_m: What it looks at.
+        target_m: Point at the centre of the picture.
         field_of_view_rad: Angle between the picture's upper and lower edge.
         width: Width of the picture in pixels.
         height: Height of the picture in pixels.
         near_m: Distance of the near plane.
         far_m: Distance of the far plane.
-        up: Direction that is upward in the picture.
+        up: Upward direction of the picture.
     """
 
     eye_m: Vector
@@ -77,11 +77,11 @@ class Lens:
     up: Vector = (0.0, 0.0, 1.0)
 
     def enlarged(self, factor: int) -> Lens:
-        """The same view with so many times the rows and columns."""
+        """The same view at a multiple of the resolution."""
         return replace(self, width=self.width * factor, height=self.height * factor)
 
     def matrices(self, window: Window | None = None) -> tuple[Any, Any]:
-        """View and projection matrix, column by column as the engine takes them.
+        """View and projection matrix in column-major order, as the engine expects them.
 
         Args:
             window: The part of the picture to project; the whole by default.
@@ -103,17 +103,17 @@ class Lens:
         )
 
     def project(self, points_m: Array) -> tuple[Array, Array, Array]:
-        """Columns, rows and depths of points (..., 3) of the world, each of shape (...).
+        """Project points (..., 3) of the world to columns, rows and depths, each of shape (...).
 
-        Depths go from 0 at the near plane to 1 at the far plane; those of points behind the
-        camera are NaN, as are their columns and rows.
+        Depths go from 0 at the near plane to 1 at the far plane; those of points behind the camera are NaN, as are
+        their columns and rows.
         """
         x, y, z, w = (points_m @ row[:3] + row[3] for row in self._matrix().astype(np.float32))
         w = np.where(w > 0.0, w, np.float32(np.nan))
         return (x / w + 1) * (self.width / 2), (1 - y / w) * (self.height / 2), (z / w + 1) / 2
 
     def unproject(self, depths: Array) -> Array:
-        """Points (height, width, 3) of the world that the pixels show, from their depths."""
+        """Points (height, width, 3) of the world from the depths of the pixels."""
         inverse = np.linalg.inv(self._matrix()).astype(np.float32)
         x = (2 * np.arange(self.width, dtype=np.float32) + 1) / self.width - 1
         y = 1 - (2 * np.arange(self.height, dtype=np.float32) + 1) / self.height
@@ -131,12 +131,12 @@ class Lens:
 
 
 def draw(client: int, lens: Lens, window: Window | None = None) -> tuple[Picture, Array]:
-    """Draw everything in a client, lit but without shadows, before white.
+    """Render all bodies of a client, lit but without shadows, on white.
 
     Args:
         client: The physics client.
         lens: The projection.
-        window: The part of the picture to draw; the whole by default.
+        window: The part of the picture to render; the whole by default.
 
     Returns:
         The colours, and the depths (height, width) from 0 at the near plane to 1 where there is nothing.

@@ -1,4 +1,4 @@
-"""Step of joint servos, exact for the velocity loop, and means of delayed commands."""
+"""Exact discretisation of joint servos' velocity loops, and step means of delayed commands."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _LEAST_DAMPING_HZ = 1.0e-9
 
 
 def mean_commands(times_s: Array, commands: Array, edges_s: Array) -> Array:
-    """Means over steps of a command that keeps each sample's value until the next one.
+    """Means over steps of a zero-order-hold command.
 
     Before the first sample the command has the first value. The means depend continuously on the edges, and so
     on a delay that is not a multiple of the sampling time.
@@ -37,7 +37,7 @@ def mean_commands(times_s: Array, commands: Array, edges_s: Array) -> Array:
 
 
 class VelocityLoop:
-    """One step of several servos, with the coefficients of that step computed once."""
+    """One step of several servos, with precomputed coefficients."""
 
     def __init__(self, servos: Sequence[JointServo], step_s: float) -> None:
         """Compute the coefficients.

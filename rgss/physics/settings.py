@@ -6,35 +6,35 @@ import math
 from dataclasses import dataclass, replace
 
 MOST_ITERATIONS = 2000
-"""More are never taken for a light body; what would need them is refused."""
+"""Upper bound of the iterations for a light body; a world that would need more is rejected."""
 
 _MARGIN = 2.0
 
 LEAST_RATE_HZ = 120.0
-"""Rate from which a grasp was validated; below it fingers that hold are reported as not firm."""
+"""Least rate for which grasps were validated; below it holding fingers are reported as not firm."""
 
 LEAST_ITERATIONS_HZ = 2400.0
-"""Rate times iterations from which a grasp was validated."""
+"""Least product of rate and iterations for which grasps were validated."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PhysicsSettings:
     """Resolution of the rigid-body simulation.
 
-    A pad is a Kelvin-Voigt layer: it presses with its stiffness times its deflection, plus its damping times
-    the rate of deflection. Between rigid bodies, how a finger's force is shared by the ends of its pad would be
-    statically indeterminate, and the solver's choice has no limit as the step shrinks: with all of the force at
+    A pad is a Kelvin-Voigt layer: it presses with its stiffness times its deflection, plus its damping times the rate
+    of deflection. Between rigid bodies the distribution of a finger's force over the ends of its pad would be
+    statically indeterminate, and the solver's choice does not converge as the step shrinks: with all of the force at
     one end, a held object swings about it.
 
     Attributes:
         rate_hz: Steps a second.
         solver_iterations: Iterations of the constraint solver in a step.
-        free_iterations: The same, if they are fewer, while the hand is empty and moves: nothing has to be
-            held, and the arm's motors alone converge sooner.
-        pad_stiffness_n_m: Normal stiffness of one finger's pad. A layer of rubber of 2.5 MPa, 2 mm thick, that
-            is touched over 80 mm by 1 mm has 100 kN/m: 10 N deflect it by 0.1 mm.
-        pad_retardation_s: Damping of the pad over its stiffness. An implicit step damps by itself with a retardation of
-            one step, so a step that is longer than the pad's retardation damps more than the pad.
+        free_iterations: Iterations while the hand is empty and moves, if fewer: nothing is held, and the arm's motors
+        alone converge sooner.
+        pad_stiffness_n_m: Normal stiffness of one finger's pad. A layer of rubber of 2.5 MPa, 2 mm thick, loaded over
+        80 mm by 1 mm has 100 kN/m: 10 N deflect it by 0.1 mm.
+        pad_retardation_s: Damping of the pad divided by its stiffness. The implicit integration has a numerical damping
+        equal to a retardation of one step, so a step longer than the pad's retardation damps more than the pad.
     """
 
     rate_hz: float = 240.0
@@ -45,46 +45,45 @@ class PhysicsSettings:
 
     @property
     def step_s(self) -> float:
-        """Length of one step."""
+        """Length of one step in s."""
         return 1.0 / self.rate_hz
 
     @property
     def pad_damping_n_s_m(self) -> float:
-        """Damping of one finger's pad that is left to the engine.
+        """Damping coefficient of one finger's pad for the engine.
 
-        The engine's spring presses with k x + (k dt + c) v of the step's end: the implicit step adds k dt to the
-        damping c.
+        The engine's contact force at the end of the step is k x + (k dt + c) v: the implicit integration adds k dt to
+        the damping c.
         """
         return self.pad_stiffness_n_m * max(0.0, self.pad_retardation_s - self.step_s)
 
     def lightest_body_kg(self, *, force_n: float, speed_m_s: float, iterations: int | None = None) -> float:
-        """Mass of a body, finger or object, through which the solver passes the whole force of a finger.
+        """Least mass in kg of a body, finger or object, through which the solver transmits the whole force of a finger.
 
-        In each of its iterations the motor of a finger gives the finger at most its momentum M v_f, which
-        the contact takes away again; so no more than iterations times M v_f / dt is ever pressed, and a
-        lighter object creeps out of the hand. Measured without margin on fingers; an object between three
-        fingers needs twice that.
+        In each iteration the motor of a finger adds at most the momentum M v_f to the finger, which the contact removes
+        again; so the contact force is at most iterations times M v_f / dt, and a lighter object creeps out of the hand.
+        Measured without margin on fingers; an object between three fingers needs twice that.
 
         Args:
             force_n: Force of a finger.
-            speed_m_s: Speed at which its motor drives it.
-            iterations: Iterations of the solver; those of the settings if not given.
+            speed_m_s: Speed of its motor.
+            iterations: Iterations of the solver; those of the settings by default.
         """
         count = self.solver_iterations if iterations is None else iterations
         return _MARGIN * force_n / (count * speed_m_s * self.rate_hz)
 
     def passing(self, *, force_n: float, speed_m_s: float, lightest_kg: float) -> PhysicsSettings:
-        """The same with as many iterations as pass a finger's force through the lightest body.
+        """Copy with enough iterations to transmit a finger's force through the lightest body.
 
         Args:
             force_n: Force of a finger.
-            speed_m_s: Speed at which its motor drives it.
+            speed_m_s: Speed of its motor.
             lightest_kg: Mass of the lightest body between the fingers' motors, finger or object.
         """
-        if not lightest_kg > 0.0:  # which the world refuses
+        if not lightest_kg > 0.0:  # which the world rejects
             return self
         share = self.lightest_body_kg(force_n=force_n, speed_m_s=speed_m_s) / lightest_kg
-        # In the last digit a mass may be the lightest that passes.
+        # Within rounding a mass may equal the least one.
         if share <= 1.0 + 1e-9:
             return self
         return replace(self, solver_iterations=min(MOST_ITERATIONS, math.ceil(self.solver_iterations * share)))

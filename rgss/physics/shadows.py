@@ -1,7 +1,7 @@
-"""Shadows, by depth maps seen from the light.
+"""Shadow mapping by depth maps seen from the light.
 
-The engine's own shadows darken everything outside the cone of its light and cost more than the
-picture; here only what moves is drawn anew, and only what stands still receives shadows.
+The engine's own shadows darken everything outside the cone of its light and take longer than the picture; here only
+moving bodies are rendered again, and only fixed bodies receive shadows.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ _NEIGHBOURS = (-1, 0, 1)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Receiver:
-    """Points of a picture as a light sees them.
+    """Points of a picture in the depth map of a light.
 
     Attributes:
         index: Pixel (height, width) of each point in the flattened depth map.
-        depth: Its depth (height, width) there, less a tolerance; -1, before everything, where no shadow falls.
+        depth: Its depth (height, width) there minus a tolerance; -1, in front of everything, where no shadow is cast.
     """
 
     index: NDArray[np.int32]
@@ -32,16 +32,16 @@ class Receiver:
 
 
 class Light:
-    """A lamp so far away that its rays are almost parallel, directed at a part of the scene."""
+    """Distant light with almost parallel rays, directed at a part of the scene."""
 
     def __init__(self, target_m: Vector, *, reach_m: float, resolution: int, tolerance_m: float) -> None:
         """Direct the light.
 
         Args:
-            target_m: The middle of what is lit.
-            reach_m: Distance from it up to which shadows fall.
+            target_m: Centre of the lit region in the world.
+            reach_m: Radius of the region in which shadows are cast.
             resolution: Rows and columns of the depth map.
-            tolerance_m: How far a point must lie behind another to be in its shadow.
+            tolerance_m: Least distance in m behind another point for a point to be in its shadow.
         """
         x, y, z = (_DISTANCE_M / math.hypot(*TOWARDS_LIGHT) * part for part in TOWARDS_LIGHT)
         self._tolerance_m = tolerance_m
@@ -61,24 +61,24 @@ class Light:
         column, row, depth = lens.project(points_m)
         inside = (column >= 1) & (column < lens.width - 1) & (row >= 1) & (row < lens.height - 1)
         index = np.where(inside, row.astype(np.int32) * lens.width + column.astype(np.int32), lens.width + 1)
-        # How much the depth grows by a metre along the ray, about the target.
+        # Increase of the depth value for a metre along the ray, near the target.
         growth = lens.near_m * lens.far_m / (lens.far_m - lens.near_m) / _DISTANCE_M**2
         kept = np.where(inside, depth - np.float32(growth * self._tolerance_m), np.float32(-1.0))
         return Receiver(index=index.astype(np.int32), depth=kept.astype(np.float32))
 
     def depths_of(self, client: int) -> Array:
-        """The depth map of a client's bodies: what is nearest to the light."""
+        """Depth map of a client's bodies as seen from the light."""
         return draw(client, self._lens)[1]
 
     def shadow(self, depths: Array, receiver: Receiver) -> Array:
-        """The share (height, width), 0 to 1, of the light that does not get to each point.
+        """Occlusion (height, width) of each point, from 0, lit, to 1, in shadow.
 
         Args:
             depths: A depth map of this light.
-            receiver: The points as this light sees them.
+            receiver: The points in the depth map of this light.
         """
         seen = depths.ravel()
-        # Neighbours in the map make the edge of the shadow soft.
+        # Averaging over neighbours in the map softens the edge of the shadow.
         offsets = [row * self._lens.width + column for row in _NEIGHBOURS for column in _NEIGHBOURS]
         hidden = np.zeros(receiver.depth.shape, dtype=np.uint8)
         for offset in offsets:
@@ -88,7 +88,7 @@ class Light:
 
 
 def darkness(points_m: Array) -> Array:
-    """The share (height, width) of its colour that each point (height, width, 3) of a surface loses in the shadow.
+    """Share (height, width) of its colour that each point (height, width, 3) of a surface loses in full shadow.
 
     A surface that faces away from the light loses nothing.
     """

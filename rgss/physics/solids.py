@@ -1,4 +1,4 @@
-"""Surfaces of solids for pictures: smooth round an axis, sharp at every edge."""
+"""Triangulated surfaces of solids for rendering: smooth round an axis, sharp at every edge."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ class Surface:
     """A triangulated surface.
 
     Attributes:
-        vertices_m: Corners.
-        normals: Outward direction at each corner.
-        indices: Three corners for each triangle, counter-clockwise from outside.
+        vertices_m: Its vertices.
+        normals: Outward normal at each vertex.
+        indices: Three vertices for each triangle, counter-clockwise seen from outside.
     """
 
     vertices_m: tuple[Vector, ...]
@@ -34,7 +34,7 @@ class Surface:
 
 
 def box_surface(shape: Box) -> Surface:
-    """The surface of a box in its own frame."""
+    """Surface of a box in its own frame."""
     half = [size / 2 for size in shape.size_m]
     vertices: list[Vector] = []
     normals: list[Vector] = []
@@ -42,7 +42,7 @@ def box_surface(shape: Box) -> Surface:
     for axis in range(3):
         for side in (-1.0, 1.0):
             first = len(vertices)
-            # Counter-clockwise from outside: the two other axes in cyclic order, turned round on the near side.
+            # Counter-clockwise from outside: the two other axes in cyclic order, reversed on the negative side.
             for u, v in ((-side, -1.0), (side, -1.0), (side, 1.0), (-side, 1.0)):
                 corner, normal = [0.0] * 3, [0.0] * 3
                 corner[axis], normal[axis] = side * half[axis], side
@@ -54,7 +54,7 @@ def box_surface(shape: Box) -> Surface:
 
 
 def hull_surface(corners: Sequence[Vector]) -> Surface:
-    """The surface of a convex shape, given by its corners; flat between its edges."""
+    """Surface of a convex shape from its corners, with flat faces."""
     vertices: list[Vector] = []
     normals: list[Vector] = []
     for triangle in hull_triangles(corners).tolist():
@@ -67,23 +67,23 @@ def hull_surface(corners: Sequence[Vector]) -> Surface:
 
 
 def cylinder_surface(shape: Cylinder) -> Surface:
-    """The surface of a cylinder in its own frame."""
+    """Surface of a cylinder in its own frame."""
     r, h = shape.radius_m, shape.half_height_m
-    # Long thin oblique triangles are slow to draw, so a long side is divided into rings.
+    # Long thin oblique triangles are slow to render, so a long side is divided into rings.
     rings = max(1, math.ceil(h / r))
     side = [(r, h * (2 * ring / rings - 1)) for ring in range(rings + 1)]
     return _turned([(0.0, -h), *side, (0.0, h)])
 
 
 def cup_surface(shape: Cylinder) -> Surface:
-    """The surface of a cup that a cylinder encloses: its outside, its rim and its inside."""
+    """Surface of a cup with the outline of a cylinder: outside, rim and inside."""
     r, h = shape.radius_m, shape.half_height_m
     inside, bottom = _WALL_SHARE * r, (2 * _BOTTOM_SHARE - 1) * h
     return _turned([(0.0, -h), (r, -h), (r, h), (inside, h), (inside, bottom), (0.0, bottom)])
 
 
 def _turned(profile: Sequence[tuple[float, float]]) -> Surface:
-    """Turn a profile of (radius, height) about z; its outside lies to the right of its course."""
+    """Surface of revolution of a profile (radius, height) about z; the outside is to the right of the profile."""
     vertices: list[Vector] = []
     normals: list[Vector] = []
     indices: list[int] = []

@@ -1,8 +1,8 @@
-"""Bodies of a scene for pictures, in clients that are never stepped.
+"""Bodies of a scene for rendering, in clients that are never stepped.
 
-A world that is simulated holds nothing for pictures, so no picture can change its results. What
-is shown is what is simulated, but for two things: a mat marks the place, and each finger slides
-on a rail, so that an open finger is not seen to float.
+A simulated world contains no bodies for rendering, so that rendering cannot change results. The rendered bodies are the
+simulated ones, with two additions: a mat marks the place, and each finger has a rail, so that an open finger does not
+seem to float.
 """
 
 from __future__ import annotations
@@ -39,10 +39,10 @@ Colour = Sequence[float]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeenSolid:
-    """A solid of a picture.
+    """A rendered solid.
 
     Attributes:
-        link: The link that carries it; empty for a fixed body.
+        link: Its link; empty for a fixed body.
         surface: Its surface in its own frame.
         pose: Transform of its frame to the link, or to the world.
         colour: Red, green, blue and opacity, each from 0 to 1.
@@ -69,7 +69,7 @@ class Posture:
 
     Attributes:
         joints_rad: Joint positions of the arm.
-        finger_travel_m: How far each finger has closed.
+        finger_travel_m: Travel of each finger from open.
         workpiece: Transform of the workpiece to the world.
     """
 
@@ -79,7 +79,7 @@ class Posture:
 
 
 class Stage:
-    """Fixed bodies in one client and moving ones in another, so that each can be drawn alone.
+    """Fixed bodies in one client and moving ones in another, so that each can be rendered separately.
 
     Attributes:
         still: Client of the scene's bodies and of a mat that marks the place.
@@ -87,10 +87,10 @@ class Stage:
     """
 
     def __init__(self, scene: Scene, gripper: Gripper) -> None:
-        """Set the stage.
+        """Build the stage.
 
         Args:
-            scene: What there is to see.
+            scene: The scene to render.
             gripper: The gripper on the robot's flange.
 
         Raises:
@@ -139,7 +139,7 @@ class Stage:
             self._place(part, self._link_pose(link) @ pose)
 
     def solids(self) -> tuple[SeenSolid, ...]:
-        """The fixed bodies, and the solids of the links of arm and gripper; objects are not among them."""
+        """The fixed bodies, and the solids of the links of arm and gripper, without objects."""
         moving = []
         for part, link, pose in self._parts:
             surface, colour = self._looks[self.moving, part]
@@ -147,7 +147,7 @@ class Stage:
         return (*self._fixed, *moving)
 
     def link_poses(self) -> dict[str, Pose]:
-        """Transforms to the world of the links that carry solids, as `take` set them."""
+        """Transforms to the world of the links with solids, as set by `take`."""
         return {self._link_names[link]: self._link_pose(link) for link in sorted({link for _, link, _ in self._parts})}
 
     def tool_position(self) -> tuple[float, float, float]:
@@ -155,7 +155,7 @@ class Stage:
         return (self._link_pose(self._flange) @ self._gripper.geometry.grasp_centre).position_m
 
     def corners(self) -> list[tuple[float, float, float]]:
-        """Points of the world within whose convex hull lies everything that moves."""
+        """Points of the world whose convex hull contains everything that moves."""
         corners = []
         for body, half in self._half_sizes.items():
             for signs in product((-1, 1), repeat=3):
@@ -181,7 +181,7 @@ class Stage:
             self._engine.createMultiBody(0.0, -1, visual, pose.position_m, pose.quaternion_xyzw, physicsClientId=client)
         )
         if visual < 0 or body < 0:
-            raise SimulationError("the physics engine refused a body of a picture", hint="check its sizes")
+            raise SimulationError("the physics engine rejected a rendered body", hint="check its sizes")
         self._looks[client, body] = surface, colour
         if client == self.still:
             self._fixed.append(SeenSolid(link="", surface=surface, pose=pose, colour=colour))
@@ -194,7 +194,7 @@ class Stage:
         )
 
     def _add_robot(self) -> None:
-        """Load the machine to know where its links are, and a part in the picture for each solid of a link."""
+        """Load the machine for the poses of its links, and a rendered part for each solid of a link."""
         engine, client, base = self._engine, self._machine, self._scene.robot.base
         assembled = assembled_urdf(self._scene.robot, self._gripper)
         self._robot = load_urdf_text(
@@ -265,7 +265,7 @@ class Stage:
 
 
 def object_surfaces(shape: ObjectShape) -> list[tuple[Surface, Pose, tuple[float, float, float]]]:
-    """Surfaces of the object, each with its place in the object's frame and its half sizes; a cylinder is a cup."""
+    """Surfaces of the object with their transforms to its frame and half sizes; a cylinder is drawn as a cup."""
     if isinstance(shape, MeshShape):
         return [(hull_surface(part), Pose(), _half_extent(part)) for part in shape.parts_m]
     if isinstance(shape, LyingCylinder):
@@ -281,7 +281,7 @@ def _surface(shape: Shape) -> Surface:
 
 
 def _half_extent(corners: Sequence[tuple[float, float, float]]) -> tuple[float, float, float]:
-    """Half sizes of the box about the origin that holds all corners."""
+    """Half sizes of the bounding box about the origin."""
     x, y, z = (max(abs(corner[axis]) for corner in corners) for axis in range(3))
     return x, y, z
 

@@ -1,11 +1,12 @@
-"""Seal of a suction cup on the workpiece: a bond that breaks when the load on it exceeds the vacuum's force.
+"""Seal of a suction cup on the workpiece: a bond that breaks when its load exceeds the vacuum's force.
 
-The bond is a constraint of the engine. The force that it had to give in the last step is divided into tension along
-the cup's axis, force along the surface, and the moment about the centre of the lip. With F the force of the vacuum,
-the lip presses on the surface with F less the tension; on the side of the greatest tension it lifts off when the
-moment exceeds (F - tension) times the lip's radius. The load is averaged over 20 ms, as the compliance of a cup
-does. A rigid bond between a rigid hand and a rigid support would leave the force between them undetermined, so the
-object's contact with what it stands on yields.
+The bond is a constraint of the engine. Its force in the last step is resolved into tension along the cup's axis,
+tangential force, and the moment about the centre of the lip. With F the force of the vacuum, the lip presses on the
+surface with F minus the tension; on the side of the greatest tension it lifts off when the moment exceeds (F - tension)
+times the lip's radius. The load is averaged over 20 ms, like the compliance of a cup does.
+
+With a rigid bond between a rigid hand and a rigid support the force between them would be undetermined, so the object's
+contact with its support is compliant.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ class SuctionSeal:
     """Seal between the cup and the workpiece in one physics client.
 
     Attributes:
-        force_n: Normal force that the vacuum gives now; 0 where nothing is sealed.
-        fault: Why the cup does not hold the workpiece; empty where it does.
+        force_n: Present normal force of the vacuum; 0 if not sealed.
+        fault: Reason why the cup does not hold the workpiece; empty if it does.
     """
 
     def __init__(
@@ -43,7 +44,7 @@ class SuctionSeal:
         suction: Suction,
         step_s: float,
     ) -> None:
-        """Begin without a vacuum.
+        """Start without a vacuum.
 
         Args:
             engine: The engine's module.
@@ -51,9 +52,9 @@ class SuctionSeal:
             robot: The robot's body.
             cup_link: Link of the cup.
             body: The workpiece's body.
-            point: Where the cup is meant to seal on the workpiece.
+            point: Intended place of the cup on the workpiece.
             gripper: The gripper with its greatest normal force.
-            suction: What the cup seals on and holds.
+            suction: Sealing conditions and holding force of the cup.
             step_s: Length of a step.
         """
         self.force_n = 0.0
@@ -81,7 +82,7 @@ class SuctionSeal:
         return self.force_n > 0.0
 
     def switch(self, *, on: bool) -> None:
-        """Switch the vacuum on or off; off, it holds until it is vented."""
+        """Switch the vacuum on or off; switched off, it holds until it is vented."""
         if on:
             self._on_s = 0.0 if self._on_s is None else self._on_s
             self._off_s = math.inf
@@ -89,7 +90,7 @@ class SuctionSeal:
             self._off_s = 0.0
 
     def after_step(self, flange: Pose, workpiece: Pose) -> None:
-        """Build up or vent the vacuum, seal where the surface is near, and break a bond that is overloaded.
+        """Update the vacuum, seal if the surface is within the largest gap, and break an overloaded bond.
 
         Args:
             flange: Transform of the flange to the world.
@@ -116,11 +117,11 @@ class SuctionSeal:
         if self._bond is not None:
             self._check(lip, tight)
         elif share >= 1.0 - 1e-9:
-            # While the vacuum builds up the object stands on its support, and comes to rest there.
+            # While the vacuum builds up the object comes to rest on its support.
             self._seal()
 
     def _misplaced(self, lip: Pose, workpiece: Pose) -> str:
-        """Why the cup cannot seal where it is; empty where it can."""
+        """Reason why the cup cannot seal at its pose; empty if it can."""
         suction, point, workpiece_to_lip = self._suction, self._point, lip.inverse() @ workpiece
         x, y, z = (workpiece_to_lip @ Pose(position_m=point.position_m)).position_m
         _, _, along = workpiece_to_lip.rotate(point.normal)
@@ -158,9 +159,9 @@ class SuctionSeal:
         engine.setCollisionFilterPair(self._robot, self._body, self._link, -1, 0, physicsClientId=client)
 
     def _check(self, lip: Pose, tight: float) -> None:
-        """Break the bond where its load exceeds what the vacuum holds."""
+        """Break the bond if its load exceeds the holding force of the vacuum."""
         if self._is_standing():
-            # Then the support shares the load, and how bond and support share it is the solver's choice.
+            # The support then shares the load, in a proportion that is arbitrary in the solver.
             self._loads.clear()
             return
         self._loads.append(self._load(lip))
@@ -181,7 +182,7 @@ class SuctionSeal:
             self._release(f"a moment of {bending_n_m:.3f} N·m lifts the lip of the cup off the object")
 
     def _is_standing(self) -> bool:
-        """True if anything but the robot presses on the object."""
+        """True if anything but the robot is in contact with the object."""
         points = self._engine.getContactPoints(self._body, -1, -2, -2, self._client)
         return any(point[9] > 0.0 and self._robot not in (point[1], point[2]) for point in points)
 
@@ -189,7 +190,7 @@ class SuctionSeal:
         """Force (N) on the cup along x, y, z of the lip and moment (N·m) about x and y of its centre, last step."""
         fx, fy, fz, mx, my, mz = self._engine.getConstraintState(self._bond, self._client)
         at, _ = self._engine.getBasePositionAndOrientation(self._body, self._client)
-        # The engine gives them in the world, about the object's centre of mass.
+        # The engine reports them in the world, about the object's centre of mass.
         ax, ay, az = (one - other for one, other in zip(at, lip.position_m, strict=True))
         moment = lip.inverse_rotate((mx + ay * fz - az * fy, my + az * fx - ax * fz, mz + ax * fy - ay * fx))
         along_x, along_y, tension_n = lip.inverse_rotate((fx, fy, fz))

@@ -1,4 +1,4 @@
-"""The arm alone, driven by joint torques: no scene, no object, no contact."""
+"""Simulation of the arm alone, driven by joint torques, without contacts."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rgss.scenes import Gripper, Pose, Robot, Workpiece, assembled_urdf, finger_
 class TorqueArm(ClientOwner):
     """One arm with its gripper in an empty world; a context manager that always closes its client.
 
-    The fingers are held where they are put by stiff motors.
+    Stiff motors hold the fingers in position.
     """
 
     def __init__(self, robot: Robot, gripper: Gripper, settings: PhysicsSettings, *, gravity_m_s2: float) -> None:
@@ -39,7 +39,7 @@ class TorqueArm(ClientOwner):
             self._build(robot, gripper, settings, gravity_m_s2)
         except self._engine.error as error:
             self.close()
-            raise SimulationError(f"the physics engine refused the arm: {error}", hint="check the robot") from error
+            raise SimulationError(f"the physics engine rejected the arm: {error}", hint="check the robot") from error
         except BaseException:
             self.close()
             raise
@@ -51,7 +51,7 @@ class TorqueArm(ClientOwner):
         self.hold_fingers(finger_travel_m)
 
     def hold_fingers(self, finger_travel_m: float) -> None:
-        """Put the fingers at a travel from open and hold them there; a suction cup has none."""
+        """Put the fingers at a travel from open and hold them there; no effect for a suction cup."""
         if not self._fingers:
             return
         if self._linkage is not None:
@@ -70,18 +70,18 @@ class TorqueArm(ClientOwner):
         )
 
     def attach(self, workpiece: Workpiece, held: Pose | None = None) -> None:
-        """Fix a workpiece to the flange; it has mass but no shape to touch.
+        """Fix a workpiece to the flange, with mass but without a collision shape.
 
         Args:
             workpiece: The workpiece.
-            held: Transform of it to the grasp-centre frame; None for its centre on the grasp centre.
+            held: Transform of the workpiece to the grasp-centre frame; None to centre it on the grasp centre.
         """
         flange = self._engine.getLinkState(
             self._body, self._flange, computeForwardKinematics=1, physicsClientId=self._client
         )
         centre = self._grasp_centre if held is None else self._grasp_centre @ held
         pose = Pose(position_m=tuple(flange[4]), quaternion_xyzw=tuple(flange[5])) @ centre
-        # In the hand as the controller believes it, a cylinder has its centre of mass in the middle.
+        # The controller's model of a held cylinder has its centre of mass in the middle.
         placed = replace(workpiece, centre_of_mass_m=0.0) if held is None else workpiece
         self._held, principal = add_object(self._engine, self._client, replace(placed, pose=pose))
         bonded = centre @ principal
@@ -101,7 +101,7 @@ class TorqueArm(ClientOwner):
         )
 
     def detach(self) -> None:
-        """Take the workpiece out of the world."""
+        """Remove the workpiece from the world."""
         if self._held >= 0:
             self._engine.removeConstraint(self._bond, physicsClientId=self._client)
             self._engine.removeBody(self._held, physicsClientId=self._client)

@@ -1,11 +1,11 @@
-"""A headless world: the scene's bodies, the workpiece, and the arm with its gripper.
+"""Contact world in PyBullet: the scene's bodies, the workpiece, and the arm with its gripper.
 
-Facts of the engine that shape this file: a finger held by a velocity motor exerts its force
-limit exactly, while a torque command slams; target position and velocity must be commanded at
-every step; every call names its client. `world_builder` has what shapes the bodies.
+Properties of the engine behind this design: a finger on a velocity motor exerts its force limit exactly, while a torque
+command causes an impact; target position and velocity must be commanded at every step; every call names its client.
+Those that set_workpiece the bodies are in `world_builder`.
 """
 
-# long file: one class with a short method for each thing that a step may ask of the engine.
+# long file: one class with a short method for each operation of a step.
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ _RENEWAL_CHECK_STEPS = 8
 class World(ClientOwner):
     """One physics world; a context manager that always closes its client.
 
-    The arm follows targets through velocity motors with the joints' torque limits; fingers move
-    at their velocity with their force limit.
+    Velocity motors with the joints' torque limits drive the arm to its targets; fingers move at a velocity with a force
+    limit.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class World(ClientOwner):
             scene: Fixed bodies, workpiece and robot.
             gripper: The gripper on the robot's flange.
             settings: Step length and solver.
-            joint_offsets_rad: True less reported angle of each joint of the arm; empty where they are the same.
+            joint_offsets_rad: True minus reported angle of each joint of the arm; empty if they are equal.
 
         Raises:
             SimulationError: The engine cannot build it.
@@ -74,12 +74,12 @@ class World(ClientOwner):
             added = builder.add_objects()
             self._objects = {name: number for name, (number, _) in added.items()}
             self._principals = {name: principal for name, (_, principal) in added.items()}
-            self._attend(scene.workpiece.id)
+            self._select_workpiece(scene.workpiece.id)
             self._robot = builder.add_robot()
             self._index_robot(builder)
         except self._engine.error as error:
             self.close()
-            raise SimulationError(f"the physics engine refused the world: {error}", hint="check the scene") from error
+            raise SimulationError(f"the physics engine rejected the world: {error}", hint="check the scene") from error
         except BaseException:
             self.close()
             raise
@@ -97,10 +97,10 @@ class World(ClientOwner):
         self.hold_open()
 
     def command_arm(self, position_rad: Sequence[float], velocity_rad_s: Sequence[float]) -> None:
-        """Set the arm's targets for the next step, as its encoders report them."""
+        """Set the arm's targets for the next step, in encoder angles."""
         if self._joint_offsets_rad:
             position_rad = self._true(position_rad)
-        # What is called at every step is given its arguments by position, which the engine reads in half the time.
+        # Calls of every step pass positional arguments, which the engine parses in half the time.
         self._engine.setJointMotorControlArray(
             self._robot,
             self._arm_joints,
@@ -166,28 +166,28 @@ class World(ClientOwner):
     def bend(self, arc_m: Sequence[float]) -> None:
         """Second-order correction of the workpiece's position after a step in which the hand carried it.
 
-        The engine moves a hand along its arc and a free body along the tangent at the start of the step. The
-        difference adds up to millimetres, and friction at its limit does not take it back.
+        The engine moves a hand along its arc and a free body along the tangent at the start of the step. The difference
+        adds up to millimetres, and friction at its limit does not compensate it.
 
         Args:
-            arc_m: Displacement of the tool over the step less that along its tangent, in the world.
+            arc_m: Displacement of the tool over the step minus that along its initial velocity, in the world, in m.
         """
         engine, client, body = self._engine, self._client, self._workpiece
         (x, y, z), turned = engine.getBasePositionAndOrientation(body, client)
         velocities = engine.getBaseVelocity(body, client)
         corrected = (x + arc_m[0], y + arc_m[1], z + arc_m[2])
         engine.resetBasePositionAndOrientation(body, corrected, turned, client)
-        engine.resetBaseVelocity(body, *velocities, client)  # the engine stops a body that it places
+        engine.resetBaseVelocity(body, *velocities, client)  # the engine zeroes the velocity of a body that it places
 
-    def solve_freely(self, *, free: bool) -> None:
-        """Take fewer iterations of the solver while nothing is held, or all of them again.
+    def reduce_solver_effort(self, *, free: bool) -> None:
+        """Use fewer iterations of the solver while nothing is held, or restore them.
 
         Args:
-            free: Whether the hand is empty and moves.
+            free: True while the hand is empty and moves.
         """
         settings = self.settings
         iterations = self._solver_iterations
-        # The gears of a linkage need theirs at any time.
+        # The gears of a linkage always need their iterations.
         fewer = settings.free_iterations if self._linkage is None else iterations
         self._engine.setPhysicsEngineParameter(
             numSolverIterations=min(iterations, fewer) if free else iterations,
@@ -195,23 +195,22 @@ class World(ClientOwner):
         )
 
     def renew_contacts(self) -> None:
-        """Let the engine detect the workpiece's contacts again.
+        """Discard the engine's cached contacts of the workpiece, so that they are detected again.
 
-        The engine keeps the points of a lasting contact, with their normals as they were in the
-        world when the point was found. While a held object is turned they go astray: forces change
-        that should not, and an opening finger drags the object along. Each renewal costs the
-        deflection of the friction that held the object, some hundredths of a millimetre.
+        The engine caches the points of a persistent contact, with their normals in the world at detection. While a held
+        object rotates they become wrong: forces change that should not, and an opening finger drags the object along.
+        Each renewal loses the elastic deflection of the friction, some hundredths of a millimetre.
         """
         self._rediscover(self._workpiece, -1)
 
-    def concern(self, scene: Scene) -> None:
-        """Let the workpiece be another object, or be released at another place.
+    def set_workpiece(self, scene: Scene) -> None:
+        """Make another object the workpiece, or change the place where it is released.
 
         Args:
-            scene: The scene with that object as its workpiece, where it now stands.
+            scene: The scene with that object as its workpiece, at its present pose.
         """
         self.scene = scene
-        self._attend(scene.workpiece.id)
+        self._select_workpiece(scene.workpiece.id)
         self._renewed_at = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)[1]
         self._reader = self._reader_of_workpiece()
         self._seal = self._seal_on(self._workpiece, scene)
@@ -230,7 +229,7 @@ class World(ClientOwner):
     def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
         """Reported joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step.
 
-        A torque is the joint's limit itself where that did not suffice.
+        A torque equals the joint's limit if the motor saturated.
         """
         states = self._engine.getJointStates(self._robot, self._arm_joints, self._client)
         positions, velocities, _, torques = zip(*states, strict=True)
@@ -240,7 +239,7 @@ class World(ClientOwner):
         return positions, velocities, torques
 
     def finger_travel_m(self) -> tuple[float, ...]:
-        """Distance that each finger has closed from its open end."""
+        """Travel of each finger from its open end in m."""
         if not self._finger_joints:
             return ()
         if self._linkage is not None:
@@ -269,8 +268,8 @@ class World(ClientOwner):
         The arm's base link does not move and so is never reported, wherever it is mounted.
 
         Args:
-            standing: What touched what when the workpiece was last seen to stand at rest without the robot, if
-                it was; as long as the robot touches nothing, it goes on to do so.
+            standing: Contacts observed when the workpiece last rested without contact to the robot, if it did; they
+                remain valid as long as the robot touches nothing.
         """
         if self._seal is None or not self._seal.is_sealed:
             return self._reader.contacts(standing)
@@ -278,12 +277,12 @@ class World(ClientOwner):
 
     @property
     def grip_fault(self) -> str:
-        """Why a suction cup that was switched on does not hold the workpiece; empty where it does, and for fingers."""
+        """Reason why a switched-on suction cup does not hold the workpiece; empty if it does, and for fingers."""
         return "" if self._seal is None else self._seal.fault
 
     @property
     def follow_error(self) -> float:
-        """Greatest difference in rad or m of a linkage's joint from where it should follow; 0 for other grippers."""
+        """Greatest deviation of a linkage's joint from its ratio in rad or m; 0 for other grippers."""
         return 0.0 if self._linkage is None else self._linkage.largest_error
 
     def support_force_n(self) -> float:
@@ -291,7 +290,7 @@ class World(ClientOwner):
         return self._reader.scene_force_n()
 
     def finger_contacts(self) -> tuple[FingerContact, ...]:
-        """The points at which fingers press on the workpiece after the last step."""
+        """Contact points of the fingers on the workpiece in the last step."""
         return self._reader.finger_contacts(self.settings.step_s)
 
     def _flange_pose(self) -> Pose:
@@ -306,16 +305,16 @@ class World(ClientOwner):
                 return
             self._renewed_at = turned
             self._to_renew = list(self._finger_joints)
-        # One finger at a time, so that the friction of the others keeps the object where it is.
+        # One finger at a time, so that the friction of the others holds the object.
         self._rediscover(self._robot, self._to_renew.pop())
 
     def _true(self, reported_rad: Sequence[float]) -> Sequence[float]:
-        """Angles at which the joints are when the encoders report others."""
+        """True joint angles from the reported ones."""
         offsets = self._joint_offsets_rad or (0.0,) * len(reported_rad)
         return [angle + offset for angle, offset in zip(reported_rad, offsets, strict=True)]
 
     def _workpiece_at(self) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
-        """Position and orientation of the workpiece's shape; the engine knows its centre of mass."""
+        """Position and orientation of the workpiece's shape; the engine reports those of its principal frame."""
         found, turned = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
         if self._is_offset:
             pose = Pose(position_m=found, quaternion_xyzw=turned) @ self._shape_in_principal
@@ -323,17 +322,17 @@ class World(ClientOwner):
         return found, turned
 
     def _rediscover(self, body: int, link: int) -> None:
-        # Setting a filter, even to what it is, takes the link out of the broad phase and puts it back.
+        # Setting a filter, even to its present value, removes the link from the broad phase and adds it again.
         self._engine.setCollisionFilterGroupMask(body, link, 1, -1, physicsClientId=self._client)
 
-    def _attend(self, name: str) -> None:
-        """Let an object be the workpiece."""
+    def _select_workpiece(self, name: str) -> None:
+        """Make an object the workpiece."""
         self._workpiece, self._principal = self._objects[name], self._principals[name]
         self._is_offset = self._principal != Pose()
         self._shape_in_principal = self._principal.inverse()
 
     def _reader_of_workpiece(self) -> ContactReader:
-        """Reader of the workpiece's contacts, to which the other objects are bodies of the scene."""
+        """Contact reader of the workpiece; the other objects count as bodies of the scene."""
         others = {number: name for name, number in self._objects.items() if number != self._workpiece}
         return ContactReader(
             self._engine,

@@ -1,8 +1,7 @@
-"""Building of a world in a physics client: parameters, bodies, robot.
+"""Builder of a world in a physics client: parameters, bodies, robot.
 
-Facts of the engine that shape this file: friction of a contact is the product of the two
-bodies' coefficients; damping must be set to zero or falling bodies are slowed; every call
-names its client.
+Properties of the engine behind this design: the friction of a contact is the product of the two bodies' coefficients;
+damping must be set to zero, or falling bodies are slowed; every call names its client.
 """
 
 from __future__ import annotations
@@ -41,15 +40,15 @@ _LEAST_FRICTION = 1.0e-3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotIndex:
-    """Numbers that the engine gave to the parts of the robot.
+    """The engine's ids of the robot's joints and links.
 
     Attributes:
         arm_joints: Joints of the arm, from the base to the flange.
-        finger_joints: Joints of the fingers, which are the numbers of their links too.
+        finger_joints: Joints of the fingers, which are also the ids of their links.
         flange: Link of the flange.
         cup: Link of the suction cup; None for a gripper with fingers.
-        link_names: Name of each link by its number; -1 is the base.
-        joints: Number of each joint by its name.
+        link_names: Name of each link by its id; -1 is the base.
+        joints: Id of each joint by its name.
     """
 
     arm_joints: list[int]
@@ -88,21 +87,21 @@ class WorldBuilder:
             numSubSteps=0,
             # With a residual threshold of zero every iteration runs, and a held object does not creep.
             solverResidualThreshold=0.0,
-            # Friction takes a held body back by this share of what it was displaced in a step.
+            # Friction restores this share of a held body's displacement in a step.
             frictionERP=_FRICTION_RECOVERY,
-            # Without it the order of contact pairs, and so the last bits of a result, can differ by run.
+            # Without it the order of contact pairs, and so the last bits of a result, can differ from run to run.
             deterministicOverlappingPairs=1,
             physicsClientId=client,
         )
 
     @property
     def solver_iterations(self) -> int:
-        """Iterations of the solver; the gears of a linkage need their own number at least."""
+        """Iterations of the solver, at least those that the gears of a linkage need."""
         iterations = self.settings.solver_iterations
         return iterations if self.gripper.geometry.linkage is None else max(iterations, LEAST_ITERATIONS)
 
     def add_scene(self) -> dict[int, str]:
-        """Add the fixed bodies; the result names each by its number."""
+        """Add the fixed bodies; returns their names by id."""
         names = {}
         for body in self.scene.bodies:
             number = add_body(self.engine, self.client, body.primitive, body.pose, 0.0)
@@ -111,15 +110,16 @@ class WorldBuilder:
         return names
 
     def add_objects(self) -> dict[str, tuple[int, Pose]]:
-        """Add the workpiece and the other objects; of each the number and the transform of its principal axes."""
+        """Add the workpiece and the other objects; returns the id of each and the transform of its principal axes."""
         return {one.workpiece.id: self._add_object(one) for one in self.scene.objects}
 
     def _add_object(self, one: SceneObject) -> tuple[int, Pose]:
         workpiece = one.workpiece
         if not 0.0 < workpiece.mass_kg < math.inf:
-            # A body without mass would be static.
+            # A body of zero mass would be static.
             raise SimulationError(
-                f"the workpiece cannot have the mass {workpiece.mass_kg} kg", hint="give a mass greater than zero"
+                f"the mass of the workpiece must be positive, got {workpiece.mass_kg} kg",
+                hint="give a mass greater than zero",
             )
         body, principal = add_object(self.engine, self.client, workpiece)
         self.engine.changeDynamics(
@@ -145,11 +145,11 @@ class WorldBuilder:
 
     @property
     def pads(self) -> tuple[PadLayout, ...]:
-        """The elements of the pad of each finger."""
+        """Contact elements of the pad of each finger."""
         return pad_layouts(self.gripper.geometry, self.scene.workpiece.shape, self.scene.grasp_in_object)
 
     def add_robot(self) -> int:
-        """Add the robot with its gripper; the result is its number."""
+        """Add the robot with its gripper; returns its id."""
         base, engine, gripper = self.scene.robot.base, self.engine, self.gripper
         drives_kg = gripper.geometry.fingers * gripper.drive.inertia_kg
         if drives_kg and drives_kg >= gripper.base_mass_kg:
@@ -174,7 +174,7 @@ class WorldBuilder:
         )
 
     def index_robot(self, robot: int) -> RobotIndex:
-        """Numbers of the robot's joints and links."""
+        """The engine's ids of the robot's joints and links."""
         engine, client = self.engine, self.client
         info: list[Any] = [
             engine.getJointInfo(robot, index, physicsClientId=client)
@@ -194,7 +194,7 @@ class WorldBuilder:
         )
 
     def set_robot_dynamics(self, robot: int, index: RobotIndex) -> None:
-        """Take damping off the robot, and give the fingers their friction and the compliance of their pads."""
+        """Remove the robot's damping; set the fingers' friction and pad compliance."""
         engine, client = self.engine, self.client
         for link in range(-1, engine.getNumJoints(robot, physicsClientId=client)):
             engine.changeDynamics(
@@ -229,14 +229,14 @@ class WorldBuilder:
                 self.engine.setCollisionFilterPair(robot, body, link, -1, 0, physicsClientId=self.client)
 
     def linkage_drive(self, robot: int, index: RobotIndex) -> LinkageDrive | None:
-        """The drive of a gripper's linkage; None for fingers that slide, and for a cup."""
+        """Drive of a gripper's linkage; None for sliding fingers and for a cup."""
         linkage = self.gripper.geometry.linkage
         if linkage is None:
             return None
         return LinkageDrive(self.engine, self.client, robot, linkage, index.joints, step_s=self.settings.step_s)
 
     def seal(self, robot: int, index: RobotIndex, body: int, scene: Scene) -> SuctionSeal | None:
-        """The seal of a suction cup on the workpiece of a scene; None for a gripper with fingers."""
+        """Seal of a suction cup on the workpiece of a scene; None for a gripper with fingers."""
         suction = self.gripper.suction
         if suction is None or index.cup is None:
             return None
@@ -253,7 +253,7 @@ class WorldBuilder:
         )
 
     def _couple_fingers(self, robot: int, one: int, other: int) -> None:
-        """Gear two opposed fingers together: each alone resists no force along their common axis."""
+        """Gear two opposed fingers together; ungeared they do not resist a force along their common axis."""
         engine = self.engine
         frames = [1, 0, 0], [0, 0, 0], [0, 0, 0]
         gear = engine.createConstraint(

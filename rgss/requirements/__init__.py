@@ -1,4 +1,4 @@
-"""Needs, requirements, criteria, and the architecture that is to satisfy them."""
+"""Stakeholder needs, requirements, criteria and architecture."""
 
 from rgss.requirements.architecture import (
     Architecture,

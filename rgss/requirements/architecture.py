@@ -1,4 +1,4 @@
-"""The structure and the behaviour that requirements are allocated to."""
+"""Architecture: structure and behaviour, to which requirements are allocated."""
 
 from __future__ import annotations
 
@@ -120,5 +120,5 @@ class Architecture:
 
     @property
     def elements(self) -> tuple[Block | Behaviour, ...]:
-        """Blocks, then behaviours: everything that can satisfy a requirement."""
+        """Blocks, then behaviours: all elements that can satisfy a requirement."""
         return (*self.blocks, *self.behaviours)

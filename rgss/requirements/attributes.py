@@ -1,4 +1,4 @@
-"""The closed lists that the attributes of needs and requirements choose from."""
+"""Enumerations of the attributes of needs and requirements."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class NeedKind(str, Enum):
-    """Part of the system that a stakeholder requirement is about."""
+    """Subject of a stakeholder requirement: a part of the system."""
 
     DESIGN = "design"
     FUNCTIONAL = "functional"
@@ -15,7 +15,7 @@ class NeedKind(str, Enum):
 
 
 class RequirementGroup(str, Enum):
-    """Subsystem that a system requirement is about."""
+    """Subject of a system requirement: a subsystem."""
 
     MANIPULATOR = "manipulator"
     GRIPPER = "gripper"
@@ -29,9 +29,9 @@ class RequirementGroup(str, Enum):
 class VerificationMethod(str, Enum):
     """Verification method of a requirement.
 
-    Evidence from simulation is analysis in the sense of the NASA Systems Engineering Handbook
-    and the INCOSE handbook: test means that the product itself ran under controlled conditions.
-    For a requirement on this software the product is the software, so its test suite is a test.
+    Evidence from simulation is analysis in the sense of the NASA Systems Engineering Handbook and the INCOSE handbook;
+    a test runs the product itself under controlled conditions. For a requirement on this software the product is the
+    software, so its test suite is a test.
     """
 
     INSPECTION = "inspection"

@@ -1,4 +1,4 @@
-"""Comparison of a quantity with a limit, with the tolerance of binary rounding."""
+"""Comparison of a quantity with a limit, with a tolerance for binary rounding."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ RELATIVE_TOLERANCE = 1e-9
 
 
 class Comparison(str, Enum):
-    """Relation that a quantity must have to a limit.
+    """Required relation of a quantity to a limit.
 
-    A quantity within `RELATIVE_TOLERANCE` of the limit counts as equal to it: verdicts and programs
-    share this rule.
+    A quantity within `RELATIVE_TOLERANCE` of the limit counts as equal to it, both in verdicts and in mixed-integer
+    programs.
     """
 
     AT_LEAST = ">="
@@ -26,21 +26,21 @@ class Comparison(str, Enum):
 
     @property
     def is_strict(self) -> bool:
-        """True if a quantity that equals the limit is refused."""
+        """True if equality does not satisfy the relation."""
         return self in (Comparison.ABOVE, Comparison.BELOW)
 
     @property
     def is_lower_bound(self) -> bool:
-        """True if the good side of the limit lies above it."""
+        """True for ``>`` and ``>=``."""
         return self in (Comparison.AT_LEAST, Comparison.ABOVE)
 
     def margin(self, quantity: float, limit: float) -> float:
-        """Signed distance of a quantity from a limit; negative on the bad side."""
+        """Signed distance of a quantity from a limit; negative for a violation."""
         difference = quantity - limit
         return difference if self.is_lower_bound else -difference
 
     def holds(self, quantity: float | None, limit: float) -> bool:
-        """True if a quantity keeps a limit; an unknown one (None) does not.
+        """True if a quantity satisfies the relation to a limit; an unknown one (None) does not.
 
         Args:
             quantity: The quantity, in the unit of the limit.

@@ -1,4 +1,4 @@
-"""Content of an element that a review covers, and its digest."""
+"""Reviewed content of an element, and its digest."""
 
 from __future__ import annotations
 
@@ -18,11 +18,10 @@ _NOT_CONTENT = frozenset({"exempt"})
 
 
 def content_digest_of(element: Element) -> str:
-    """SHA-256 of the reviewed content: text, attributes and the links that the element states.
+    """SHA-256 of the reviewed content: text, attributes and stated links of an element.
 
-    Neither its place in a file, nor how its texts are wrapped, nor the order of the ids under one
-    key, nor the rules that it is exempt from are content. What an element leaves open is left
-    out, so that an attribute that elements may have from now on changes no digest of those without.
+    Position in the file, line wrapping, order of ids under a key and exemptions are not content. Unset attributes are
+    omitted, so that a new optional attribute does not change existing digests.
     """
     return digest({"element": type(element).__name__, "content": _content(element)})
 

@@ -1,4 +1,4 @@
-"""The success criterion of a requirement: a bound on one measure."""
+"""Success criterion of a requirement: a bound on one measure."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rgss.requirements.fields import ThresholdText, split_quantity
 
 
 class Statistic(str, Enum):
-    """Compared number of an estimate: its value, or an end of its interval."""
+    """Compared statistic of an estimate: its value, or an end of its interval."""
 
     VALUE = "value"
     LOW = "low"
@@ -22,14 +22,14 @@ class Statistic(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Criterion:
-    """A bound that a measure must keep for the requirement to be met.
+    """Bound on a measure for the requirement to be met.
 
     Attributes:
         measure: Id of the measure, such as ``P_max``.
-        statistic: Number of the measure's estimate that is compared.
-        comparison: Relation that the statistic must have to the threshold.
+        statistic: Compared statistic of the measure's estimate.
+        comparison: Required relation of the statistic to the threshold.
         threshold: The bound, in ``unit``.
-        unit: The unit in which the file gives the bound; ``"1"`` for a pure number.
+        unit: The unit of the bound in the file; ``"1"`` for a pure number.
     """
 
     measure: str
@@ -39,12 +39,12 @@ class Criterion:
     unit: str
 
     def threshold_in(self, unit: str) -> float:
-        """The threshold in another unit, usually that of the measure.
+        """Threshold in another unit, usually that of the measure.
 
         Raises:
-            QuantityError: The unit measures something else than the threshold's.
+            QuantityError: The dimensions of the units differ.
         """
-        # Decimal, so that 35 mm become the float nearest to 0.035 m.
+        # Decimal, so that 35 mm is the float nearest to 0.035 m.
         return float(Decimal(repr(self.threshold)) * Decimal(repr(conversion_factor(self.unit, unit))))
 
     def __str__(self) -> str:
@@ -63,7 +63,7 @@ class CriterionFile(DocumentModel):
     threshold: ThresholdText
 
     def criterion(self) -> Criterion:
-        """The criterion, its threshold divided into number and unit."""
+        """Criterion with its threshold split into number and unit."""
         threshold, unit = split_quantity(self.threshold)
         return Criterion(
             measure=self.measure, statistic=self.statistic, comparison=self.comparison, threshold=threshold, unit=unit

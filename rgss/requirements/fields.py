@@ -1,4 +1,4 @@
-"""Field types of the requirements' files: lists that are not empty, thresholds with their units."""
+"""Field types of the requirements' files: non-empty lists, and thresholds with units."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _UNIT_START = re.compile(r"(?![eE][+-]?\d)[A-Za-zµμ°%$]")
 
 
 def split_quantity(text: str) -> tuple[float, str]:
-    """Read a quantity of any unit.
+    """Parse a quantity in any unit.
 
     Returns:
-        The magnitude, and the unit as it is written; ``"1"`` for a pure number.
+        The magnitude, and the unit as written; ``"1"`` for a pure number.
 
     Raises:
         QuantityError: The text is not a number with a known unit.
@@ -45,14 +45,14 @@ def _check_quantity(text: str) -> str:
 
 
 def _not_empty(entries: tuple[_Entry, ...]) -> tuple[_Entry, ...]:
-    # Not pydantic's min_length, which counts only sound entries and so reports a broken one twice.
+    # Not pydantic's min_length, which counts only valid entries and so reports an invalid one twice.
     if not entries:
         raise ValueError("at least 1 entry is expected")
     return entries
 
 
 Entries = Annotated[tuple[_Entry, ...], AfterValidator(_not_empty), Field(json_schema_extra={"minItems": 1})]
-"""A list that is not empty."""
+"""Non-empty list."""
 
 ThresholdText = Annotated[
     QuantityText,
@@ -67,4 +67,4 @@ ThresholdText = Annotated[
         }
     ),
 ]
-"""A quantity whose unit the measure decides, such as ``"0.8 kg"``; a pure number may be bare."""
+"""A quantity in a unit of the measure, such as ``"0.8 kg"``; a pure number may be bare."""

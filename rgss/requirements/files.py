@@ -1,4 +1,4 @@
-"""The documents of the folder ``requirements/``."""
+"""Document models of the folder ``requirements/``."""
 
 from __future__ import annotations
 
@@ -45,6 +45,6 @@ class RulesFile(DocumentModel):
 
 
 class ReviewsFile(DocumentModel):
-    """The file ``reviews.yaml``, which only a review writes."""
+    """The file ``reviews.yaml``, written by a review."""
 
     reviews: dict[Identifier, Review]

@@ -1,4 +1,4 @@
-"""Hints that name the nearest known id, with a bound on the comparisons."""
+"""Hints with the nearest known id, with a bound on the number of comparisons."""
 
 from __future__ import annotations
 
@@ -9,25 +9,25 @@ _MOST_COMPARISONS = 100_000
 
 
 class Hints:
-    """Finder of the id most similar to a wrong one, with a limit on the number of comparisons.
+    """Finder of the nearest known id, with a limit on the number of comparisons.
 
-    A project in which every id is wrong would otherwise compare each with each.
+    Without it, a project with only wrong ids would compare all pairs.
     """
 
     def __init__(self, most_comparisons: int = _MOST_COMPARISONS) -> None:
-        """Begin with nothing compared.
+        """Start without comparisons.
 
         Args:
-            most_comparisons: Largest number of compared ids.
+            most_comparisons: Greatest number of compared ids.
         """
         self._left = most_comparisons
 
     def nearest(self, name: str, names: Collection[str]) -> str:
-        """A hint with the id most similar to an unknown one; empty if none is similar or the search takes too long.
+        """Hint with the id nearest to an unknown one; empty if none is similar or the limit is exceeded.
 
         Args:
-            name: The wrong id.
-            names: The ids that it may be.
+            name: The unknown id.
+            names: The known ids.
         """
         if len(names) > self._left:
             return ""

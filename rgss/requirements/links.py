@@ -7,7 +7,7 @@ from enum import Enum
 
 
 class LinkKind(str, Enum):
-    """The relations of SysML that links use; each reads from source to target."""
+    """SysML relations of links, read from source to target."""
 
     CONTAINMENT = "containment"
     """The source is contained in the target."""
@@ -27,11 +27,11 @@ class LinkKind(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True, order=True)
 class TraceLink:
-    """One directed link; it points from the later element to the one that it depends on.
+    """Directed link from an element to one that it depends on.
 
     Attributes:
-        source: Id of the element that states or makes the link.
-        target: Id of the element that it points at.
+        source: Id of the source element.
+        target: Id of the target element.
         kind: The relation.
     """
 

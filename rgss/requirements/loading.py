@@ -1,4 +1,4 @@
-"""The folder ``requirements/`` to one `RequirementSet`."""
+"""Loader of the folder ``requirements/`` into a `RequirementSet`."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ from rgss.requirements.requirement_set import Place, RequirementSet
 def load_requirements(folder: Path, *, label_root: str = "requirements") -> RequirementSet:
     """Read stakeholder requirements, system requirements and architecture of a project.
 
-    ``stakeholder``, ``system`` and ``architecture`` are each a file ``….yaml`` or a folder of such
-    files, read in the order of their names. ``rules.yaml`` and ``reviews.yaml`` may be left out.
+    ``stakeholder``, ``system`` and ``architecture`` are each a file ``….yaml`` or a folder of such files, read in the
+    order of their names. ``rules.yaml`` and ``reviews.yaml`` are optional.
 
     Args:
-        folder: The folder that holds them.
+        folder: The folder.
         label_root: The folder's name in messages.
 
     Raises:
-        DocumentError: A file cannot be used, an id is declared twice or names nothing, an element depends on itself,
-            or a behaviour's detail is broken; with every problem of all
-            files. References into a part that cannot be read are not checked.
+        DocumentError: A file is invalid, an id is a duplicate or unknown, an element depends on itself, or a
+        behaviour's detail is inconsistent; with every problem of all files. References into a part that cannot be read
+        are not checked.
     """
     findings: list[Finding] = []
     reader = FolderReader(folder, label_root, findings)

@@ -1,4 +1,4 @@
-"""Needs of the stakeholders."""
+"""Stakeholder needs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The files of the requirements folder: each part one file, or a folder of several."""
+"""Reader of the requirements folder: each part is one file, or a folder of files."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ _Model = TypeVar("_Model", bound=DocumentModel)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedPart(Generic[_Model]):
-    """One part of the requirements as it could be read.
+    """One part of the requirements, as far as readable.
 
     Attributes:
-        documents: The files that could be read, in the order of their names.
-        complete: Every file of the part could be read.
+        documents: The readable files, in the order of their names.
+        complete: True if every file of the part is readable.
     """
 
     documents: tuple[LoadedDocument[_Model], ...]
@@ -27,7 +27,7 @@ class LoadedPart(Generic[_Model]):
 
 
 class FolderReader:
-    """Reads files of one folder; what is wrong with them goes into one list."""
+    """Reader of the files of one folder, which collects findings."""
 
     def __init__(self, folder: Path, label_root: str, findings: list[Finding]) -> None:
         """Reader of a folder.
@@ -35,7 +35,7 @@ class FolderReader:
         Args:
             folder: The folder.
             label_root: Its name in messages.
-            findings: Collects the problems.
+            findings: List to which findings are added.
         """
         self._folder = folder
         self._label_root = label_root
@@ -62,13 +62,13 @@ class FolderReader:
         for each in names:
             if not each.endswith(".yaml"):
                 # If the file were skipped silently, its requirements would be lost.
-                self._report(each, "name", "a file of requirements ends in .yaml", "rename it")
+                self._report(each, "name", "the name of a requirements file must end in .yaml", "rename it")
         loaded = [self._load(each, model) for each in names if each.endswith(".yaml")]
         documents = tuple(document for document in loaded if document is not None)
         return LoadedPart(documents=documents, complete=bool(names) and len(documents) == len(names))
 
     def optional(self, name: str, model: type[_Model]) -> LoadedDocument[_Model] | None:
-        """Read a file that may be left out; None if it is not there, or broken."""
+        """Read an optional file; None if it is missing or invalid."""
         return self._load(name, model) if (self._folder / name).exists() else None
 
     def _load(self, name: str, model: type[_Model]) -> LoadedDocument[_Model] | None:

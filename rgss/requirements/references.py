@@ -1,4 +1,4 @@
-"""Checks of ids across all files: unique declarations, existing targets, no cycles."""
+"""Checks of ids across all files: unique declarations, existing targets, acyclic order."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _LONGEST_CHAIN = 10
 
 
 class ElementKind(Enum):
-    """Kind of the element that an id names, as messages name it."""
+    """Kind of the element of an id, as named in messages."""
 
     NEED = "stakeholder requirement"
     REQUIREMENT = "system requirement"
@@ -28,9 +28,9 @@ class Reference:
 
     Attributes:
         at: Location of the reference within the element.
-        target: The id that it names.
-        kinds: What that id may be.
-        ordering: The elements linked under this key must not depend on themselves.
+        target: The target id.
+        kinds: Allowed kinds of the target.
+        ordering: True if links under this key must be acyclic.
     """
 
     at: tuple[str | int, ...]
@@ -45,21 +45,21 @@ class Reference:
 
     @property
     def in_list(self) -> bool:
-        """True for an entry of a list, which must not name it twice."""
+        """True for an entry of a list, which must not contain it twice."""
         return isinstance(self.at[-1], int)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Declaration:
-    """An id, what it names, where it is declared, and its references to other elements and to rules.
+    """Declaration of an element, with its references to other elements and to rules.
 
     Attributes:
         id: The id.
-        kind: What it names.
+        kind: Kind of the element.
         document: The file.
         location: Keys and indices from the top of the file to the element.
         references: References of the element.
-        exempt: The rules that it is exempt from.
+        exempt: The rules from which it is exempt.
     """
 
     id: str
@@ -70,19 +70,19 @@ class Declaration:
     exempt: tuple[str, ...] = ()
 
     def finding(self, rule: str, message: str, at: Sequence[str | int], *, hint: str = "") -> Finding:
-        """A finding at a part of the element."""
+        """Finding at a part of the element."""
         return self.document.finding(f"requirements.{rule}", message, (*self.location, *at), hint=hint)
 
 
 def check_references(
     declarations: Sequence[Declaration], *, known: Iterable[ElementKind], hints: Hints
 ) -> Iterator[Finding]:
-    """Find ids declared twice, references to nothing, and elements that depend on themselves.
+    """Findings about duplicate ids, unknown references, and elements that depend on themselves.
 
     Args:
-        declarations: Everything declared, in the order of files and lines.
-        known: The kinds whose files could all be read; a reference to another kind is not checked.
-        hints: Suggests the id that was probably meant.
+        declarations: All declarations, in the order of files and lines.
+        known: The kinds whose files are all readable; references to other kinds are not checked.
+        hints: Finder of the nearest known id.
     """
     first: dict[str, Declaration] = {}
     for declaration in declarations:
@@ -113,7 +113,7 @@ def check_references(
 def _duplicate(again: Declaration, first: Declaration) -> Finding:
     where = first.finding("duplicate-id", "", ("id",))
     message = f"id {again.id!r} is already declared at {where.file}:{where.line}:{where.column}"
-    return again.finding("duplicate-id", message, ("id",), hint="give it an id of its own")
+    return again.finding("duplicate-id", message, ("id",), hint="use a unique id")
 
 
 def _repetitions(declaration: Declaration) -> Iterator[Finding]:
@@ -134,7 +134,7 @@ def _repetition(
 
 
 def _cycles(first: Mapping[str, Declaration]) -> Iterator[Finding]:
-    """Walk depth first, without recursion; report each reference that leads back into the walk."""
+    """Depth-first search without recursion; reports each reference back into the search path."""
     finished: set[str] = set()
     for root in first:
         walk = {} if root in finished else {root: _orderings(first, root)}
@@ -152,7 +152,7 @@ def _cycles(first: Mapping[str, Declaration]) -> Iterator[Finding]:
 
 
 def _chain(walk: dict[str, Iterator[Reference]], start: str) -> str:
-    """The end of a walk from its end to a start and on to its end again; its middle is left out if it is long."""
+    """Cycle at the end of a search path, abbreviated if long."""
     backwards: list[str] = []
     for name in reversed(walk):
         backwards.append(name)

@@ -1,4 +1,4 @@
-"""Stakeholder requirements, system requirements and architecture of one project."""
+"""Requirement set: stakeholder requirements, system requirements and architecture of one project."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from rgss.requirements.rule_settings import RuleSetting
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
-    """Place of a declaration: a file and a location in it.
+    """Position of a declaration: a file and a location in it.
 
     Attributes:
         document: The file.
@@ -41,15 +41,15 @@ class Place:
         severity: Severity = Severity.ERROR,
         at_key: bool = False,
     ) -> Finding:
-        """A finding at it, or at a part of it.
+        """Finding at this position, or at a part of the element.
 
         Args:
-            rule: The id of the broken rule.
+            rule: The id of the violated rule.
             message: The problem.
             at: The part to point at, such as ``("criterion", "threshold")``.
             hint: Advice.
             severity: Its severity.
-            at_key: Point at the key instead of its value.
+            at_key: True to point at the key instead of its value.
         """
         location = (*self.location, *at)
         return self.document.finding(rule, message, location, hint=hint, severity=severity, at_key=at_key)
@@ -57,19 +57,18 @@ class Place:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RequirementSet:
-    """Requirements of a project, and the model that is to satisfy them.
+    """Requirements of a project, and the model of the system.
 
-    A set from `load_requirements` has unique ids, no reference to an id that is not there, and no element that depends
-    on itself.
+    A set from `load_requirements` has unique ids, no unknown references, and no element that depends on itself.
 
     Attributes:
         stakeholder: The stakeholder requirements, in the file's order.
         system: The system requirements, in the file's order.
         architecture: The model of the system.
         places: Place of each element's declaration, by its id.
-        reviews: The review of each element that was reviewed, by its id, which need not be there any more.
+        reviews: The reviews by id of the element, which may have been removed.
         review_places: Place of each review.
-        settings: Settings of rules by id, which need not be that of a rule.
+        settings: Settings of rules by id, which may be unknown.
         setting_places: Place of each setting.
     """
 
@@ -84,28 +83,28 @@ class RequirementSet:
     _by_id: Mapping[str, Element] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        # Backwards, so that of two elements with one id the first is found.
+        # Reversed, so that of two elements with the same id the first is found.
         object.__setattr__(self, "_by_id", {element.id: element for element in reversed(self.elements)})
 
     @property
     def elements(self) -> tuple[Element, ...]:
-        """Stakeholder requirements, system requirements, blocks, behaviours: everything that has an id."""
+        """All elements with an id: stakeholder requirements, system requirements, blocks, behaviours."""
         return (*self.stakeholder, *self.system, *self.architecture.elements)
 
     @property
     def links(self) -> tuple[TraceLink, ...]:
-        """Every link that an element states, in the order of `elements`.
+        """All stated links, in the order of `elements`.
 
-        A requirement states who satisfies it, so that link's source is another element. Behaviours
+        A requirement states by which element it is satisfied, so the source of that link is another element. Behaviours
         that run as part of others, and criteria, which measures verify, are not links of this list.
         """
         return tuple(link for element in self.elements for link in _links_of(element))
 
     def element(self, element_id: str) -> Element:
-        """The element of an id.
+        """Element by id.
 
         Raises:
-            DefinitionError: There is none; the hint names the nearest id.
+            DefinitionError: The id is unknown; the hint names the nearest id.
         """
         element = self._by_id.get(element_id)
         if element is None:
@@ -116,15 +115,15 @@ class RequirementSet:
         """Digest of the reviewed content of an element; see `content_digest_of`.
 
         Raises:
-            DefinitionError: There is no such element; the hint names the nearest id.
+            DefinitionError: The id is unknown; the hint names the nearest id.
         """
         return content_digest_of(self.element(element_id))
 
     def requirement(self, requirement_id: str) -> Requirement:
-        """The system requirement of an id.
+        """System requirement by id.
 
         Raises:
-            DefinitionError: There is none; the hint names the nearest id.
+            DefinitionError: The id is unknown; the hint names the nearest id.
         """
         element = self._by_id.get(requirement_id)
         if isinstance(element, Requirement):
@@ -144,10 +143,10 @@ class RequirementSet:
         hint: str = "",
         severity: Severity = Severity.ERROR,
     ) -> Finding:
-        """A finding at an element of the set.
+        """Finding at an element of the set.
 
         Args:
-            rule: The id of the broken rule.
+            rule: The id of the violated rule.
             element_id: The element.
             message: The problem.
             at: The part of the element to point at, such as ``("criterion", "threshold")``.
@@ -168,7 +167,7 @@ class RequirementSet:
 
 
 def nearest(name: str, names: Collection[str]) -> str:
-    """A hint with the id most similar to an unknown one; empty if none is similar."""
+    """Hint with the id nearest to an unknown one; empty if none is similar."""
     return Hints().nearest(name, names)
 
 

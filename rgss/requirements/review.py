@@ -1,4 +1,4 @@
-"""Reviews: the content that was read, by whom, and the content that it depended on then."""
+"""Reviews: reviewed content, reviewer, and the upstream content at that time."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ class RuleSetting:
     """Setting of one rule, in ``rules.yaml``."""
 
     severity: Severity | None = None
-    """None for the rule's own."""
+    """None for the default of the rule."""
     enabled: bool = True
     terms_added: tuple[Text, ...] = ()
     terms_removed: tuple[Text, ...] = ()

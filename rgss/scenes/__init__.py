@@ -1,4 +1,4 @@
-"""Scenes: robot, gripper, workpiece, fixed bodies, and the task's waypoints."""
+"""Scenes: robot, gripper, objects, fixed bodies and waypoints."""
 
 from rgss.scenes.assembly import (
     CUP_LINK,
@@ -20,12 +20,12 @@ from rgss.scenes.convex_shapes import (
 from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
 from rgss.scenes.grasps import (
     Approach,
+    ChosenGrasp,
     GivenGrasp,
     GraspCandidates,
     PadLayout,
     PadPatch,
     SuctionPoint,
-    TakenGrasp,
     most_elements,
     pad_layouts,
     pad_patches,
@@ -60,7 +60,7 @@ from rgss.scenes.mass_properties import (
     solid_moments,
 )
 from rgss.scenes.mesh_shapes import mesh_summary
-from rgss.scenes.objects import Standing, grasp_opening_m, initial_standings, scene_about
+from rgss.scenes.objects import ObjectPlacement, grasp_opening_m, initial_placements, scene_about
 from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import RIBS
 from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, Robot

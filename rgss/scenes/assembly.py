@@ -1,4 +1,4 @@
-"""One URDF for arm and gripper, so that every engine is given the same machine."""
+"""Assembly of arm and gripper into one URDF, the common input of all engines."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from rgss.scenes.shapes import Box, Cylinder
 GRIPPER_BASE_LINK = "gripper_base"
 CUP_LINK = "suction_cup"
 
-# Where a solid lies in its link, how it is rolled, its kind and its sizes.
+# Pose of a solid in its link, its roll, its kind and its sizes.
 _Part = tuple[Pose, float, str, dict[str, str]]
 
 
 def finger_link(finger: int) -> str:
-    """Name of a finger's link, its index from 0."""
+    """Name of a finger's link from its index, which starts at 0."""
     return f"finger_{finger + 1}"
 
 
 def finger_joint(finger: int) -> str:
-    """Name of a finger's prismatic joint, its index from 0; it is zero when open and grows on closing."""
+    """Name of a finger's prismatic joint from its index; its position is 0 when open and increases on closing."""
     return f"finger_{finger + 1}_joint"
 
 
@@ -39,7 +39,7 @@ def link_names_of(linkage: Linkage) -> tuple[str, ...]:
 
 
 def linkage_hulls(linkage: Linkage, opening_m: float) -> Iterator[tuple[str, Pose, tuple[Triple, ...]]]:
-    """The collision shapes of a linkage: name of the link, its transform to the flange, and corners in the link.
+    """Collision shapes of a linkage: name of the link, its transform to the flange, and corners in the link.
 
     Args:
         linkage: The mechanism.
@@ -56,17 +56,16 @@ def linkage_hulls(linkage: Linkage, opening_m: float) -> Iterator[tuple[str, Pos
 def assembled_urdf(
     robot: Robot, gripper: Gripper, *, pads: tuple[PadLayout, ...] = (), has_drives: bool = False
 ) -> str:
-    """The arm's URDF with the gripper on its flange.
+    """URDF of the arm with the gripper on its flange.
 
-    The base is a solid cylinder and each finger a solid box of the design's masses; each finger
-    slides along its azimuth from open (0) to closed (the stroke).
+    The base is a solid cylinder and each finger a solid box of the design's masses; each finger slides along its
+    azimuth from open (0) to closed (the stroke).
 
     Args:
-        robot: The arm; its URDF was checked when it was read.
-        gripper: The gripper as the design has it.
-        pads: What the pad of each finger consists of for an engine of contact, flat if not given; what is seen stays
-            flat.
-        has_drives: Whether a finger has the reflected inertia of its drive, which the base then lacks in mass.
+        robot: The arm, with a validated URDF.
+        gripper: The gripper of the design.
+        pads: Contact elements of the pad of each finger, flat by default; the visual shape is always flat.
+        has_drives: True to add the reflected inertia of its drive to each finger and subtract it from the base's mass.
     """
     root = ET.fromstring(robot.urdf)  # noqa: S314 - entities and document types are refused on reading
     geometry = gripper.geometry
@@ -126,7 +125,7 @@ def assembled_urdf(
 
 
 def _add_cup(root: ET.Element, geometry: GripperGeometry, cup: Cylinder, mass_kg: float) -> None:
-    """Add a suction cup below the base, which has a share of the base's mass."""
+    """Add a suction cup below the base, with a share of the base's mass."""
     radius, height = cup.radius_m, cup.height_m
     across = mass_kg * (3 * radius**2 + height**2) / 12
     _add_link(
@@ -151,8 +150,8 @@ def _with_drive(
 ) -> tuple[Pose, tuple[float, float, float]]:
     """Centre of mass and central moments of an open finger with a point mass for its drive.
 
-    The point lies in the middle of the base, so that what the base lacks in mass is there. Its distance from the
-    finger along z is that of the two; along x the products of inertia that remain are left out.
+    The point mass is in the middle of the base, from which its mass is subtracted. The distance along z is considered;
+    the products of inertia due to the distance along x are neglected.
     """
     pose = geometry.finger_pose(0, geometry.largest_opening_m)
     depth_m = geometry.base.height_m / 2 - pose.position_m[2]
@@ -194,7 +193,7 @@ def _add_link(
     touched: Sequence[_Part] = (),
     centre: Pose | None = None,
 ) -> None:
-    """Add a solid; what it looks like is what is touched, too, and its centre of mass, if nothing else is given."""
+    """Add a link; collision shape and centre of mass default to those of the visual shape."""
     link = ET.SubElement(root, "link", {"name": name})
     inertial = ET.SubElement(link, "inertial")
     _add_origin(inertial, centre or seen[0], 0.0, 0.0)

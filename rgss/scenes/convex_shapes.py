@@ -1,7 +1,7 @@
-"""Convex collision shapes of a robot, kept in its URDF as points, so that every engine has the same ones.
+"""Convex collision shapes of a robot, stored in its URDF as points, so that all engines use the same ones.
 
-A URDF has no convex shape but as a mesh in a file. The text that engines are given has ``<convex vertices="x y z …"/>``
-in the place of each mesh: a robot is one text, its digest covers the shapes, and no engine reads a user's file.
+Standard URDF supports convex shapes only as mesh files. Internally each mesh is replaced by ``<convex vertices="x y z
+…"/>``: a robot is one text, its digest covers the shapes, and no engine reads a user's file.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class ConvexPart:
 
 
 def convex_element(vertices_m: tuple[Point, ...]) -> ET.Element:
-    """The element that stands for a convex shape.
+    """Element of a convex shape.
 
     Args:
         vertices_m: Its corners.
@@ -45,7 +45,7 @@ def convex_element(vertices_m: tuple[Point, ...]) -> ET.Element:
 
 
 def vertices_of(element: ET.Element) -> tuple[Point, ...]:
-    """The corners of a convex shape.
+    """Corners of a convex shape.
 
     Args:
         element: Its element.
@@ -56,13 +56,13 @@ def vertices_of(element: ET.Element) -> tuple[Point, ...]:
 
 @lru_cache(maxsize=16)
 def convex_parts(urdf: str) -> tuple[str, tuple[ConvexPart, ...]]:
-    """Take the convex shapes out of a URDF.
+    """Extract the convex shapes of a URDF.
 
     Args:
-        urdf: A robot's text.
+        urdf: A robot's URDF.
 
     Returns:
-        The text without them, as it is where there are none, and the shapes in the text's order.
+        The URDF without them, unchanged if there are none, and the shapes in document order.
     """
     if f"<{CONVEX}" not in urdf:
         return urdf, ()
@@ -83,11 +83,11 @@ def convex_parts(urdf: str) -> tuple[str, tuple[ConvexPart, ...]]:
 
 
 def with_mesh_files(urdf: str, write: Callable[[int, tuple[Point, ...]], str]) -> str:
-    """A URDF in which each convex shape is a mesh in a file, for an engine that reads files alone.
+    """URDF in which each convex shape is a mesh file, for an engine that reads only files.
 
     Args:
-        urdf: A robot's text; returned as it is where it has no convex shapes.
-        write: Writes the points of a shape, given its number, and returns the file's name.
+        urdf: A robot's URDF; returned unchanged if it has no convex shapes.
+        write: Callback that writes the points of a shape from its number and returns the file's name.
     """
     if f"<{CONVEX}" not in urdf:
         return urdf
@@ -113,7 +113,7 @@ def convex_link_urdf(
     moments_kg_m2: Point,
     principal: Pose,
 ) -> str:
-    """A URDF of one link of convex shapes.
+    """URDF of one link of convex shapes.
 
     Args:
         name: Name of the robot and its link.
@@ -140,7 +140,7 @@ def convex_link_urdf(
 
 
 def origin_of(element: ET.Element) -> Pose:
-    """The pose that an element's ``<origin>`` gives.
+    """Pose of an element's ``<origin>``.
 
     Args:
         element: A joint or a shape.

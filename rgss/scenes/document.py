@@ -1,4 +1,4 @@
-"""The YAML form of scenes, robots and grippers."""
+"""Document models of scene, robot and gripper files."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class BodyEntry(DocumentModel):
 
 
 class CollisionShapes(str, Enum):
-    """Convex shapes that stand for a mesh in contact and collision checks."""
+    """Convex approximation of a mesh for contact and collision checks."""
 
     HULL = "hull"
     DECOMPOSE = "decompose"
@@ -79,7 +79,7 @@ class CollisionShapes(str, Enum):
 
 
 class Rest(str, Enum):
-    """How an object rests on its support: as its shape is described, or tipped over by 90 deg about its y axis."""
+    """Resting pose of an object: as its shape is described, or tipped by 90 deg about its y axis."""
 
     UPRIGHT = "upright"
     LYING = "lying"
@@ -97,7 +97,7 @@ class GivenGraspEntry(DocumentModel):
 
 
 class WorkpieceEntry(DocumentModel):
-    """The object to carry; a shape is a box, a cylinder, a mesh, or the radius and height of a cylinder."""
+    """The object to carry; its shape is a box, a cylinder, a mesh, or the radius and height of a cylinder."""
 
     id: Identifier
     radius: Metres | None = None
@@ -136,14 +136,14 @@ class PlaceRegionEntry(DocumentModel):
 
 
 class GraspRule(str, Enum):
-    """The grasp that is taken: the stated one from above, or the best of the candidates that are tried by default."""
+    """Rule of the grasp: the stated one from above, or the best of the default candidates."""
 
     AS_STATED = "as_stated"
     AUTOMATIC = "automatic"
 
 
 class CandidatesEntry(DocumentModel):
-    """Which grasps of the object are tried."""
+    """Grasps of the object to try."""
 
     approaches: Annotated[tuple[Approach, ...], Field(min_length=1)] = GraspCandidates().approaches
     heights: Annotated[int, Field(ge=1, le=9)] = GraspCandidates().heights
@@ -152,13 +152,13 @@ class CandidatesEntry(DocumentModel):
 
 
 class GraspCandidatesEntry(DocumentModel):
-    """Candidates of which the best that can be reached is taken."""
+    """Candidates, of which the best reachable one is chosen."""
 
     candidates: CandidatesEntry
 
 
 class TaskEntry(DocumentModel):
-    """Heights and turns of the waypoints."""
+    """Heights and yaw angles of the waypoints."""
 
     approach_height: Metres
     lift_height: Metres
@@ -184,13 +184,13 @@ class RobotPlacementEntry(DocumentModel):
 
 
 class OtherObjectEntry(WorkpieceEntry):
-    """An object beside the workpiece, with its own place region."""
+    """A further object, with its own place region."""
 
     place_region: PlaceRegionEntry
 
 
 class NamedPlaceEntry(PlaceRegionEntry):
-    """A place that belongs to no object."""
+    """A place without an object of its own."""
 
     id: Identifier
 
@@ -241,13 +241,13 @@ class RobotDocument(DocumentModel):
 
 
 class BaseEntry(CylinderEntry):
-    """The base of a gripper; its mass, where no design sets it."""
+    """Base of a gripper; its mass applies if no design sets it."""
 
     mass: Kilograms | None = None
 
 
 class FingerEntry(DocumentModel):
-    """A finger's box (radial, tangential, axial), and what it has where no design sets it."""
+    """A finger's box (radial, tangential, axial), and its values that apply if no design sets them."""
 
     thickness: Metres
     width: Metres
@@ -260,7 +260,7 @@ class FingerEntry(DocumentModel):
 
 
 class CommandEntry(DocumentModel):
-    """Command of a gripper without feedback: open or close, each completed after a fixed time."""
+    """Command of a gripper without feedback: open or close, each complete after a fixed time."""
 
     travel_time: Seconds
 
@@ -272,7 +272,7 @@ class FirmGraspEntry(DocumentModel):
 
 
 class GripperDocument(DocumentModel):
-    """A gripper file of prismatic fingers that close by the same stroke towards the axis."""
+    """Gripper file of prismatic fingers that close by the same stroke towards the axis."""
 
     gripper: Identifier
     kind: Literal["fingers"] = "fingers"

@@ -1,4 +1,4 @@
-"""Findings that files of scenes, robots and grippers have in common."""
+"""Common findings of scene, robot and gripper files."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ _SLOWEST_M_S = 1.0e-3
 
 
 def not_positive(document: Document, values: Iterable[tuple[Location, float]]) -> Iterable[Finding]:
-    """A finding for each value that should be greater than zero and is not.
+    """A finding for each value that is not greater than zero.
 
     Args:
-        document: Where the values stand.
+        document: The file, for positions.
         values: Location and value of each.
     """
     for location, value in values:
@@ -25,24 +25,24 @@ def not_positive(document: Document, values: Iterable[tuple[Location, float]]) -
 
 
 def too_slow(document: Document, speeds: Iterable[tuple[Location, float]]) -> Iterable[Finding]:
-    """A finding for each speed with which the task would need hours.
+    """A finding for each speed at which the task would take hours.
 
     Args:
-        document: Where the speeds are.
+        document: The file, for positions.
         speeds: Location and value of each, in m/s.
     """
     for location, speed in speeds:
         if 0 < speed < _SLOWEST_M_S:
             message = f"{_name(location)} must be at least 1 mm/s"
-            hint = "a slower arm or hand would need hours for the task"
+            hint = "a slower arm or hand would take hours for the task"
             yield document.finding("scene.too-slow", message, location, hint=hint)
 
 
 def negative(document: Document, values: Iterable[tuple[Location, float]]) -> Iterable[Finding]:
-    """A finding for each value that should not be less than zero and is.
+    """A finding for each value that is less than zero.
 
     Args:
-        document: Where the values stand.
+        document: The file, for positions.
         values: Location and value of each.
     """
     for location, value in values:
@@ -53,14 +53,14 @@ def negative(document: Document, values: Iterable[tuple[Location, float]]) -> It
 def named_file_findings(
     document: Document, name: str, location: Location, *, folder: Path, project: Path
 ) -> Iterable[Finding]:
-    """Findings for a file, named in another, that cannot be taken: not there, or not of the project.
+    """Findings for a reference to a file that does not exist or is outside the project.
 
     Args:
-        document: Where it is named.
-        name: Its name as it is written.
-        location: Where the name stands.
-        folder: The folder of the naming file, relative to which names are.
-        project: The folder that no name may lead out of, by itself or through a symbolic link.
+        document: The referring file, for positions.
+        name: The file name as written.
+        location: Location of the name.
+        folder: The folder of the referring file, to which names are relative.
+        project: The folder that must contain the file, also after resolution of symbolic links.
     """
     hint = "file names are relative to this file"
     if PurePosixPath(name).is_absolute() or PureWindowsPath(name).drive or "\\" in name:

@@ -15,7 +15,7 @@ _CUP_MASS_SHARE = 0.05
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GripperGeometry:
-    """The shape of a gripper, in the flange frame (z out of the flange).
+    """Shape of a gripper, in the flange frame (z out of the flange).
 
     Each finger is a box that slides along its azimuth; its pad is the inner face. The opening
     is the distance of the pads from the axis.
@@ -28,10 +28,10 @@ class GripperGeometry:
         largest_opening_m: Pad distance from the axis when open.
         stroke_m: Travel of each finger towards the axis.
         grasp_depth_m: Distance along z from the flange to the grasp centre.
-        mounting: Name of the mounting of the fingers; empty where the gripper has one alone.
+        mounting: Name of the mounting of the fingers; empty if the gripper has only one.
         cup: Suction cup below the base; None for a gripper with fingers.
-        linkage: Mechanism that moves the pads; None for fingers that slide. The finger is then the part of a link
-            that has the pad, where it is at the object's width, and the base ends where the pad begins.
+        linkage: Mechanism that moves the pads; None for sliding fingers. With a linkage `finger` is the part of a link
+        with the pad, in its pose at the object's width, and the base ends where the pad begins.
     """
 
     id: str
@@ -57,7 +57,7 @@ class GripperGeometry:
 
     @property
     def palm_height_m(self) -> float:
-        """Distance along z from the flange to the palm, which an object between the fingers must not reach."""
+        """Distance along z from the flange to the palm in m, the limit for an object between the fingers."""
         return self.base.height_m if self.linkage is None else min(self.base.height_m, self.linkage.palm_height_m)
 
     @property
@@ -99,14 +99,14 @@ class GripperGeometry:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GripperDrive:
-    """Drive of the fingers, as the gripper's file states it.
+    """Drive of the fingers, from the gripper's file.
 
     Attributes:
         inertia_kg: Inertia of the drive of one finger reflected to the finger, as an equivalent mass.
-        firm_force_n: Normal force that each finger must exceed for a firm grasp; None for the force that friction
-            needs to hold the object.
-        command_s: Time that a command to open or close takes, without feedback of force or position; None for a
-            gripper that reads its fingers' forces.
+        firm_force_n: Normal force that each finger must exceed for a firm grasp; None for the force that Coulomb
+        friction requires to hold the object.
+        command_s: Duration of a command to open or close, without feedback of force or position; None for a gripper
+        that measures its fingers' forces.
     """
 
     inertia_kg: float = 0.0
@@ -116,15 +116,15 @@ class GripperDrive:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Suction:
-    """What a suction cup seals on and holds; its greatest normal force is the force of the gripper.
+    """Sealing conditions and holding force of a suction cup; its greatest normal force is the force of the gripper.
 
     Attributes:
-        tangential_force_n: Greatest force along the surface, with the whole vacuum.
-        leak: Share of both forces that is lost on the surface of the object.
-        largest_gap_m: Greatest distance of the lip from a surface that it seals on.
+        tangential_force_n: Greatest tangential force, at full vacuum.
+        leak: Share of both forces lost by leakage at the surface of the object.
+        largest_gap_m: Greatest distance of the lip from a surface for sealing.
         largest_angle_rad: Greatest angle between the cup's axis and the normal of that surface.
-        build_up_s: Time from the command until the whole vacuum holds, over which it rises uniformly.
-        release_s: Time from the command until the object is free.
+        build_up_s: Time from the command to full vacuum, which rises linearly.
+        release_s: Time from the command to the release of the object.
     """
 
     tangential_force_n: float
@@ -140,11 +140,11 @@ class GripperFile:
     """A gripper file.
 
     Attributes:
-        mountings: The gripper's shape in each mounting, by its name; one of an empty name where it has one alone.
-        mounting: The mounting where no design sets it.
+        mountings: The gripper's shape in each mounting, by name; the empty name if it has only one.
+        mounting: The default mounting, if no design sets it.
         drive: The drive of its fingers.
-        suction: What its cup holds; None for a gripper with fingers.
-        settings: What the gripper has where no design sets it: values in SI, such as ``gripper.finger.mass``.
+        suction: Its suction cup; None for a gripper with fingers.
+        settings: Values in SI that apply if no design sets them, such as ``gripper.finger.mass``.
     """
 
     mountings: Mapping[str, GripperGeometry]
@@ -155,13 +155,13 @@ class GripperFile:
 
     @property
     def geometry(self) -> GripperGeometry:
-        """The shape where no design sets the mounting."""
+        """Shape in the default mounting."""
         return self.mountings[self.mounting]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gripper:
-    """A gripper as a design variant has it.
+    """Gripper of a design variant.
 
     Attributes:
         geometry: Its shape.
@@ -171,7 +171,7 @@ class Gripper:
         finger_force_n: Force of one finger.
         friction: Coefficient of the pads; a contact's coefficient is the product with the object's.
         drive: The drive of its fingers.
-        suction: What its cup holds; None for a gripper with fingers.
+        suction: Its suction cup; None for a gripper with fingers.
     """
 
     geometry: GripperGeometry
@@ -184,7 +184,7 @@ class Gripper:
     suction: Suction | None = None
 
     def grip_coefficient(self, object_friction: float) -> float:
-        """Force that holds against any load over the sum of the normal forces of fingers or cup.
+        """Holding force in the weakest direction divided by the sum of the normal forces of fingers or cup.
 
         For fingers it is the coefficient of friction; for a cup the lesser of 1, along its axis, and the ratio of its
         greatest tangential to its greatest normal force.
@@ -198,12 +198,12 @@ class Gripper:
 
     @property
     def cup_mass_kg(self) -> float:
-        """Mass of the suction cup, a share of the base's mass that a cup and its fitting have; 0 without one."""
+        """Mass of the suction cup with its fitting, a share of the base's mass; 0 without a cup."""
         return _CUP_MASS_SHARE * self.base_mass_kg if self.geometry.cup is not None else 0.0
 
     @property
     def driven_mass_kg(self) -> float:
-        """Mass that the motor of one finger moves: the finger and the reflected inertia of its drive."""
+        """Mass moved by the motor of one finger: the finger and the reflected inertia of its drive."""
         return self.finger_mass_kg + self.drive.inertia_kg
 
     @property

@@ -1,4 +1,4 @@
-"""Reading gripper files."""
+"""Reader of gripper files."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ def load_gripper(path: Path, *, label: str | None = None) -> GripperGeometry:
         label: The file's name in messages; the path by default.
 
     Raises:
-        DocumentError: The file is wrong; with every problem in it.
+        DocumentError: The file is invalid; with every problem in it.
     """
     return load_gripper_file(path, label=label).geometry
 
 
 def load_gripper_file(path: Path, *, label: str | None = None, project: Path | None = None) -> GripperFile:
-    """Read a gripper of any kind, and what it has where no design sets it.
+    """Read a gripper of any kind, with the values that apply if no design sets them.
 
     Args:
         path: The gripper file.
         label: The file's name in messages; the path by default.
-        project: The folder that no file that it names may lie outside of; that of the gripper file by default.
+        project: The folder that must contain all referenced files; that of the gripper file by default.
 
     Raises:
-        DocumentError: The file is wrong; with every problem in it.
+        DocumentError: The file is invalid; with every problem in it.
     """
     kind = kind_of_gripper(read_document(path, label=label))
     if isinstance(kind, LinkageGripper):

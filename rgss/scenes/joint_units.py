@@ -1,4 +1,4 @@
-"""Findings about joint values of a robot file: units that do not fit the joint, and homes outside the range."""
+"""Findings about joint values of a robot file: units that do not match the joint, and home positions out of range."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rgss.scenes.robot import JointKind
 
 
 def unit_findings(entry: RobotDocument, document: Document, kinds: Mapping[str, JointKind | None]) -> Iterable[Finding]:
-    """A finding for each value whose unit is of the other kind of joint.
+    """A finding for each value with the unit of the other kind of joint.
 
     Args:
         entry: The robot file's content.
@@ -34,7 +34,7 @@ def unit_findings(entry: RobotDocument, document: Document, kinds: Mapping[str, 
 
 
 def home_findings(entry: RobotDocument, document: Document) -> Iterable[Finding]:
-    """A finding for each joint whose home is outside its range, or for a home of another number of joints.
+    """A finding for each home position out of range, or for a wrong number of home positions.
 
     Args:
         entry: The robot file's content.
@@ -63,7 +63,7 @@ def home_findings(entry: RobotDocument, document: Document) -> Iterable[Finding]
 
 
 def _quantities(entry: RobotDocument) -> Iterator[tuple[str, Location, JointQuantity, tuple[str, str]]]:
-    """Joint, place, value, and an example of an angular and a linear one, of all joint quantities."""
+    """Joint, location, value, and an angular and a linear example, of all joint quantities."""
     positions = ("90 deg", "120 mm")
     for index, joint in enumerate(entry.joints):
         for end, quantity in enumerate(joint.range):

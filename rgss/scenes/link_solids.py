@@ -1,4 +1,4 @@
-"""Volume, centre and inertia of a link's shapes, for a URDF that states no mass."""
+"""Volume, centre of mass and inertia of a link's shapes, for a URDF without masses."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ FindFile = Callable[[str], Path | None]
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class LinkSolid:
-    """A link's shapes as one homogeneous body of density 1.
+    """Link as a homogeneous body of density 1.
 
     Attributes:
-        volume_m3: Its volume; shapes that overlap count twice.
+        volume_m3: Its volume; overlaps count twice.
         centre_m: Its centre of mass in the link's frame, shape (3,).
-        inertia_m5: Inertia about that centre over the density, along the axes of the link's frame, shape (3, 3).
+        inertia_m5: Inertia about that centre divided by the density, along the axes of the link's frame, shape (3, 3).
     """
 
     volume_m3: float
@@ -36,14 +36,14 @@ class LinkSolid:
 
 
 def link_solid(link: ET.Element, find: FindFile) -> LinkSolid | None:
-    """The body of a link's collision shapes, else of its visual ones; a mesh counts with its hull.
+    """Body of a link's collision shapes, else of its visual ones; a mesh is replaced by its convex hull.
 
     Args:
         link: The link's element.
-        find: The file of a mesh by its name; None where there is none.
+        find: Function that returns the file of a mesh by name, or None.
 
     Returns:
-        The body; None where the link has no shape with a volume.
+        The body; None if the link has no shape with a volume.
     """
     for kind in ("collision", "visual"):
         parts = [part for shape in link.findall(kind) if (part := _part(shape, find)) is not None]

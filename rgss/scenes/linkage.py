@@ -1,4 +1,4 @@
-"""Grippers as a linkage: one driven joint, joints that follow it, and two pads that stay parallel."""
+"""Linkage of a gripper: one driven joint, mimic joints, and two pads that stay parallel."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ _SAMPLES = 256
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LinkageLink:
-    """A link of the gripper with the joint that carries it.
+    """Link of the gripper with its parent joint.
 
     Attributes:
         name: Its name in the URDF.
-        parent: Index of the link that carries it; -1 for the palm, which the flange carries.
+        parent: Index of its parent link; -1 for the palm, whose parent is the flange.
         origin: Transform of its joint's frame to the parent; for the palm to the flange.
-        kind: Kind of its joint; None where it is fixed.
+        kind: Kind of its joint; None if fixed.
         axis: Unit axis of the joint in its frame.
         multiplier: Derivative of its position by the driven joint's, 1 for the driven joint, 0 for a fixed one.
-        offset: Its position where the driven joint is at 0, in rad or m.
+        offset: Position of its joint at position 0 of the driven joint, in rad or m.
         mass_kg: Its mass.
-        inertial: Transform of the frame of its inertia, in its centre of mass, to the link.
+        inertial: Transform of its inertia's frame, at its centre of mass, to the link.
         inertia_kg_m2: Entries xx, yy, zz, xy, xz and yz of its inertia in that frame.
         hulls_m: Corners of its convex collision shapes, in the link's frame.
     """
@@ -47,7 +47,7 @@ class LinkageLink:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LinkagePad:
-    """The flat face with which a link touches an object.
+    """Flat contact face of a link.
 
     Attributes:
         link: Index of the link.
@@ -63,14 +63,14 @@ class LinkagePad:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Linkage:
-    """The mechanism of a gripper; all of it follows from the position of the driven joint.
+    """Mechanism of a gripper with one degree of freedom, the driven joint.
 
     Attributes:
-        links: The links, each after the one that carries it.
-        pads: The faces of the two fingers.
-        driven: Index of the link that the driven joint carries.
-        opened: Position of the driven joint where the gripper is open.
-        closed: Position where it is closed.
+        links: The links in topological order.
+        pads: The contact faces of the two fingers.
+        driven: Index of the child link of the driven joint.
+        opened: Position of the driven joint with the gripper open.
+        closed: Position of the driven joint with the gripper closed.
         effort: Greatest torque in N·m or force in N of the driven joint.
         speed: Its greatest speed in rad/s or m/s.
     """
@@ -85,7 +85,7 @@ class Linkage:
 
     @property
     def palm_links(self) -> tuple[int, ...]:
-        """Indices of the links that no joint moves against the flange."""
+        """Indices of the links that are fixed relative to the flange."""
         still: list[int] = []
         for index, link in enumerate(self.links):
             if link.kind is None and (link.parent < 0 or link.parent in still):
@@ -104,7 +104,7 @@ class Linkage:
 
     @property
     def palm_height_m(self) -> float:
-        """Distance along z from the flange to the end of the palm; 0 without a collision shape of it."""
+        """Distance along z from the flange to the end of the palm in m; 0 without a collision shape."""
         poses = self.link_poses(self.opened)
         corners = (
             (index, corner) for index in self.palm_links for hull in self.links[index].hulls_m for corner in hull
@@ -182,17 +182,17 @@ def joint_motion(kind: JointKind, axis: Triple, position: float) -> Pose:
 
 
 class LinkageMotion:
-    """Opening, travel and transmission of a linkage over its stroke, tabulated once.
+    """Tabulated opening, travel and transmission of a linkage over its stroke.
 
-    Between the samples the functions are interpolated linearly: of a crank of 60 mm over 40 deg the opening is then
-    within 0.1 µm.
+    The functions are interpolated linearly between the samples: for a crank of 60 mm over 40 deg the error of the
+    opening is below 0.1 µm.
     """
 
     def __init__(self, linkage: Linkage) -> None:
         """Tabulate the stroke.
 
         Args:
-            linkage: The mechanism, whose pads approach each other all along from open to closed.
+            linkage: The mechanism, whose pads approach each other monotonically from open to closed.
         """
         span = linkage.closed - linkage.opened
         self.linkage = linkage
@@ -203,7 +203,7 @@ class LinkageMotion:
 
     @property
     def largest_opening_m(self) -> float:
-        """Opening where the gripper is open."""
+        """Opening of the open gripper."""
         return self._openings_m[0]
 
     @property
@@ -222,7 +222,7 @@ class LinkageMotion:
         return max(self._slope(index) for index in range(_SAMPLES))
 
     def travel_m(self, driven: float) -> float:
-        """Travel of each pad from open; beyond the stroke that of its end.
+        """Travel of each pad from open in m; clipped to the stroke.
 
         Args:
             driven: Position of the driven joint.
@@ -233,10 +233,10 @@ class LinkageMotion:
         return before_m + (place - index) * (after_m - before_m)
 
     def driven_at(self, travel_m: float) -> float:
-        """Position of the driven joint at which each pad has a travel from open.
+        """Position of the driven joint for a travel of each pad from open.
 
         Args:
-            travel_m: The travel; beyond the stroke its end is taken.
+            travel_m: The travel in m; clipped to the stroke.
         """
         travels = self._travels_m
         wanted_m = min(max(travel_m, 0.0), travels[-1])

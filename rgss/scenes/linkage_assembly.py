@@ -1,4 +1,4 @@
-"""Links and joints of a gripper's linkage in the URDF that every engine is given."""
+"""Links and joints of a gripper's linkage in the assembled URDF."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from rgss.scenes.robot import JointKind
 
 _MARGIN_M = 1.0e-3
 _MARGIN_SHARE = 0.25
-# A frame without a mass; engines would assume one of their own.
+# A frame without a mass; engines would assume a default.
 _NO_MASS_KG, _NO_MOMENT_KG_M2 = 1e-6, 1e-9
 _KINDS = {None: "fixed", JointKind.REVOLUTE: "continuous", JointKind.PRISMATIC: "prismatic"}
 
 
 def linkage_link_names(linkage: Linkage, palm: str, fingers: Sequence[str]) -> tuple[str, ...]:
-    """Names of the links of a linkage on an arm, which may have links of the same names.
+    """Unique names of the links of a linkage on an arm, which may have links of the same names.
 
     Args:
         linkage: The mechanism.
         palm: Name of the link on the flange.
-        fingers: Names of the links that have the pads.
+        fingers: Names of the links with the pads.
     """
     special = {pad.link: name for pad, name in zip(linkage.pads, fingers, strict=True)}
     special[0] = palm
@@ -37,7 +37,7 @@ def linkage_masses_kg(gripper: Gripper, linkage: Linkage) -> tuple[float, ...]:
     """Mass of each link: that of the URDF, scaled to the design's masses of palm and fingers.
 
     Args:
-        gripper: The gripper as the design has it.
+        gripper: The gripper of the design.
         linkage: Its mechanism.
     """
     palm = set(linkage.palm_links)
@@ -57,15 +57,15 @@ def add_linkage(
 ) -> None:
     """Add the links and joints of a gripper's linkage to a URDF.
 
-    Joints that follow the driven one have no limits of their own; an engine of contact couples them.
+    Mimic joints have no limits of their own; a contact engine couples them.
 
     Args:
-        root: The URDF of the arm; it is changed.
-        gripper: The gripper as the design has it.
+        root: The URDF of the arm; modified in place.
+        gripper: The gripper of the design.
         linkage: Its mechanism.
-        flange: The link that carries the palm.
+        flange: The parent link of the palm.
         names: Names of the links.
-        pads: What the pad of each finger consists of for an engine of contact, flat if there are none.
+        pads: Contact elements of the pad of each finger; empty for flat pads.
     """
     layouts = {pad.link: (pad, layout) for pad, layout in zip(linkage.pads, pads, strict=True)} if pads else {}
     masses_kg = linkage_masses_kg(gripper, linkage)
@@ -83,7 +83,7 @@ def add_linkage(
         if link.kind is None:
             continue
         ET.SubElement(joint, "axis", {"xyz": _numbers(link.axis)})
-        # A range without a length is none.
+        # A range of length zero means no limits.
         lower, upper = sorted((linkage.opened, linkage.closed)) if driven else (0.0, -1.0)
         limits = {"lower": lower, "upper": upper, "velocity": linkage.speed, "effort": linkage.effort}
         ET.SubElement(joint, "limit", {key: repr(float(value)) for key, value in limits.items()})
@@ -112,7 +112,7 @@ def _add_link(
 
 
 def _behind(pad: LinkagePad, layout: PadLayout, corner: Triple) -> Triple:
-    """A corner of a finger, moved behind the elements of its pad where it would touch before them."""
+    """Corner of a finger, moved behind the contact elements of its pad if it would touch before them."""
     (px, py, pz), (x, y, z) = pad.frame.position_m, corner
     dx, dy, dz = pad.frame.inverse_rotate((x - px, y - py, z - pz))
     behind_m = layout.proud_m + min(_MARGIN_M, _MARGIN_SHARE * pad.size_m[0])

@@ -11,13 +11,13 @@ from rgss.scenes.pose import Pose
 from rgss.scenes.shapes import Box, Cylinder, LyingCylinder, ObjectShape
 
 Gyration = tuple[float, float, float, float, float, float]
-"""Inertia about the centre of mass over the mass, in m²: xx, yy, zz, xy, xz, yz."""
+"""Inertia about the centre of mass divided by the mass, in m²: xx, yy, zz, xy, xz, yz."""
 
 _DIAGONAL = 1e-9
 
 
 class _Massive(Protocol):
-    """What an object's inertia depends on."""
+    """Interface of the mass properties of an object."""
 
     @property
     def shape(self) -> ObjectShape: ...
@@ -40,7 +40,7 @@ def centre_of_mass(workpiece: _Massive) -> tuple[float, float, float]:
 def inertia_kg_m2(workpiece: _Massive) -> NDArray[np.float64]:
     """Inertia about the centre of mass along the axes of the shape's frame, shape (3, 3).
 
-    Without a stated one, that of the homogeneous shape.
+    That of the homogeneous shape by default.
     """
     if workpiece.gyration_m2 is None:
         return np.diag(solid_moments(workpiece.shape, workpiece.mass_kg))
@@ -53,7 +53,7 @@ def solid_moments(shape: ObjectShape, mass_kg: float) -> tuple[float, float, flo
     """Moments of inertia of a homogeneous box or cylinder about its centre, in kg m².
 
     Args:
-        shape: The solid; a mesh has stated mass properties instead.
+        shape: The solid; the mass properties of a mesh are stated instead.
         mass_kg: Its mass.
     """
     if isinstance(shape, Box):
@@ -69,9 +69,9 @@ def solid_moments(shape: ObjectShape, mass_kg: float) -> tuple[float, float, flo
 
 
 def principal_frame(workpiece: _Massive) -> tuple[Pose, tuple[float, float, float]]:
-    """Transform of the principal axes through the centre of mass to the shape's frame, and the principal moments.
+    """Transform of the principal frame at the centre of mass to the shape's frame, and the principal moments in kg m².
 
-    The axes are those of the shape's frame where the inertia is diagonal there.
+    The axes equal those of the shape's frame if the inertia is diagonal there.
 
     Args:
         workpiece: The object.
@@ -92,7 +92,7 @@ def principal_frame(workpiece: _Massive) -> tuple[Pose, tuple[float, float, floa
 
 
 def quaternion_of(axes: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """Unit quaternion, scalar last, of a rotation matrix; its scalar part is not negative.
+    """Unit quaternion, scalar last and not negative, of a rotation matrix.
 
     Args:
         axes: The matrix, shape (3, 3).

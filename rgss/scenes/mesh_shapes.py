@@ -1,4 +1,4 @@
-"""Convex shapes of a mesh: its hull, the hulls of its parts, or the box about it."""
+"""Convex approximations of a mesh: its hull, the hulls of its parts, or its bounding box."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ Vertices = tuple[tuple[float, float, float], ...]
 Array = NDArray[np.float64]
 
 HULL_TOLERANCE_M = 5e-4
-"""Distance of corners over the shape from which it gets more of them. The shape is then drawn out over the rest."""
+"""Tolerance in m of a reduced hull: corners farther outside are added; the hull is then expanded over the others."""
 
 MOST_VERTICES = 160
-"""Most corners of a shape: contact and collision checks take time in proportion."""
+"""Greatest number of corners of a shape; the time of contact and collision checks is proportional to it."""
 
 _SUFFIXES = frozenset({".stl", ".obj", ".dae", ".ply"})
 _CONCAVITY = 0.05
@@ -29,12 +29,12 @@ _EXACT = 1e-9
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeshSummary:
-    """What a mesh is, before it becomes convex.
+    """Properties of a mesh before its convex approximation.
 
     Attributes:
         is_closed: Whether it encloses a volume.
-        bodies: How many bodies it consists of that have no corner in common.
-        hull_ratio: Volume of its hull over its own; 1 for a convex mesh, NaN for one that is not closed.
+        bodies: Number of connected components.
+        hull_ratio: Volume of its hull divided by its own; 1 for a convex mesh, NaN if it is not closed.
         extent_m: Its extent along the axes of its frame.
     """
 
@@ -47,13 +47,13 @@ class MeshSummary:
 def shapes_of_mesh(
     path: Path, *, sha256: str, scale: tuple[float, float, float], how: CollisionShapes
 ) -> tuple[Vertices, ...]:
-    """The convex shapes that stand for a mesh, each by its corners in m, rounded to a tenth of a micrometre.
+    """Convex shapes of a mesh, each as its corners in m, rounded to 0.1 µm.
 
     Args:
         path: The mesh's file.
-        sha256: Digest of its content, by which shapes are kept.
+        sha256: Digest of its content, the cache key.
         scale: Factors along its axes.
-        how: What the shapes are.
+        how: Kind of the approximation.
 
     Raises:
         DefinitionError: The file is not a mesh, or has no volume.
@@ -62,7 +62,7 @@ def shapes_of_mesh(
 
 
 def mesh_summary(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1.0)) -> MeshSummary:
-    """What a mesh is.
+    """Properties of a mesh.
 
     Args:
         path: Its file.
@@ -90,7 +90,7 @@ def mesh_corners(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1
         scale: Factors along its axes.
 
     Raises:
-        DefinitionError: The file is no mesh, or is flat.
+        DefinitionError: The file is not a mesh, or is flat.
     """
     from scipy.spatial import ConvexHull, QhullError
 
@@ -109,7 +109,7 @@ class MeshMass:
     Attributes:
         volume_m3: Its volume.
         centre_m: Its centre of mass.
-        gyration_m2: Inertia about the centre of mass over the mass: xx, yy, zz, xy, xz, yz.
+        gyration_m2: Inertia about the centre of mass divided by the mass, in m²: xx, yy, zz, xy, xz, yz.
     """
 
     volume_m3: float
@@ -118,7 +118,7 @@ class MeshMass:
 
 
 def mesh_mass(path: Path, *, scale: float = 1.0) -> MeshMass:
-    """Mass properties of a closed mesh of one density.
+    """Mass properties of a closed homogeneous mesh.
 
     Args:
         path: Its file.
@@ -130,7 +130,7 @@ def mesh_mass(path: Path, *, scale: float = 1.0) -> MeshMass:
     mesh = _read(path, (scale, scale, scale))
     if not mesh.is_watertight or not mesh.volume > 0.0:
         raise DefinitionError(
-            f"{path.name} is not closed, so that it has no mass properties",
+            f"{path.name} must be closed for mass properties",
             hint="close the mesh, or give centre_of_mass and inertia",
         )
     x, y, z = (float(value) for value in mesh.center_mass)
@@ -167,7 +167,7 @@ def _read(path: Path, scale: tuple[float, float, float]) -> Any:
         raise DefinitionError(f"{path.name} cannot be read as a mesh: {error}", hint="use STL, OBJ or PLY") from error
     if len(mesh.vertices) < 4 or not np.all(np.isfinite(mesh.vertices)):
         raise DefinitionError(f"{path.name} is not a mesh with a volume", hint="use STL, OBJ or PLY")
-    # Corners that differ in normal or texture alone are one, or no mesh with sharp edges would be closed.
+    # Corners that differ only in normal or texture are merged; otherwise no mesh with sharp edges would be closed.
     mesh.merge_vertices(merge_tex=True, merge_norm=True)
     mesh.apply_scale(scale)
     return mesh
@@ -188,7 +188,7 @@ def _convex_pieces(body: Any) -> list[Array]:
 
 
 def _reduced_hull(points: Array, path: Path) -> Vertices:
-    """Corners of a shape that holds all points: of their hull the farthest ones, drawn out over those left away."""
+    """Corners of a shape that contains all points: extreme corners of their hull, expanded over the others."""
     from scipy.spatial import ConvexHull, QhullError
 
     try:
@@ -211,6 +211,6 @@ def _reduced_hull(points: Array, path: Path) -> Vertices:
 
 
 def _extremes(corners: Array) -> list[int]:
-    """Indices of the corners that are farthest along the axes, the edges and the diagonals of a cube."""
+    """Indices of the extreme corners along the axes, edge and space diagonals of a cube."""
     grid = np.array([(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)], dtype=float)
     return sorted({int(np.argmax(np.round(corners @ one, 9))) for one in grid[np.any(grid != 0, axis=1)]})

@@ -1,4 +1,4 @@
-"""Rigid transforms between named frames."""
+"""Rigid transforms, SE(3), between named frames."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pose:
-    """A rigid transform of a frame to an outer frame, in metres and a unit quaternion.
+    """Rigid transform of a frame to an outer frame, as position in m and unit quaternion.
+
+    Names state both frames: ``transform_b_to_a`` maps coordinates in frame b to frame a.
 
     Attributes:
         position_m: Origin of the frame in the outer frame.
@@ -22,7 +24,7 @@ class Pose:
     def from_roll_pitch_yaw(
         position_m: tuple[float, float, float], roll_pitch_yaw_rad: tuple[float, float, float]
     ) -> Pose:
-        """A pose from fixed-axis rotations about x, then y, then z, as in URDF."""
+        """Pose from fixed-axis rotations about x, then y, then z, as in URDF."""
         roll, pitch, yaw = (angle / 2 for angle in roll_pitch_yaw_rad)
         cr, sr, cp, sp, cy, sy = (f(a) for a in (roll, pitch, yaw) for f in (math.cos, math.sin))
         quaternion = (
@@ -34,17 +36,17 @@ class Pose:
         return Pose(position_m=position_m, quaternion_xyzw=quaternion)
 
     def rotate(self, vector: tuple[float, float, float]) -> tuple[float, float, float]:
-        """Express a direction of this frame in the outer frame."""
+        """Rotate a vector from this frame to the outer frame, without translation."""
         x, y, z, w = self.quaternion_xyzw
         return _turned(x, y, z, w, vector)
 
     def inverse_rotate(self, vector: tuple[float, float, float]) -> tuple[float, float, float]:
-        """Express a direction of the outer frame in this frame."""
+        """Rotate a vector from the outer frame to this frame, without translation."""
         x, y, z, w = self.quaternion_xyzw
         return _turned(-x, -y, -z, w, vector)
 
     def __matmul__(self, inner: Pose) -> Pose:
-        """Chain two transforms: ``transform_b_to_a @ transform_c_to_b`` is ``transform_c_to_a``."""
+        """Composition: ``transform_b_to_a @ transform_c_to_b`` is ``transform_c_to_a``."""
         ox, oy, oz = self.rotate(inner.position_m)
         px, py, pz = self.position_m
         ax, ay, az, aw = self.quaternion_xyzw
@@ -66,7 +68,7 @@ class Pose:
         return Pose(position_m=(-px, -py, -pz), quaternion_xyzw=(-x, -y, -z, w))
 
     def relative_to(self, frame: Pose) -> Pose:
-        """``frame.inverse() @ self`` in one step: this pose in another frame that is given in the same outer frame."""
+        """This pose relative to a frame with the same outer frame: ``frame.inverse() @ self`` in one step."""
         x, y, z, w = frame.quaternion_xyzw
         (ax, ay, az), (bx, by, bz) = self.position_m, frame.position_m
         vx, vy, vz = ax - bx, ay - by, az - bz
@@ -87,18 +89,18 @@ class Pose:
         )
 
     def raised(self, height_m: float) -> Pose:
-        """The same pose, higher along the outer frame's z."""
+        """Pose translated along the outer frame's z."""
         x, y, z = self.position_m
         return Pose(position_m=(x, y, z + height_m), quaternion_xyzw=self.quaternion_xyzw)
 
     @property
     def tilt_rad(self) -> float:
-        """Angle between this frame's z axis and the outer frame's z axis."""
+        """Angle in rad between this frame's z axis and the outer frame's z axis."""
         return math.acos(max(-1.0, min(1.0, self.rotate((0.0, 0.0, 1.0))[2])))
 
 
 def _turned(x: float, y: float, z: float, w: float, vector: tuple[float, float, float]) -> tuple[float, float, float]:
-    """A vector turned by a unit quaternion."""
+    """Vector rotated by a unit quaternion."""
     vx, vy, vz = vector
     tx, ty, tz = 2 * (y * vz - z * vy), 2 * (z * vx - x * vz), 2 * (x * vy - y * vx)
     return (

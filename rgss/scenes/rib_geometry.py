@@ -1,10 +1,10 @@
-"""Finger pads for contact engines: ribs at the ends of the line that a pad touches.
+"""Ribbed finger pads for contact engines: ribs at the ends of the contact line.
 
-A flat pad touches a round wall along a line, and what that line can resist, forces at its two ends
-resist as well. An engine that finds one point of a pair of shapes in a step builds such a contact up
-over several steps, and the object turns about the first point meanwhile. So each pad is given to the
-engine as two round ribs across the finger, one at each end of the line. Each is a shape of its own and
-meets the wall in exactly one point, which is found at once; across the finger a rib is as flat as the pad.
+A flat pad touches a round wall along a line, whose contact wrenches are equivalent to forces at its two ends. An engine
+that detects one point of a pair of shapes in a step builds up such a contact over several steps, while the object
+rotates about the first point. Each pad therefore consists of two round ribs across the finger, one at each end of the
+line. Each is a separate shape and touches the wall in exactly one point, which is detected at once; across the finger a
+rib is as flat as the pad.
 """
 
 from __future__ import annotations
@@ -15,22 +15,22 @@ from rgss.scenes.gripper import GripperGeometry
 from rgss.scenes.shapes import Cylinder
 
 RIBS = 2
-"""Ribs of a finger's pad."""
+"""Number of ribs of a finger's pad."""
 
 _LARGEST_RADIUS_M = 0.004
 _RADIUS_SHARE = 0.25
-# So far behind the ribs the finger's flat face makes no contact, and the ribs are still part of the finger.
+# At this depth behind the ribs the finger's flat face makes no contact, and the ribs are still part of the finger.
 _PROUD_SHARE = 0.75
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PadRibs:
-    """Ribs across the pad of every finger, their fronts where the flat pad would be.
+    """Ribs across the pad of every finger, tangent to the plane of the flat pad.
 
     Attributes:
         radius_m: Radius of each rib.
-        proud_m: How far the ribs stand out of the rest of the finger.
-        heights_m: Where each rib is along the finger, from the finger's centre, away from the flange positive.
+        proud_m: Height of the ribs above the rest of the finger.
+        heights_m: Position of each rib along the finger, from its centre, positive away from the flange.
     """
 
     radius_m: float
@@ -39,11 +39,11 @@ class PadRibs:
 
 
 def pad_ribs(gripper: GripperGeometry, workpiece: Cylinder) -> PadRibs:
-    """The ribs with which a gripper holds a workpiece at its centre, the axes parallel.
+    """Ribs of a gripper that holds a workpiece at its centre with parallel axes.
 
     Args:
         gripper: The gripper.
-        workpiece: What it grasps.
+        workpiece: The grasped workpiece.
     """
     base_m, (thickness_m, width_m, length_m) = gripper.base.height_m, gripper.finger.size_m
     start = max(base_m, gripper.grasp_depth_m - workpiece.half_height_m)

@@ -1,4 +1,4 @@
-"""The manipulator: its description file and the limits that a planner and a controller keep."""
+"""Manipulator: URDF, and the limits for planner and controller."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from rgss.scenes.pose import Pose
 from rgss.scenes.servos import Calibration
 
 MOST_JOINTS = 8
-"""Most joints of an arm."""
+"""Greatest number of joints of an arm."""
 
 
 class JointKind(str, Enum):
@@ -21,19 +21,19 @@ class JointKind(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Joint:
-    """One joint of the arm and its limits.
+    """Joint of the arm with its limits.
 
     The units are those of a revolute joint; of a prismatic joint the range is in m, the speed in m/s, the acceleration
-    in m/s² and the greatest effort a force in N. Where lengths are taken in joint space, a metre counts as a radian.
+    in m/s² and the greatest effort a force in N. For lengths in joint space, a metre counts as a radian.
 
     Attributes:
         name: Its name in the robot description.
-        lower_rad: Lower end of the range used for planning.
-        upper_rad: Upper end of the range used for planning.
+        lower_rad: Lower limit of the planning range.
+        upper_rad: Upper limit of the planning range.
         speed_rad_s: Greatest speed.
         acceleration_rad_s2: Greatest acceleration used for timing.
         torque_n_m: Greatest torque.
-        kind: What its position is: an angle or a displacement.
+        kind: Kind of the joint: revolute or prismatic.
     """
 
     name: str
@@ -47,7 +47,7 @@ class Joint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotFile:
-    """A file that the robot's URDF names, such as a mesh.
+    """File referenced by the robot's URDF, such as a mesh.
 
     Attributes:
         name: Its name as the URDF has it.
@@ -64,17 +64,17 @@ class Robot:
 
     Attributes:
         id: Its name.
-        urdf: Text of its URDF, from the base to the flange, as engines are given it: every
-            joint is one of `joints` or fixed, and every collision shape primitive or convex.
-        flange: Name of the link that carries the gripper; z points out of the flange.
+        urdf: Text of its URDF, from the base to the flange, in the form passed to engines: every joint is one of
+        `joints` or fixed, and every collision shape primitive or convex.
+        flange: Name of the link with the gripper; z points out of the flange.
         joints: The joints from base to flange.
         base: Transform of the arm's base frame to the world.
         payload_kg: Rated payload.
         tool_acceleration_m_s2: Greatest acceleration of the tool centre.
-        home_rad: A configuration near which inverse-kinematics branches are preferred.
-        files: The meshes and textures that the URDF names, by their content.
-        tool_speed_m_s: Greatest speed of the tool centre where no design sets it; None if the file has none.
-        calibration: The servos of its joints as they were fitted; None if the file names none.
+        home_rad: Reference configuration of the choice among inverse kinematics branches.
+        files: The meshes and textures referenced by the URDF, with digests of their content.
+        tool_speed_m_s: Greatest speed of the tool centre if no design sets it; None if the file has none.
+        calibration: The fitted servos of its joints; None if the file names none.
     """
 
     id: str

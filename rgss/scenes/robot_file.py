@@ -1,4 +1,4 @@
-"""Reading a robot file and the URDF that it names."""
+"""Reader of robot files and their URDFs."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
         path: The robot file.
         base: Transform of the arm's base frame to the world.
         label: The file's name in messages.
-        project: The folder that no named file may lie outside of; that of the robot file by default.
+        project: The folder that must contain all referenced files; that of the robot file by default.
 
     Raises:
-        DocumentError: The file or its URDF is wrong; with every problem in it.
+        DocumentError: The file or its URDF is invalid; with every problem in it.
     """
     loaded = load_document(path, RobotDocument, label=label)
     entry, document = loaded.value, loaded.document
@@ -92,7 +92,7 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
 def _calibration(
     entry: RobotDocument, document: Document, findings: list[Finding], *, folder: Path, project: Path
 ) -> Calibration | None:
-    """The calibration that a robot file names; None if it names none, or a wrong one, which `findings` then has."""
+    """Calibration of a robot file; None if it names none, or an invalid one, for which findings are added."""
     name = entry.calibration
     if name is None:
         return None
@@ -122,13 +122,13 @@ def _empty_ranges(entry: RobotDocument, document: Document) -> Iterable[Finding]
 
 
 def _repeated_joints(entry: RobotDocument, document: Document) -> Iterable[Finding]:
-    """A finding at each joint that stands twice: the arm would have a joint less than it has limits."""
+    """A finding for each duplicate joint."""
     seen: set[str] = set()
     for index, joint in enumerate(entry.joints):
         if joint.name in seen:
             yield document.finding(
                 "scene.duplicate-id",
-                f"joint {joint.name!r} stands already above",
+                f"joint {joint.name!r} is listed twice",
                 ("joints", index, "name"),
                 hint="name each joint of the arm once, from the base to the flange",
             )

@@ -1,11 +1,11 @@
-"""Scene of the task: fixed bodies, workpiece, place region, robot."""
+"""Scene of the task: fixed bodies, objects, place regions and robot."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
-from rgss.scenes.grasps import GivenGrasp, GraspCandidates, TakenGrasp
+from rgss.scenes.grasps import ChosenGrasp, GivenGrasp, GraspCandidates
 from rgss.scenes.mass_properties import Gyration
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
@@ -18,19 +18,19 @@ ColourRgba = tuple[float, float, float, float]
 _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 FORCE_WINDOW_S = 0.01
-"""Default window of the force that damages a workpiece: the period of a sensor that reports at 100 Hz."""
+"""Default averaging window in s of the force limit of a workpiece: the period of a 100 Hz sensor."""
 
 LANDING_LIMIT_M_S = 1.0
-"""Default velocity change that a workpiece bears as it lands: that of a fall of 51 mm without rebound."""
+"""Default limit in m/s of a workpiece's velocity change on landing: that of a fall of 51 mm without rebound."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SceneBody:
-    """A fixed body of the scene.
+    """Fixed body of the scene.
 
     Attributes:
         id: Its name.
-        shape: Its solid: a box or a cylinder, unless it is another object that stands around.
+        shape: Its solid: a box or a cylinder, unless it is another object.
         pose: Transform of the shape's frame to the world.
         friction: Its coefficient; a contact's coefficient is the product of both bodies'.
         colour: Colour in pictures.
@@ -44,7 +44,7 @@ class SceneBody:
 
     @property
     def primitive(self) -> Shape:
-        """Its solid as a box or a cylinder, which every body of a scene file is."""
+        """Its solid as a box or a cylinder, the shapes of bodies of a scene file."""
         if isinstance(self.shape, (Box, Cylinder)):
             return self.shape
         raise AssertionError("checked before: a body of a scene file is a box or a cylinder")
@@ -60,15 +60,15 @@ class Workpiece:
         mass_kg: Its mass.
         friction: Its coefficient.
         force_limit_n: Normal force of a finger, averaged over the window, above which it counts as damaged.
-        force_window_s: The window. A limit is found by pressing slowly, on a sensor that averages.
-        landing_limit_m_s: Velocity change on landing above which it counts as damaged: the critical velocity change
-            of ASTM D3332. An impact that is shorter than the response of the object damages by its velocity change, and
-            not by its force, which at the same speed grows with the mass.
+        force_window_s: The averaging window; such a limit is measured quasi-statically with a sensor that averages.
+        landing_limit_m_s: Velocity change on landing above which it counts as damaged: the critical velocity change of
+            ASTM D3332. An impact shorter than the response of the object causes damage by its velocity change, not by
+            its force, which at the same speed increases with the mass.
         centre_of_mass_m: Height of its centre of mass above the centre of its shape.
-        centre_of_mass_across_m: The same along the two other axes.
-        gyration_m2: Its inertia about the centre of mass over its mass; None for that of the homogeneous shape.
-        rolling_resistance_m: Torque that resists its rolling on a surface over the normal force.
-        grasps: The grasps that its file gives.
+        centre_of_mass_across_m: Coordinates of the centre of mass along x and y.
+        gyration_m2: Its inertia about the centre of mass divided by its mass; None for that of the homogeneous shape.
+        rolling_resistance_m: Resisting torque of rolling divided by the normal force.
+        grasps: The grasps given in its file.
         pose: Transform of its shape's frame to the world at the start.
         colour: Colour in pictures.
     """
@@ -94,13 +94,13 @@ class PlaceRegion:
     """Place region of the workpiece at the end of the task.
 
     Attributes:
-        centre_m: Centre of the region on the surface that bears it, in the world.
+        centre_m: Centre of the region on the supporting surface, in the world.
         radius_m: Greatest distance of the workpiece's axis from the centre.
         largest_tilt_rad: Greatest tilt of the workpiece from upright.
-        largest_drop_m: Greatest height above the surface at which the workpiece may be released; from more it
-            is dropped and not placed. From the default of 10 mm it lands with 0.44 m/s.
-        largest_drag_m: Greatest displacement of the workpiece by the robot after its release. The default of
-            1 mm is ten times what a carried object moves in the hand.
+        largest_drop_m: Greatest height above the surface at which the workpiece may be released; from a greater height
+        it counts as dropped. From the default of 10 mm it lands with 0.44 m/s.
+        largest_drag_m: Greatest displacement of the workpiece by the robot after its release. The default of 1 mm is
+        ten times the motion of a carried object in the hand.
     """
 
     centre_m: tuple[float, float, float]
@@ -112,11 +112,11 @@ class PlaceRegion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SceneObject:
-    """An object with where it stands at the start and where it belongs.
+    """Object with its support at the start and its place region.
 
     Attributes:
         workpiece: The object.
-        support: Id of the body on which it stands at the start.
+        support: Id of its supporting body at the start.
         place: Its place region.
         place_support: Id of the body of its place region.
     """
@@ -129,12 +129,12 @@ class SceneObject:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NamedPlace:
-    """A place region that belongs to no object.
+    """Place region without an object.
 
     Attributes:
         id: Its name.
         region: The region.
-        support: Id of the body that bears it.
+        support: Id of its supporting body.
     """
 
     id: str
@@ -153,11 +153,11 @@ class Task:
         place_approach_height_m: Height of the place approach above the place.
         place_clearance_m: Gap between workpiece and surface at which it is released.
         largest_carry_tilt_rad: Greatest angle between the carried workpiece's axis and the vertical.
-        grasp_yaw_rad: Turn of the gripper about the vertical at the grasp.
-        place_yaw_rad: Turn of the gripper about the vertical at the place.
-        candidates: Which grasps are tried; None for the grasp from above at the stated turn.
-        grasp: The grasp that is taken of them; None before one is chosen.
-        is_yaw_free: Whether the gripper may be turned about the vertical at the waypoints as suits the arm.
+        grasp_yaw_rad: Yaw of the gripper at the grasp.
+        place_yaw_rad: Yaw of the gripper at the place.
+        candidates: Specification of the grasp candidates; None for the grasp from above at the stated yaw.
+        grasp: The chosen grasp; None before the choice.
+        is_yaw_free: True if the yaw of the gripper at the waypoints may be chosen to suit the arm.
     """
 
     approach_height_m: float
@@ -169,27 +169,27 @@ class Task:
     grasp_yaw_rad: float
     place_yaw_rad: float
     candidates: GraspCandidates | None = None
-    grasp: TakenGrasp | None = None
+    grasp: ChosenGrasp | None = None
     is_yaw_free: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scene:
-    """Everything around the gripper.
+    """Environment of the gripper: robot, fixed bodies, objects and task.
 
     Attributes:
         id: Its name.
         gravity_m_s2: Magnitude of gravity, along the world's -z.
         robot: The arm.
         bodies: The fixed bodies.
-        support: Id of the body on which the workpiece stands at the start.
-        place_support: Id of the body on which it is to stand at the end.
-        workpiece: What is picked and placed.
+        support: Id of the supporting body of the workpiece at the start.
+        place_support: Id of its supporting body at the end.
+        workpiece: The object to pick and place.
         place: Its place region.
         task: The waypoints.
-        uncertainty: What differs from trial to trial, as the scene's file says.
-        others: The objects beside the workpiece.
-        places: Places that belong to no object.
+        uncertainty: Uncertain quantities stated in the scene's file.
+        others: The further objects.
+        places: Places without an object.
     """
 
     id: str
@@ -207,7 +207,7 @@ class Scene:
 
     @property
     def objects(self) -> tuple[SceneObject, ...]:
-        """Every object, the workpiece first."""
+        """All objects, the workpiece first."""
         own = SceneObject(
             workpiece=self.workpiece, support=self.support, place=self.place, place_support=self.place_support
         )
@@ -215,7 +215,7 @@ class Scene:
 
     @property
     def grasp(self) -> Pose:
-        """Transform of the grasp-centre frame to the world at the grasp: as taken, or on the centre from above."""
+        """Transform of the grasp-centre frame to the world at the grasp, the chosen one or from above."""
         stands, taken = self.workpiece.pose, self.task.grasp
         if taken is not None:
             return stands @ taken.tool_in_object
@@ -235,7 +235,7 @@ class Scene:
 
     @property
     def grasp_in_object(self) -> Pose | None:
-        """Transform of the grasp-centre frame to the object; None for a cylinder that is held down its axis."""
+        """Transform of the grasp-centre frame to the object; None for a cylinder gripped along its axis from above."""
         if self.task.grasp is not None:
             return self.task.grasp.tool_in_object
         if isinstance(self.workpiece.shape, Cylinder):
@@ -244,7 +244,7 @@ class Scene:
 
     @property
     def placed_object(self) -> Pose:
-        """Transform of the object to the world at its place, as the grasp that is taken puts it there."""
+        """Transform of the object to the world at its place, with the yaw of the chosen grasp."""
         x, y, z = self.place.centre_m
         taken = self.task.grasp
         yaw = self.task.place_yaw_rad - self.task.grasp_yaw_rad if taken is None else taken.place_yaw_rad

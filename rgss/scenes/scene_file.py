@@ -1,4 +1,4 @@
-"""Reading a scene file and the robot file that it names."""
+"""Reader of scene files and their robot files."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
     """Read a scene with its robot.
 
     Args:
-        path: The scene file; the robot file that it names is read relative to it.
+        path: The scene file; the path of the robot file is relative to it.
         label: The file's name in messages; the path by default.
-        project: The folder that no named file may lie outside of; that of the scene by default.
+        project: The folder that must contain all referenced files; that of the scene by default.
 
     Raises:
-        DocumentError: A file is wrong; with every problem in it and in the files that it names.
+        DocumentError: A file is invalid; with every problem in it and in the referenced files.
     """
     loaded = load_document(path, SceneDocument, label=label)
     entry, document = loaded.value, loaded.document
@@ -97,7 +97,7 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
 def _robot(
     path: Path, entry: SceneDocument, document: Document, findings: list[Finding], project: Path
 ) -> Robot | None:
-    """The robot that a scene names, or None with what is wrong added to the findings."""
+    """Robot of a scene; None if it is invalid, with findings added."""
     placement = entry.robot
     location = ("robot", "description")
     problems = list(named_file_findings(document, placement.description, location, folder=path.parent, project=project))
@@ -151,16 +151,16 @@ def _drop_findings(entry: SceneDocument, document: Document) -> Iterable[Finding
             "scene.drop",
             f"a place_clearance of {clearance * 1e3:g} mm drops the object from more than {largest * 1e3:g} mm",
             ("task", "place_clearance"),
-            hint="release it lower, or let place_region have a larger largest_drop",
+            hint="release it lower, or increase largest_drop of place_region",
         )
     speed, limit = math.sqrt(2.0 * max(0.0, entry.gravity * clearance)), entry.workpiece.landing_limit
     if speed > limit > 0.0:
         yield document.finding(
             "scene.landing",
             f"a place_clearance of {clearance * 1e3:g} mm lands the object with {speed:.2f} m/s, "
-            f"it bears {limit:g} m/s",
+            f"above its limit of {limit:g} m/s",
             ("task", "place_clearance"),
-            hint="release it lower, or give the workpiece a greater landing_limit",
+            hint="release it lower, or increase landing_limit of the workpiece",
         )
 
 
@@ -172,8 +172,8 @@ def _free_yaw_findings(entry: SceneDocument, document: Document) -> Iterable[Fin
         for one in (entry.workpiece, *entry.workpieces)
     )
     if not is_round or entry.task.grasp is not GraspRule.AS_STATED:
-        message = "the yaw is free only where every object is an upright cylinder that is gripped from above"
-        hint = "leave free_yaw out, or let grasp be as_stated"
+        message = "free_yaw requires that every object is an upright cylinder gripped from above"
+        hint = "remove free_yaw, or set grasp to as_stated"
         yield document.finding("scene.free-yaw", message, ("task", "free_yaw"), hint=hint)
 
 

@@ -1,4 +1,4 @@
-"""Shapes of bodies and objects, so that every engine sees the same solid."""
+"""Shapes of bodies and objects, common to all engines."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Cylinder:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LyingCylinder:
-    """A cylinder centred in its frame, its axis along x, so that z is up where it lies.
+    """A cylinder centred in its frame, its axis along x: the resting pose of a lying cylinder, with z up.
 
     Attributes:
         radius_m: Radius.
@@ -67,7 +67,7 @@ class LyingCylinder:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeshShape:
-    """Convex parts of a mesh, in a frame whose origin is the centre of the box about them.
+    """Convex parts of a mesh, in a frame whose origin is the centre of their bounding box.
 
     Attributes:
         parts_m: Corners of each part.
@@ -87,15 +87,15 @@ Shape = Box | Cylinder
 """A solid of a fixed body or a gripper."""
 
 ObjectShape = Box | Cylinder | LyingCylinder | MeshShape
-"""A solid of the object, at rest with its frame's z axis up."""
+"""Solid of an object, which rests with its frame's z axis up."""
 
 
 def corners_of(shape: ObjectShape, *, facets: int = 64) -> tuple[tuple[Point, ...], ...]:
-    """Corners of the convex parts of a shape; a cylinder becomes a prism about it.
+    """Corners of the convex parts of a shape; a cylinder is approximated by a circumscribed prism.
 
     Args:
         shape: The shape.
-        facets: Sides of the prism.
+        facets: Number of sides of the prism.
     """
     if isinstance(shape, MeshShape):
         return shape.parts_m
@@ -126,9 +126,9 @@ def half_extents_m(shape: ObjectShape) -> Point:
 
 
 def girth_radius_m(shape: ObjectShape) -> float:
-    """Greatest distance of the solid from the vertical through its centre; the radius of an upright cylinder.
+    """Greatest distance in m of the solid from the vertical through its centre; the radius of an upright cylinder.
 
-    Torques are divided by it, so that they can be compared with forces.
+    It serves as the characteristic length, the divisor of torques in comparisons with forces.
     """
     if isinstance(shape, Cylinder):
         return shape.radius_m
@@ -139,7 +139,7 @@ def girth_radius_m(shape: ObjectShape) -> float:
 
 
 def least_height_m(shape: ObjectShape, up: Point) -> float:
-    """Least coordinate of the solid along a direction, from its centre; negative.
+    """Least coordinate in m of the solid along a direction, relative to its centre; negative.
 
     Args:
         shape: The solid.

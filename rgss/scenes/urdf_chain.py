@@ -1,4 +1,4 @@
-"""The serial arm within a URDF: its chain of joints from the base to the flange, everything else made rigid."""
+"""Serial arm within a URDF: the chain of joints from the base to the flange, with all other joints fixed."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ _NO_MASS_KG, _NO_MOMENT_KG_M2 = 1e-6, 1e-9
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UrdfChain:
-    """The joints that lead from the base of a URDF to a link.
+    """Kinematic chain from the base of a URDF to a link.
 
     Attributes:
-        joints: All of them, fixed ones too, from the base on.
-        links: The links that they carry, in the same order.
+        joints: All joints, including fixed ones, from the base on.
+        links: Their child links, in the same order.
     """
 
     joints: tuple[ET.Element, ...]
@@ -39,7 +39,7 @@ class UrdfChain:
 
     @property
     def movable(self) -> tuple[ET.Element, ...]:
-        """The joints that are not fixed."""
+        """Joints that are not fixed."""
         return tuple(joint for joint in self.joints if joint.get("type") != "fixed")
 
 
@@ -62,7 +62,7 @@ def chain_to(root: ET.Element, flange: str) -> UrdfChain:
 
 
 def kind_of(joint: ET.Element) -> JointKind | None:
-    """The kind of a joint that can be an arm's; None for others, such as planar ones.
+    """Kind of a joint of an arm; None for unsupported joints, such as planar ones.
 
     Args:
         joint: The joint's element.
@@ -71,7 +71,7 @@ def kind_of(joint: ET.Element) -> JointKind | None:
 
 
 def chain_problems(root: ET.Element, entry: RobotDocument) -> Iterable[Problem]:
-    """What prevents a URDF from being the arm of a robot file: message, place in the robot file, hint.
+    """Problems of a URDF as the arm of a robot file: message, location in the robot file, hint.
 
     Args:
         root: The URDF.
@@ -84,7 +84,11 @@ def chain_problems(root: ET.Element, entry: RobotDocument) -> Iterable[Problem]:
         if name not in links:
             yield f"has no link {name!r}", ("without", index), "name links of the URDF"
         elif name in chain.links or name not in {_end(joint, "child") for joint in joints.values()}:
-            yield f"needs the link {name!r} to carry the flange", ("without", index), "leave out what is not of the arm"
+            yield (
+                f"needs the link {name!r} to carry the flange",
+                ("without", index),
+                "list only links that do not belong to the arm",
+            )
     for name in entry.frozen:
         if name not in joints:
             yield f"has no joint {name!r}", ("frozen", name), "name the joints as the URDF does"
@@ -96,7 +100,7 @@ def chain_problems(root: ET.Element, entry: RobotDocument) -> Iterable[Problem]:
             yield (
                 f"has from its base to {entry.flange!r} the movable joints {', '.join(found) or 'none'}",
                 ("joints",),
-                "list exactly these in this order, or give a joint that stays where it is under 'frozen'",
+                "list exactly these in this order, or list a joint that must not move under 'frozen'",
             )
     for joint in moving:
         name = joint.get("name", "")
@@ -110,23 +114,23 @@ def chain_problems(root: ET.Element, entry: RobotDocument) -> Iterable[Problem]:
             yield (
                 f"lets the joint {name!r} of the arm follow another",
                 ("description",),
-                "an arm's joints are driven one by one; give it under 'frozen', or describe an equal arm without it",
+                "an arm's joints must be independent; list it under 'frozen', or describe an equal arm without it",
             )
 
 
 def settle(root: ET.Element, entry: RobotDocument) -> bool:
-    """Reduce a URDF to the arm: one movable joint for each of the robot file, everything else rigid.
+    """Reduce a URDF to the arm: one movable joint for each of the robot file, all others fixed.
 
-    Links that the robot file does without go with all that they carry. Joints off the chain are fixed: at the position
-    that the file gives, where the joint that they follow puts them, or else as near to zero as their limits allow. A
-    continuous joint gets the file's range. A link that carries no load by itself may lack its inertia.
+    Links excluded by the robot file are removed with their descendants. Joints off the chain are fixed at the position
+    given in the file, at that of their mimic relation, or else as near to zero as their limits allow. A continuous
+    joint gets the file's range. A link that is only a frame may lack an inertia.
 
     Args:
-        root: The URDF, which has no problems; it is changed.
+        root: The URDF, which has no problems; modified in place.
         entry: The robot file's content.
 
     Returns:
-        Whether anything was changed.
+        True if anything was changed.
     """
     changed = _remove(root, entry.without)
     joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
@@ -149,7 +153,7 @@ def settle(root: ET.Element, entry: RobotDocument) -> bool:
 
 
 def loads_without_inertia(root: ET.Element) -> tuple[str, ...]:
-    """Links that move and need a mass and an inertia, but have none; mere frames need none.
+    """Moving links without a mass or an inertia; pure frames need none.
 
     Args:
         root: The URDF.
@@ -164,7 +168,7 @@ def loads_without_inertia(root: ET.Element) -> tuple[str, ...]:
 
 
 def carried_by(root: ET.Element, names: Iterable[str]) -> set[str]:
-    """Links, and all that they carry.
+    """Links with all their descendants.
 
     Args:
         root: The URDF.
@@ -222,7 +226,7 @@ def _fix(joint: ET.Element, position: float) -> None:
 
 
 def _complete_inertials(root: ET.Element) -> bool:
-    """Take the inertia off what stands, where it has no mass, and give one that counts for nothing to mere frames."""
+    """Remove inertias without a mass from fixed links, and add a negligible one to pure frames."""
     changed, standing = False, standing_links(root)
     for link in root.findall("link"):
         if has_inertia(link):
@@ -243,7 +247,7 @@ def _complete_inertials(root: ET.Element) -> bool:
 
 
 def standing_links(root: ET.Element) -> set[str]:
-    """The base of a URDF and what is fixed to it.
+    """Links of a URDF that do not move: the base and all links fixed to it.
 
     Args:
         root: The URDF.
@@ -258,7 +262,7 @@ def standing_links(root: ET.Element) -> set[str]:
 
 
 def _is_frame(root: ET.Element, link: ET.Element) -> bool:
-    """Whether a link is a frame alone: without a collision shape, and fixed to what carries it."""
+    """True if a link is only a frame: without a collision shape, and fixed to its parent."""
     mounts = [joint for joint in root.findall("joint") if _end(joint, "child") == link.get("name")]
     return link.find("collision") is None and all(joint.get("type") == "fixed" for joint in mounts)
 
@@ -288,6 +292,6 @@ def _about(axis: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
 def _roll_pitch_yaw(turn: NDArray[np.float64]) -> tuple[float, float, float]:
     pitch = math.atan2(-turn[2, 0], math.hypot(turn[0, 0], turn[1, 0]))
     if math.hypot(turn[0, 0], turn[1, 0]) < 1e-9:
-        # Gimbal lock: roll and yaw turn about one axis.
+        # Gimbal lock: roll and yaw rotate about the same axis.
         return math.atan2(-turn[1, 2], turn[1, 1]), pitch, 0.0
     return math.atan2(turn[2, 1], turn[2, 2]), pitch, math.atan2(turn[1, 0], turn[0, 0])

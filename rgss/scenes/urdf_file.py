@@ -1,4 +1,4 @@
-"""Checking a robot's URDF before any engine is given it."""
+"""Reader and validator of a robot's URDF, independent of any engine."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _DEEPEST_NESTING = 40
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]{1,3})?")
 _INERTIA = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
-# How many numbers each attribute holds, by element. The engines read what is not a number as zero.
+# Count of numbers of each attribute, by element. The engines read invalid numbers as zero.
 _NUMBERS: Mapping[str, Mapping[str, int]] = {
     "origin": {"xyz": 3, "rpy": 3},
     "axis": {"xyz": 3},
@@ -43,12 +43,12 @@ _POSITIVE = frozenset({"mass", "box", "cylinder", "sphere"})
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReadUrdf:
-    """A URDF that was read and checked.
+    """URDF with its validation result.
 
     Attributes:
-        text: Its text as engines are given it; of use only when there are no findings.
-        files: The meshes and textures that it names.
-        kinds: Kind of each joint by its name; None for one that can be no joint of an arm.
+        text: Its text in the form passed to engines; valid only without findings.
+        files: The meshes and textures that it references.
+        kinds: Kind of each joint by name; None if it is unsupported in an arm.
         findings: Every problem found.
     """
 
@@ -59,13 +59,13 @@ class ReadUrdf:
 
 
 def read_urdf(path: Path, document: Document, entry: RobotDocument, *, project: Path) -> ReadUrdf:
-    """Read a URDF and compare it with the robot file that names it.
+    """Read a URDF and compare it with its robot file.
 
     Args:
-        path: The URDF; it is there.
+        path: The URDF, which exists.
         document: The robot file, for positions.
         entry: The robot file's content.
-        project: The folder that no file may lie outside of.
+        project: The folder that must contain all referenced files.
     """
     try:
         text, root = parse_urdf(path)
@@ -93,7 +93,7 @@ def read_urdf(path: Path, document: Document, entry: RobotDocument, *, project: 
 
 
 class UrdfError(Exception):
-    """A URDF is unusable; the message follows its name."""
+    """A URDF cannot be used; the message follows its name."""
 
     def __init__(self, problem: str, hint: str = "") -> None:
         super().__init__(problem)
@@ -102,10 +102,10 @@ class UrdfError(Exception):
 
 
 def parse_urdf(path: Path) -> tuple[str, ET.Element]:
-    """The text of a URDF and its elements.
+    """Text of a URDF and its elements.
 
     Args:
-        path: The URDF; it is there.
+        path: The URDF, which exists.
 
     Raises:
         UrdfError: It cannot be read, or is not a URDF.
@@ -146,7 +146,7 @@ def _parsed(text: str) -> ET.Element:
 
 
 def _problems(root: ET.Element, entry: RobotDocument) -> Iterable[tuple[str, Location, str]]:
-    # Children alone: a transmission, for one, names joints in elements of the same tag.
+    # Only children: elsewhere, as in a transmission, elements of the same tag refer to joints.
     links = {link.get("name", ""): link for link in root.findall("link")}
     joints = {joint.get("name", "") for joint in root.findall("joint")}
     if entry.flange not in links:
@@ -157,14 +157,14 @@ def _problems(root: ET.Element, entry: RobotDocument) -> Iterable[tuple[str, Loc
     yield from chain_problems(root, entry)
     gone = carried_by(root, entry.without)
     for name in (one for one in loads_without_inertia(root) if one not in gone):
-        # One engine would silently assume one kilogram, another none.
+        # One engine would silently assume 1 kg, another 0.
         hint = "give it an <inertial> with both; a frame that is fixed and has no collision shape needs none"
         yield f"has no mass or no inertia for link {shown(name)}", ("description",), hint
     yield from number_problems(root)
 
 
 def number_problems(root: ET.Element) -> Iterable[tuple[str, Location, str]]:
-    """Attributes that must be numbers and are not: message, place in the naming file, hint.
+    """Attributes that are not the required numbers: message, location in the referring file, hint.
 
     Args:
         root: The URDF.
@@ -183,7 +183,7 @@ def number_problems(root: ET.Element) -> Iterable[tuple[str, Location, str]]:
                 if text is None and element.tag not in _COMPLETE:
                     continue
                 if element.tag == "mass" and _is_zero(text):
-                    # Of what needs a mass, it was reported; a base or a frame may be written without.
+                    # A missing mass that is required is reported elsewhere; a base or a frame may lack it.
                     continue
                 positive = element.tag in _POSITIVE
                 if text is None or not _are_numbers(text, count, positive=positive):

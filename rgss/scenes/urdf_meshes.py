@@ -1,7 +1,7 @@
-"""Files that a URDF names: meshes and textures, found inside the project and digested by their content.
+"""Meshes and textures of a URDF, resolved inside the project and digested by content.
 
-A mesh is an input of every trial by its content. One of a collision shape is simulated by convex shapes; one that is
-only looked at takes part in no simulation.
+The content of a mesh is an input of every trial. A collision mesh is simulated as convex shapes; a visual mesh is not
+simulated.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _NAMING = ("mesh", "texture")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Named:
-    """An element that names a file.
+    """Element that references a file.
 
     Attributes:
         tag: ``mesh`` or ``texture``.
@@ -46,12 +46,12 @@ class _Named:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NamedFiles:
-    """The files that a URDF names.
+    """Files referenced by a URDF.
 
     Attributes:
-        files: Each with its digest, in the order of the names.
-        paths: Where each is, by its name.
-        findings: What is wrong.
+        files: The files with their digests, in the order of the names.
+        paths: Path of each file by name.
+        findings: Every problem found.
     """
 
     files: tuple[RobotFile, ...]
@@ -60,12 +60,12 @@ class NamedFiles:
 
 
 def files_of(text: str, path: Path, *, project: Path, label: str) -> NamedFiles:
-    """Find and digest the files that a URDF names.
+    """Resolve and digest the files referenced by a URDF.
 
     Args:
         text: The URDF, which is well-formed.
-        path: Its file, relative to whose folder names are.
-        project: The folder that no name may lead out of.
+        path: Its file; references are relative to its folder.
+        project: The folder that must contain all referenced files.
         label: The URDF's name in messages.
 
     """
@@ -110,15 +110,15 @@ def files_of(text: str, path: Path, *, project: Path, label: str) -> NamedFiles:
 
 
 def embed_collision_meshes(root: ET.Element, named: NamedFiles, how: CollisionShapes) -> Iterable[tuple[str, str]]:
-    """Put convex shapes in the place of collision meshes.
+    """Replace collision meshes by convex shapes.
 
     Args:
-        root: The URDF; it is changed.
-        named: The files that it names, all of them found.
-        how: What stands for a mesh.
+        root: The URDF; modified in place.
+        named: The referenced files, all of them found.
+        how: Kind of the convex approximation.
 
     Yields:
-        What is wrong with a mesh, and how to mend it.
+        Problem of a mesh, and a hint.
     """
     digests = {file.name: file.sha256 for file in named.files}
     for link in root.findall("link"):
@@ -145,10 +145,10 @@ def embed_collision_meshes(root: ET.Element, named: NamedFiles, how: CollisionSh
 
 
 def without_meshes(text: str) -> str:
-    """A URDF as the engines are given it: each link that is seen as a mesh is seen as its collision shapes.
+    """URDF in which the visual meshes of each link are replaced by its collision shapes.
 
     Args:
-        text: The URDF; returned as it is if no visual shape is a mesh.
+        text: The URDF; returned unchanged if no visual shape is a mesh.
     """
     root = ET.fromstring(text)  # noqa: S314 - entities and document types were refused on reading
     changed = False
@@ -166,7 +166,7 @@ def without_meshes(text: str) -> str:
 
 
 def _named_files(text: str) -> Iterable[_Named]:
-    """The elements of a URDF that name a file, with their positions, which ElementTree does not keep."""
+    """Elements of a URDF that reference a file, with their positions, which ElementTree does not store."""
     found: list[_Named] = []
     parser = expat.ParserCreate()
 
@@ -187,7 +187,7 @@ def _named_files(text: str) -> Iterable[_Named]:
 
 
 def _target(name: str, path: Path, project: Path) -> tuple[Path | None, str, str]:
-    """The file of a name; None with the problem and its hint."""
+    """File of a reference, or None with the problem and its hint."""
     hint = "name it relative to the URDF, or as package://FOLDER/FILE with a folder of the project"
     scheme, separator, _ = name.partition("://")
     if separator and scheme != "package":
@@ -201,7 +201,11 @@ def _target(name: str, path: Path, project: Path) -> tuple[Path | None, str, str
         if place is FilePlace.INSIDE:
             return candidate, "", ""
         if place is FilePlace.OUTSIDE:
-            return None, "leads out of the project", "copy it into the project; links that lead out do not count"
+            return (
+                None,
+                "leads out of the project",
+                "copy it into the project; symbolic links to files outside are not followed",
+            )
         missing = True
     return None, "is not there" if missing else "is not a path inside the project", hint
 

@@ -1,4 +1,4 @@
-"""The task's waypoints as poses of the grasp centre in the world."""
+"""Waypoints of the task as poses of the grasp centre in the world."""
 
 from __future__ import annotations
 

@@ -9,8 +9,8 @@ from rgss.evidence import EvidenceStore, Piece, PieceKind, TrialRecord
 from rgss.sweep.trial_keys import trials_of
 from rgss.trials import PlanningSettings
 from rgss.trials.code import versions
-from rgss.trials.pieces import TrialSpec, digests_of, plan_from_json, record_under
-from rgss.trials.planning import TaskPlan, plan_under, with_limits_of
+from rgss.trials.pieces import TrialSpec, digests_of, plan_from_json, record_with_plan
+from rgss.trials.planning import TaskPlan, plan_with_limits, with_limits_of
 
 _Pieces = tuple[TaskPlan, Mapping[PieceKind, Piece]]
 
@@ -76,7 +76,7 @@ class StoredSearches:
             for trial in trials:
                 if trial.key in read:
                     plan, pieces_of_trial = read[trial.key]
-                    records[trial.key] = record_under(trial.spec, plan, pieces_of_trial)
+                    records[trial.key] = record_with_plan(trial.spec, plan, pieces_of_trial)
         return FoundTrials(
             records=records,
             keys={(trial.spec.variant, trial.spec.seed): trial.key for trial in trials},
@@ -93,7 +93,7 @@ class StoredSearches:
         made = self._plan(digests.plan)
         if made is None:
             return None
-        plan = plan_under(made, self._settings, wanted, planned=spec.task.planned, limit_s=spec.planning_limit_s)
+        plan = plan_with_limits(made, self._settings, wanted, planned=spec.task.planned, limit_s=spec.planning_limit_s)
         timing, execution = self._piece(digests.timing), self._piece(digests.execution)
         bench = self._piece(digests.bench) if digests.bench else None
         if plan is None or timing is None or execution is None or (digests.bench and bench is None):

@@ -1,4 +1,4 @@
-"""Tasks: lists of typed steps that a robot carries out, and what follows from them."""
+"""Tasks: lists of typed steps of a robot, and the stages derived from them."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""Step that ends the task unless a condition holds."""
+"""Check step: ends the task unless its conditions hold."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Nearness:
-    """Greatest distance of the centre of an object from a point.
+    """Condition on the distance of the centre of an object from a reference point, given in one of three ways.
 
     Attributes:
-        within_m: The distance.
-        place: The place; the point is where the object's centre is when it stands in the middle. Empty for another.
-        object: The object whose centre is the point; empty for another.
-        point_m: The point in the world; None for another.
+        within_m: Greatest distance.
+        place: Place; the point is the centre of the object placed in its middle. Empty if not used.
+        object: Object whose centre is the point; empty if not used.
+        point_m: Point in the world; None if not used.
     """
 
     within_m: float
@@ -29,11 +29,11 @@ class CheckStep:
     Attributes:
         name: Name of the phase.
         object: The object; empty for the workpiece of the scene.
-        at: Place region at which it must stand; empty for any.
-        is_upright: Whether its tilt must be within that of its place region.
-        is_at_rest: Whether it must be settled.
-        held: Whether every finger (True) or none (False) must touch it; None for either.
-        near: Where it must be; None for anywhere.
+        at: Place region in which it must be placed; empty for no condition.
+        is_upright: True if its tilt must be within that of its place region.
+        is_at_rest: True if it must be settled.
+        held: True if every finger must touch it, False if none may; None for no condition.
+        near: Condition on its position; None for no condition.
     """
 
     name: str

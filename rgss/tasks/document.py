@@ -1,4 +1,4 @@
-"""The YAML form of a task."""
+"""Document model of a task."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ MOST_REPETITIONS = 1000
 
 
 class ThresholdsEntry(DocumentModel):
-    """Thresholds of the task's steps that state none of their own."""
+    """Default thresholds of the task's steps."""
 
     joints: Radians | None = None
     gripper: Metres | None = None
 
 
 class StepControlEntry(DocumentModel):
-    """Control of the joints in one step; what it does not state is that of the study."""
+    """Joint control in one step; omitted values are those of the study."""
 
     mode: Literal["position", "velocity", "computed_torque", "tool_tracking"] | None = None
     natural_frequency: RadiansPerSecond | None = None
@@ -48,7 +48,7 @@ class PoseEntry(DocumentModel):
 
 
 class TargetEntry(DocumentModel):
-    """Where a move ends: exactly one of a waypoint, a configuration and a pose."""
+    """Target of a move: exactly one of a waypoint, a configuration and a pose."""
 
     to: Identifier | None = None
     raised: Metres = 0.0
@@ -119,7 +119,7 @@ class CheckEntry(DocumentModel):
 
 
 class RepeatEntry(DocumentModel):
-    """Steps that are carried out several times."""
+    """Steps that are repeated."""
 
     times: Annotated[int, Field(ge=0, le=MOST_REPETITIONS)]
     name: Identifier = "cycle"
@@ -127,14 +127,14 @@ class RepeatEntry(DocumentModel):
 
 
 class ForEachEntry(DocumentModel):
-    """Steps that are carried out for each object, which is theirs where they name none."""
+    """Steps that are repeated for each object, their default object."""
 
     objects: tuple[Identifier, ...]
     steps: tuple[StepEntry, ...]
 
 
 class StepEntry(DocumentModel):
-    """One step: exactly one of its kinds."""
+    """One step, of exactly one kind."""
 
     move: MoveEntry | None = None
     grip: GripEntry | None = None

@@ -1,4 +1,4 @@
-"""Step that closes the hand on an object."""
+"""Grip step: closes the hand on an object."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ class GripStep:
     Attributes:
         name: Name of the phase.
         object: The object; empty for the workpiece of the scene.
-        firm_above_n: Force above which every finger must press; None for the force that Coulomb friction needs.
-        firm_s: Time for which they must; None for that of the study.
-        control: Control of the joints in it; None for that of the study.
+        firm_above_n: Normal force that every finger must exceed; None for the force that Coulomb friction requires.
+        firm_s: Duration for which it must be exceeded; None for that of the study.
+        control: Joint control; None for that of the study.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Findings about the hand: what it holds before each step, and what the step needs."""
+"""Findings about the hand's state: the held object before each step, and the step's precondition."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Location = tuple[str | int, ...]
 
 
 def hand_findings(document: Document, placed: Sequence[tuple[Step, Location]]) -> Iterator[Finding]:
-    """A finding for each step that the hand cannot carry out, and for a task that ends with a held object.
+    """A finding for each step whose precondition on the hand fails, and for a task that ends with a held object.
 
     Args:
         document: The task's file.
@@ -26,13 +26,13 @@ def hand_findings(document: Document, placed: Sequence[tuple[Step, Location]]) -
         if isinstance(step, GripStep):
             if is_held:
                 message = f"{step.name!r} grips while an object is held"
-                yield document.finding("task.grip", message, at, hint="release it before")
+                yield document.finding("task.grip", message, at, hint="add a release before it")
             if not index or not isinstance(placed[index - 1][0], MoveStep):
-                message = f"{step.name!r} has no move before it that brings the hand to the object"
-                yield document.finding("task.grip", message, at, hint="move to grasp before")
+                message = f"{step.name!r} needs a move before it that brings the hand to the object"
+                yield document.finding("task.grip", message, at, hint="add a move to grasp before it")
             is_held = True
         elif isinstance(step, ReleaseStep):
             if not is_held:
                 message = f"{step.name!r} releases, and nothing is held"
-                yield document.finding("task.release", message, at, hint="grip an object before")
+                yield document.finding("task.release", message, at, hint="add a grip before it")
             is_held = False

@@ -1,4 +1,4 @@
-"""Kinds of motion that a move of the task can be."""
+"""Kinds of motion of the task's moves."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ class MoveKind(str, Enum):
     """Kind of motion of a move."""
 
     PLANNED = "planned"
-    """A path that the planner finds."""
+    """Path found by the planner."""
     STRAIGHT = "straight"
-    """A straight line of the tool, which turns evenly, in one branch of the inverse kinematics."""
+    """Straight line of the tool at constant turning rate, in one branch of the inverse kinematics."""
     JOINT = "joint"
-    """A straight line in joint space."""
+    """Straight line in joint space."""

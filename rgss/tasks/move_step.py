@@ -1,4 +1,4 @@
-"""Step that moves the arm: planned, straight or in the joints, to a waypoint, a configuration or a pose."""
+"""Move step: planned, Cartesian straight or joint straight motion to a waypoint, a configuration or a pose."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rgss.tasks.step_settings import StepControl
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Target:
-    """End of a move.
+    """Target of a move.
 
     Attributes:
         name: Its name in messages: that of the waypoint or the configuration, else ``pose``.
@@ -38,14 +38,14 @@ class MoveStep:
 
     Attributes:
         name: Name of the phase.
-        target: Where it ends.
-        mode: Planned by a planner, a straight line of the tool, or of the joints.
+        target: Its target.
+        mode: Planned by a planner, straight line of the tool, or straight line in joint space.
         speed_share: Share of the tool speed of the design.
-        limit_s: Longest planning time, where it is less than that of the design; None for that.
+        limit_s: Longest planning time, if shorter than that of the design; None for that.
         resolution_rad: Greatest joint step between two checked states; None for that of the study.
-        reached_rad: Error of any joint up to which the end counts as reached, a metre of a prismatic joint counting as
-            a radian; None for that of the fidelity.
-        control: Control of the joints in it; None for that of the study.
+        reached_rad: Greatest error of any joint at which the end counts as reached, a metre of a prismatic joint
+        counting as a radian; None for that of the fidelity.
+        control: Joint control; None for that of the study.
     """
 
     name: str

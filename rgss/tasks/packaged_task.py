@@ -1,4 +1,4 @@
-"""The task of studies that name none: the packaged eight states."""
+"""Default task of studies: the packaged eight states."""
 
 from __future__ import annotations
 
@@ -11,6 +11,6 @@ from rgss.tasks.task_file import load_task
 
 @lru_cache(maxsize=1)
 def default_task() -> TaskProgram:
-    """The task of studies that name none."""
+    """Default task of studies."""
     with resources.as_file(resources.files("rgss.tasks") / "pick_and_place.yaml") as path:
         return load_task(path, label="pick_and_place.yaml").program

@@ -26,11 +26,11 @@ def no_branch_for(step: NoReturn) -> AssertionError:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaskProgram:
-    """A task, with repetitions written out.
+    """Compiled task, with repetitions expanded.
 
     Attributes:
         id: Its name.
-        start: Where the arm is at rest at the start, the hand open; None for the robot's home.
+        start: Configuration at the start, at rest with the hand open; None for the robot's home.
         steps: The steps in order; their names are unique.
         time_limit_s: Longest time of the whole task, planning and motion; None for no limit.
     """
@@ -47,17 +47,17 @@ class TaskProgram:
 
     @property
     def moves(self) -> tuple[MoveStep, ...]:
-        """The moves in order."""
+        """Moves in order."""
         return tuple(step for step in self.steps if isinstance(step, MoveStep))
 
     @property
     def planned(self) -> tuple[str, ...]:
-        """Names of the moves that a planner plans: the sub-tasks of the sums over n (eq. 4.3, 4.4)."""
+        """Names of the planned moves: the sub-tasks of the sums over n (eq. 4.3, 4.4)."""
         return tuple(step.name for step in self.moves if step.mode is MoveKind.PLANNED)
 
     @property
     def direct(self) -> tuple[str, ...]:
-        """Names of the moves that are straight lines by definition."""
+        """Names of the straight moves, which are not planned."""
         return tuple(step.name for step in self.moves if step.mode is not MoveKind.PLANNED)
 
     @property
@@ -81,7 +81,7 @@ class TaskProgram:
         return tuple(found)
 
     def move(self, name: str) -> MoveStep:
-        """The move of a name.
+        """Move by name.
 
         Args:
             name: The name.

@@ -1,4 +1,4 @@
-"""Step that opens the hand and leaves the object at a place."""
+"""Release step: opens the hand and leaves the object at a place."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ class ReleaseStep:
     Attributes:
         name: Name of the phase.
         place: The place; empty for the object's own place region.
-        opened_m: Distance of every finger from open up to which the hand counts as open; None for 0.5 mm.
-        control: Control of the joints in it; None for that of the study.
+        opened_m: Greatest distance of any finger from open at which the hand counts as open; None for 0.5 mm.
+        control: Joint control; None for that of the study.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Findings about a task in a scene: unknown objects and places, configurations that the robot cannot have."""
+"""Findings about a task in a scene: unknown objects and places, configurations out of range."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from rgss.tasks.task_file import LoadedTask, Location
 
 
 def task_findings(loaded: LoadedTask, scene: Scene) -> tuple[Finding, ...]:
-    """What of a task a scene does not have.
+    """Findings about a task in a scene.
 
     Args:
-        loaded: The task with its positions.
+        loaded: The task with its positions in the file.
         scene: The scene.
     """
     found: list[Finding] = []

@@ -1,4 +1,4 @@
-"""Stages: the steps of a task with what follows from those before and after them."""
+"""Stages: the steps of a task with their context, derived from the steps before and after."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ class Stage:
 
     Attributes:
         step: The step.
-        object: The object that is concerned: what is held, else what was just released, else what comes next.
-        place: The place at which it is released next, or was last; empty for its own place region.
-        turn: Number, from 1, of the grip of the object that the step leads to, belongs to or follows.
-        is_held: Whether the object is held during the step; it is while the hand closes and opens too.
+        object: The object of the step: the held one, else the last released one, else the next one.
+        place: The place of its next or last release; empty for its own place region.
+        turn: Number, from 1, of the grip of the object that the step precedes, belongs to or follows.
+        is_held: Whether the object is held during the step, including closing and opening of the hand.
         is_leaving: Whether this is the first move since the grip, which lifts the object off its support.
         is_approach: Whether the step after this move closes the hand, and the one before did not open it.
         is_retreat: Whether the step before this move opened the hand.
@@ -41,11 +41,11 @@ class Stage:
 
 
 def stages_of(task: TaskProgram, workpiece: str) -> tuple[Stage, ...]:
-    """The stages of a task.
+    """Stages of a task.
 
     Args:
         task: The task.
-        workpiece: The object of steps that name none.
+        workpiece: The default object of steps.
     """
     steps, lifts = task.steps, dict[str, int]()
     held, last = "", ""
@@ -89,7 +89,7 @@ def _last_place(steps: tuple[Step, ...]) -> str:
 
 
 def _is_first_move(before: tuple[Step, ...]) -> bool:
-    """True if no move lies between the last grip and here."""
+    """True if no move has followed the last grip."""
     for step in reversed(before):
         if isinstance(step, MoveStep):
             return False

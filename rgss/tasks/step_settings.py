@@ -1,4 +1,4 @@
-"""Thresholds at which a step counts as complete, and the control of the joints in it."""
+"""Joint control of a step."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StepControl:
-    """Control of the joints in one step; None where it is that of the study.
+    """Joint control in one step; None for values of the study.
 
     Attributes:
         mode: Name of the control mode.
         natural_frequency_rad_s: Natural frequency of a joint's error.
         damping_ratio: Damping ratio of a joint's error.
-        position_gain_1_s: Velocity for each unit of a joint's position error.
-        velocity_gain_1_s: Acceleration for each unit of a joint's velocity error.
+        position_gain_1_s: Position gain: velocity command per position error.
+        velocity_gain_1_s: Velocity gain: acceleration command per velocity error.
     """
 
     mode: str | None = None

@@ -1,4 +1,4 @@
-"""Clock of a task: planning and motion so far, against the time that the task allows."""
+"""Clock of a task: accumulated planning and motion time, compared with the time limit."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ import math
 
 
 class TaskClock:
-    """The time since a task began."""
+    """Elapsed time of a task."""
 
     def __init__(self, limit_s: float | None) -> None:
-        """Begin at zero.
+        """Start at zero.
 
         Args:
-            limit_s: Longest time of the task; None if it has no limit.
+            limit_s: Time limit of the task; None for no limit.
         """
         self._limit_s = limit_s
         self._spent_s: list[float] = []
@@ -21,14 +21,14 @@ class TaskClock:
         """Add a time.
 
         Args:
-            duration_s: The time; None where nothing took any.
+            duration_s: The time; None counts as zero.
         """
         if duration_s is not None:
             self._spent_s.append(duration_s)
 
     @property
     def overrun(self) -> str:
-        """The times in words if the limit is passed, else an empty text."""
+        """Message with both times if the limit is exceeded, else empty."""
         if self._limit_s is None or (spent_s := math.fsum(self._spent_s)) <= self._limit_s:
             return ""
-        return f"the task had taken {spent_s:.3g} s, and may take {self._limit_s:g} s"
+        return f"the task took {spent_s:.3g} s, which exceeds its limit of {self._limit_s:g} s"

@@ -1,4 +1,4 @@
-"""Reading a task file: repetitions written out, names made unique, and what is wrong whatever the scene."""
+"""Reader of task files: expansion of repetitions, unique names, and findings that do not depend on the scene."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _KINDS = tuple(StepEntry.model_fields)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedTask:
-    """A task with the positions of its steps.
+    """Task with the positions of its steps in the file.
 
     Attributes:
         program: The task.
@@ -61,7 +61,7 @@ def load_task(path: Path, *, label: str | None = None) -> LoadedTask:
         label: The file's name in messages; the path by default.
 
     Raises:
-        DocumentError: The file is wrong; with every problem in it.
+        DocumentError: The file is invalid; with every problem in it.
     """
     loaded = load_document(path, TaskDocument, label=label)
     entry, document = loaded.value, loaded.document
@@ -83,7 +83,7 @@ def load_task(path: Path, *, label: str | None = None) -> LoadedTask:
 
 
 class _Compiler:
-    """Writes out the steps of a file."""
+    """Compiler of the steps of a file."""
 
     def __init__(self, entry: TaskDocument, document: Document) -> None:
         self.findings: list[Finding] = []
@@ -100,7 +100,7 @@ class _Compiler:
     def steps(
         self, entries: Iterable[StepEntry], at: Location, *, prefix: str, bound: str
     ) -> Iterator[tuple[Step, Location]]:
-        """The steps of entries, repetitions written out."""
+        """Steps of entries, with repetitions expanded."""
         for index, entry in enumerate(entries):
             here = (*at, index)
             kinds = [kind for kind in _KINDS if getattr(entry, kind) is not None]
@@ -111,7 +111,9 @@ class _Compiler:
             within = (*here, kinds[0])
             if entry.repeat is not None:
                 if entry.repeat.times == 0 or not entry.repeat.steps:
-                    self._report("task.empty", "the loop does nothing", within, "give it steps, or leave it out")
+                    self._report(
+                        "task.empty", "the loop has no steps to repeat", within, "add steps, or remove the loop"
+                    )
                 for turn in range(1, entry.repeat.times + 1):
                     if self._is_too_long(within):
                         return
@@ -119,7 +121,7 @@ class _Compiler:
                     yield from self.steps(entry.repeat.steps, (*within, "steps"), prefix=inner, bound=bound)
             elif entry.for_each is not None:
                 if not entry.for_each.objects or not entry.for_each.steps:
-                    self._report("task.empty", "the loop does nothing", within, "give it objects and steps")
+                    self._report("task.empty", "the loop has no steps to repeat", within, "add objects and steps")
                 for one in entry.for_each.objects:
                     if self._is_too_long(within):
                         return
@@ -131,7 +133,7 @@ class _Compiler:
                 yield self._step(entry, within, prefix, bound), within
 
     def target(self, entry: TargetEntry, at: Location, bound: str) -> Target:
-        """The end of a move."""
+        """Target of a move."""
         given = [key for key in ("to", "configuration", "pose") if getattr(entry, key) is not None]
         if len(given) != 1:
             said = " and ".join(given) or "none"
@@ -278,10 +280,10 @@ def _name_findings(document: Document, placed: list[tuple[Step, Location]]) -> I
 
 
 def _step_control(entry: StepControlEntry | None) -> StepControl | None:
-    """The control of a step; None where it is that of the study.
+    """Joint control of a step; None for that of the study.
 
     Args:
-        entry: Its form in the file.
+        entry: Its entry in the file.
     """
     if entry is None:
         return None

@@ -1,4 +1,4 @@
-"""Step in which the arm holds its configuration for a time."""
+"""Wait step: the arm holds its configuration for a time."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ class WaitStep:
 
     Attributes:
         name: Name of the phase.
-        duration_s: How long it rests.
-        control: Control of the joints in it; None for that of the study.
+        duration_s: Duration of the rest.
+        control: Joint control; None for that of the study.
     """
 
     name: str

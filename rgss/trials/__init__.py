@@ -1,4 +1,4 @@
-"""Trials: one design variant through the eight states of the task."""
+"""Trials: simulation of the task by one design variant under one seed."""
 
 from typing import TYPE_CHECKING
 
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
         Obstacle,
         PlannedMove,
         TaskPlan,
+        every_stop_is_feasible,
+        infeasible_waypoints,
         plan_of,
         searches_of,
-        serves_every_stop,
-        unserved_waypoints,
         waypoint_configurations,
     )
     from rgss.trials.plants import (

@@ -1,4 +1,4 @@
-"""Motion of the arm under its controller, which contact physics then carries out."""
+"""Motion of the arm under its controller, as the target of contact physics."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _OF_THE_ARM = (
     "joint_saturated_s",
     "tracking_error_m",
 )
-"""What the arm's dynamics show of a move, and contact physics, which drives the joints as commanded, does not."""
+"""Metrics of a move that only the arm's dynamics give, since contact physics drives the joints as commanded."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,17 +33,17 @@ class ControlledMotion:
     """Motion of the arm under its controller.
 
     Attributes:
-        references: What the joints did in each move that was completed, as the targets of contact physics.
-        results: What the dynamics of the arm showed of each phase that ran, by name.
+        references: Joint motion of each completed move, as targets of contact physics.
+        results: Result of each phase in the arm's dynamics, by name.
     """
 
     references: Mapping[str, Reference]
     results: Mapping[str, PhaseResult]
 
     def joined(self, contact: tuple[PhaseResult, ...]) -> tuple[PhaseResult, ...]:
-        """The phases as contact physics ran them, with what the arm's dynamics show of them.
+        """Results of contact physics, supplemented by those of the arm's dynamics.
 
-        A phase in which the arm fails under its controller has that failure, unless contact physics failed before.
+        A failure of the arm under its controller is reported unless contact physics failed before.
 
         Args:
             contact: The phases in contact, in order.
@@ -71,9 +71,9 @@ def controlled_motion(
     step_s: float,
     gravity_m_s2: float,
 ) -> ControlledMotion:
-    """The motion that the arm makes under its controller, with the object as a load that it carries.
+    """Motion of the arm under its controller, with the object as a load.
 
-    What the object and the fingers meet does not act back on the arm: its joints are driven along this motion.
+    Contact forces on object and fingers do not act on the arm: its joints are driven along this motion.
 
     Args:
         plant: The arm with its controller, not yet started.
@@ -89,7 +89,8 @@ def controlled_motion(
     for phase, positions in plant.followed.items():
         if results[phase].failure is not None:
             break
-        # While the hand closes or opens the joints settle further; the move begins where contact physics has them.
+        # While the hand closes or opens the joints settle further; the move begins at their position in contact
+        # physics.
         joined = positions if at is None else positions + _fading(at - positions[0], len(positions))
         followed[phase] = reference_along(joined, tool, step_s=step_s, gravity_m_s2=gravity_m_s2)
         at = joined[-1]
@@ -97,7 +98,7 @@ def controlled_motion(
 
 
 def _fading(offset: Array, count: int) -> Array:
-    """Offset (n,) that fades to zero over (count, n) positions, without a jump of the speed at either end."""
+    """Offset (n,) that decays to zero over (count, n) positions, with continuous speed at both ends."""
     share = np.linspace(0.0, 1.0, count)
     fade: Array = (1.0 - share**2 * (3.0 - 2.0 * share))[:, None] * offset
     return fade

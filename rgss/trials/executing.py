@@ -1,4 +1,4 @@
-"""Running the timed moves of a trial on a fresh plant."""
+"""Execution of the timed moves of a trial on a new plant."""
 
 from __future__ import annotations
 
@@ -31,15 +31,15 @@ def execute(
     observer: StepObserver | None = None,
     checkpoint: Callable[[], None] | None = None,
 ) -> tuple[PhaseResult, ...]:
-    """Run the timed moves on a fresh plant of the trial's fidelity.
+    """Run the timed moves on a new plant of the trial's fidelity.
 
     Args:
         spec: The trial.
         cell: Kinematics of the tool.
         timing: The trajectories.
         observer: Callback after each step in contact physics; other fidelities do not call it.
-        checkpoint: Called between two steps, which in the kinematic model are whole phases; it may wait,
-            or end the task by raising.
+        checkpoint: Callback between two steps, which in the kinematic model are whole phases; it may block, or end the
+            task by raising.
 
     Raises:
         SimulationError: The physics engine cannot build the world.
@@ -92,7 +92,7 @@ def _dynamic_plant(
             physics,
             spec.settings.control,
             controller=spec.settings.controller,
-            believed=[one.workpiece for one in conditions.scene.objects],
+            assumed=[one.workpiece for one in conditions.scene.objects],
             checkpoint=checkpoint,
             task=spec.task,
         )
@@ -120,7 +120,7 @@ def _in_contact(
                 step_s=physics.step_s,
                 gravity_m_s2=scene.gravity_m_s2,
             )
-    # A light object, and light fingers, take more iterations to pass the fingers' force: fewer let them creep.
+    # Light objects and fingers need more iterations to transmit the fingers' force; with fewer they creep.
     firm = physics.passing(
         force_n=gripper.finger_force_n,
         speed_m_s=gripper.finger_velocity_m_s,
@@ -143,9 +143,9 @@ def _in_contact(
 
 
 def _grip_estimates(spec: TrialSpec, conditions: Conditions) -> dict[str, GripEstimate]:
-    """The robot's estimate of its grip on each object; none of an object whose true values are known."""
+    """Grip estimates of the robot by object, without objects whose true values are known."""
     objects = [one.workpiece for one in conditions.scene.objects]
-    # Each object has sensor noise of its own; the first one's is named after the sensor alone.
+    # Each object has its own sensor noise; that of the first is named after the sensor only.
     noises = ("", *(one.id for one in objects[1:]))
     return {
         one.id: _grip_estimate(spec, conditions, one, noise_of=noise)
@@ -154,14 +154,14 @@ def _grip_estimates(spec: TrialSpec, conditions: Conditions) -> dict[str, GripEs
     }
 
 
-def _grip_estimate(spec: TrialSpec, conditions: Conditions, believed: Workpiece, *, noise_of: str) -> GripEstimate:
+def _grip_estimate(spec: TrialSpec, conditions: Conditions, assumed: Workpiece, *, noise_of: str) -> GripEstimate:
     errors = ForceSensorErrors(
         noise_n=conditions.sensor_noise_n, offset_n=conditions.sensor_offset_n, delay_s=conditions.sensor_delay_s
     )
     return GripEstimate(
         errors,
-        mass_kg=believed.mass_kg,
-        friction=conditions.design_gripper.grip_coefficient(believed.friction),
+        mass_kg=assumed.mass_kg,
+        friction=conditions.design_gripper.grip_coefficient(assumed.friction),
         fingers=max(1, spec.gripper.geometry.fingers),
         window_s=spec.settings.control.force_window_s,
         rate_hz=spec.settings.physics.rate_hz,
@@ -194,7 +194,7 @@ def execution_of(
 
 
 def _with_quality(results: tuple[PhaseResult, ...], timing: TaskTiming) -> tuple[PhaseResult, ...]:
-    """The phases with the clearance and the manipulability of the motion that each was to follow."""
+    """Phases with the clearance and the manipulability of their reference motion."""
     return tuple(
         result
         if (quality := timing.qualities.get(result.phase)) is None

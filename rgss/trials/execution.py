@@ -1,6 +1,6 @@
 """Plant of the highest fidelity: arm, hand, object and scene in contact."""
 
-# long file: one class with a method for each kind of step, which share the state of the hand and its monitors.
+# long file: one class with a method for each kind of step; they share the state of the hand and its monitors.
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _OPEN_TOLERANCE_M = 5.0e-4
 
 
 class Execution:
-    """The plant of the highest fidelity: one run of the task program in one world with contact."""
+    """Plant of the highest fidelity: one run of the task program in one contact world."""
 
     def __init__(
         self,
@@ -57,15 +57,15 @@ class Execution:
         """Prepare a run.
 
         Args:
-            world: A fresh world.
-            references: Targets of the moves; the program ends before the first move that has none.
+            world: A new world.
+            references: Targets of the moves; the program ends before the first move without targets.
             control: Thresholds.
             kinematics: The arm's, with the tool at the grasp centre.
-            estimates: What the robot knows of its grip on an object, by id; none of one where that is the truth.
+            estimates: Grip estimates of the robot by object id, without objects whose true values are known.
             observer: Callback after each step.
-            checkpoint: Called after every step; it may wait, or end the task by raising.
+            checkpoint: Callback after every step; it may block, or end the task by raising.
             task: The task.
-            settling_limit_s: Longest wait for the end of a move that states when it is reached.
+            settling_limit_s: Longest settling time after a move with a stated tolerance.
         """
         self._world = world
         self._settling_limit_s = settling_limit_s
@@ -87,25 +87,25 @@ class Execution:
         self._configuration: tuple[float, ...] = ()
 
     def run(self) -> tuple[PhaseResult, ...]:
-        """Run the phases in order until one fails or has no move; return those that ran."""
+        """Run the phases in order until one fails or has no targets; returns those that ran."""
         return run_program(self, self._references, task=self._task)
 
     def start(self, configuration_rad: Sequence[float]) -> None:
-        """Stand at rest at a configuration, the hand open."""
+        """Put the arm at rest at a configuration, with the hand open."""
         self._configuration = tuple(configuration_rad)
         self._world.reset_arm(self._configuration)
 
     def move(self, phase: str, reference: Reference) -> PhaseResult:
-        """Follow a timed motion, with what is held."""
+        """Follow a timed motion, with the held object."""
         world, stage = self._world, self._enter(phase)
         carried_at = self._held_at if stage.is_carrying else None
         self._grip.begin_phase()
         placed = PlacedObjectMonitor(world) if stage.is_retreat else None
         targets = self._targets(stage, reference)
-        watch = self._watch(carried_at, self._objects.resting_on(stage), targets.tool_m, placed)
+        monitor = self._phase_monitor(carried_at, self._objects.resting_on(stage), targets.tool_m, placed)
         steps, least_margin, is_alone = 0, self._control.tighten_below, self._is_alone
-        world.solve_freely(free=carried_at is None)
-        # The overhead of a step is a tenth of its cost: nothing is looked up here that can be computed before.
+        world.reduce_solver_effort(free=carried_at is None)
+        # The overhead of a step is a tenth of its cost: everything possible is computed before the loop.
         is_held = carried_at is not None
         for position, velocity, target, load, arc_m in targets:
             world.command_arm(position, velocity)
@@ -113,30 +113,30 @@ class Execution:
             if is_held:
                 world.bend(arc_m)
             steps += 1
-            contacts = watch.after_step(load, target)
+            contacts = monitor.after_step(load, target)
             if not is_alone:
-                self._show(phase, watch, contacts)
+                self._show(phase, monitor, contacts)
             if carried_at is not None:
                 is_held = min(contacts.finger_forces_n) > 0.0
                 self._grip.since_tightening_s += self._step_s
-                margin = self._grip.margin(watch.grip_margin, contacts.finger_forces_n, load)
+                margin = self._grip.margin(monitor.grip_margin, contacts.finger_forces_n, load)
                 if self._hand.has_force_feedback and margin is not None and margin < least_margin:
                     self._grip.keep()
-            if watch.failure is not None:
+            if monitor.failure is not None:
                 break
-        world.solve_freely(free=False)
+        world.reduce_solver_effort(free=False)
         self._configuration = tuple(reference.positions_rad[-1].tolist())
         if targets.shortfall:
-            watch.fail(Failure.TRACKING_ERROR, targets.shortfall)
-        watch.finish()
-        metrics = watch.metrics()
+            monitor.fail(Failure.TRACKING_ERROR, targets.shortfall)
+        monitor.finish()
+        metrics = monitor.metrics()
         metrics["commanded_tool_speed_m_s"] = reference.peak_tool_speed_m_s
         metrics["commanded_tool_acceleration_m_s2"] = reference.peak_tool_acceleration_m_s2
         if carried_at is not None:
             metrics["tightenings"] = self._grip.tightenings
-        if watch.failure is None:
-            self._judge_move(stage, watch, metrics)
-        return self._result(phase, watch, steps, metrics)
+        if monitor.failure is None:
+            self._check_move(stage, monitor, metrics)
+        return self._result(phase, monitor, steps, metrics)
 
     def _targets(self, stage: Stage, reference: Reference) -> MoveTargets:
         return MoveTargets(
@@ -147,20 +147,20 @@ class Execution:
             longest_wait_steps=math.ceil(self._settling_limit_s / self._step_s),
         )
 
-    def _judge_move(self, stage: Stage, watch: PhaseMonitor, metrics: dict[str, Metric]) -> None:
-        """Check after a move: the object must not have moved, or at the end must be in its place."""
+    def _check_move(self, stage: Stage, monitor: PhaseMonitor, metrics: dict[str, Metric]) -> None:
+        """Post-condition of a move: the object must not have moved, or at the end must be in its place."""
         if stage.is_approach:
             metrics["workpiece_displacement_m"], violation = check_displacement(
-                self._world, self._control.displaced_m, touched=watch.robot_touched_object
+                self._world, self._control.displaced_m, touched=monitor.robot_touched_object
             )
-            watch.note(violation)
+            monitor.note(violation)
         elif stage.is_retreat:
-            self._judge_place(watch, metrics)
+            self._check_place(monitor, metrics)
 
-    def _judge_place(self, watch: PhaseMonitor, metrics: dict[str, Metric]) -> None:
+    def _check_place(self, monitor: PhaseMonitor, metrics: dict[str, Metric]) -> None:
         placed, violation = check_place(self._world)
         metrics.update(placed)
-        watch.note(violation)
+        monitor.note(violation)
 
     def grasp(self, phase: str | None = None) -> PhaseResult:
         """Close until every finger holds above the force that Coulomb friction needs."""
@@ -168,7 +168,7 @@ class Execution:
         name = stage.step.name
         world, control = self._world, self._control
         scene = world.scene
-        watch = self._watch(None, scene.support)
+        monitor = self._phase_monitor(None, scene.support)
         needed_n = self._hand.needed_force_n(self._grip.mass_kg * scene.gravity_m_s2, self._grip.friction)
         stated_n, firm_for_s = _firmness(stage, control.firm_grasp_s)
         threshold_n = needed_n if stated_n is None else stated_n
@@ -182,9 +182,9 @@ class Execution:
         firm_s, touching_s, steps = 0.0, 0.0, 0
         forces: tuple[float, ...] = (0.0,)
         least_s = self._hand.least_closing_s - 1e-9
-        while watch.failure is None and (firm_s < firm_for_s - 1e-9 or steps * self._step_s < least_s):
+        while monitor.failure is None and (firm_s < firm_for_s - 1e-9 or steps * self._step_s < least_s):
             self._hold_arm_and_step()
-            contacts = self._observe(name, watch, scene.gravity_m_s2)
+            contacts = self._observe(name, monitor, scene.gravity_m_s2)
             steps += 1
             if steps % look_every == 0:
                 hand.look(steps)
@@ -197,23 +197,23 @@ class Execution:
                 self._grip.tighten()
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
                 why = self._hand.misfit(scene) or world.grip_fault
-                watch.fail(Failure.NO_FIRM_GRASP, why or self._hand.shortfall(forces, threshold_n))
+                monitor.fail(Failure.NO_FIRM_GRASP, why or self._hand.shortfall(forces, threshold_n))
         self._held_at = hand.look(steps).held
-        metrics = watch.metrics()
+        metrics = monitor.metrics()
         metrics["finger_force_n"] = forces
         metrics["finger_force_needed_n"] = needed_n
         metrics["tightenings"] = self._grip.tightenings
         metrics["finger_travel_m"] = world.finger_travel_m()
-        if watch.failure is None:
+        if monitor.failure is None:
             metrics.update(grasp_metrics(world, hand.motion, self._held_at, self._memory))
-        return self._result(name, watch, steps, metrics)
+        return self._result(name, monitor, steps, metrics)
 
     def place(self, phase: str | None = None) -> PhaseResult:
-        """Open to the initial position and wait until the object stands."""
+        """Open to the initial position and wait until the object is at rest."""
         stage = self._enter(phase or self._task.releases[0])
         name = stage.step.name
         world, gripper, control = self._world, self._world.gripper, self._control
-        watch, landing = self._watch(None, world.scene.place_support), LandingMonitor(world)
+        monitor, landing = self._phase_monitor(None, world.scene.place_support), LandingMonitor(world)
         drag = DragMonitor(world, control)
         travel_s = self._hand.longest_travel_s
         world.drive_fingers(-gripper.finger_velocity_m_s, gripper.finger_force_n)
@@ -222,26 +222,26 @@ class Execution:
         least_s = self._hand.least_opening_s - 1e-9
         stated_m = stage.step.opened_m if isinstance(stage.step, ReleaseStep) else None
         open_within_m = _OPEN_TOLERANCE_M if stated_m is None else stated_m
-        while watch.failure is None and (
+        while monitor.failure is None and (
             max(world.finger_travel_m(), default=0.0) > open_within_m or steps * self._step_s < least_s
         ):
             self._hold_arm_and_step()
-            contacts = self._observe(name, watch, 0.0)
-            watch.note(landing.after_step())
-            watch.note(drag.after_step(contacts))
+            contacts = self._observe(name, monitor, 0.0)
+            monitor.note(landing.after_step())
+            monitor.note(drag.after_step(contacts))
             steps += 1
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
                 open_m = max(world.finger_travel_m())
-                watch.fail(Failure.NOT_RELEASED, f"a finger is still {open_m * 1e3:.1f} mm from open")
-        watch.note(landing.after_opening())
+                monitor.fail(Failure.NOT_RELEASED, f"a finger is still {open_m * 1e3:.1f} mm from open")
+        monitor.note(landing.after_opening())
         opening_s = steps * self._step_s
         world.hold_open()
         still_s, waited_s, stood_at = 0.0, 0.0, world.workpiece_pose()
-        while still_s < control.settled_s - 1e-9 and waited_s < control.settling_timeout_s and watch.failure is None:
+        while still_s < control.settled_s - 1e-9 and waited_s < control.settling_timeout_s and monitor.failure is None:
             self._hold_arm_and_step()
-            contacts = self._observe(name, watch, 0.0)
-            watch.note(landing.after_step())
-            watch.note(drag.after_step(contacts))
+            contacts = self._observe(name, monitor, 0.0)
+            monitor.note(landing.after_step())
+            monitor.note(drag.after_step(contacts))
             steps += 1
             waited_s += self._step_s
             still_s += self._step_s
@@ -249,39 +249,39 @@ class Execution:
             if has_moved(world, control, stood_at, stands_at):
                 still_s, stood_at = 0.0, stands_at
         if contacts.fingers_touching:
-            watch.fail(Failure.NOT_RELEASED, f"{contacts.fingers_touching} fingers still touch the object")
-        metrics = watch.metrics()
+            monitor.fail(Failure.NOT_RELEASED, f"{contacts.fingers_touching} fingers still touch the object")
+        metrics = monitor.metrics()
         metrics.update(landing.metrics())
         metrics.update(drag.metrics())
         metrics["opening_s"] = opening_s
         metrics["settling_s"] = waited_s - still_s
-        self._judge_place(watch, metrics)
+        self._check_place(monitor, metrics)
         self._objects.note_release(stage)
-        return self._result(name, watch, steps, metrics)
+        return self._result(name, monitor, steps, metrics)
 
     def wait(self, phase: str, duration_s: float) -> PhaseResult:
-        """Hold the configuration for a time, with what is held."""
+        """Hold the configuration for a time, with the held object."""
         stage, world = self._enter(phase), self._world
         carried_at = self._held_at if stage.is_held else None
         self._grip.begin_phase()
-        watch = self._watch(carried_at, self._objects.resting_on(stage))
+        monitor = self._phase_monitor(carried_at, self._objects.resting_on(stage))
         steps, load_m_s2 = 0, world.scene.gravity_m_s2 if stage.is_held else 0.0
-        while steps * self._step_s < duration_s - 1e-9 and watch.failure is None:
+        while steps * self._step_s < duration_s - 1e-9 and monitor.failure is None:
             self._hold_arm_and_step()
-            self._observe(phase, watch, load_m_s2)
+            self._observe(phase, monitor, load_m_s2)
             steps += 1
-        watch.finish()
-        return self._result(phase, watch, steps, watch.metrics())
+        monitor.finish()
+        return self._result(phase, monitor, steps, monitor.metrics())
 
     def check(self, step: CheckStep) -> PhaseResult:
-        """Check what must hold of an object as it is."""
+        """Evaluate the conditions of a check step."""
         before = self._world.object_pose(step.object or self._objects.stage(step.name).object)
         rested = self.wait(step.name, self._control.settled_s)
         problem = "" if rested.failure else violated_condition(self._world, self._control, step, before)
         return replace(rested, failure=Failure.CHECK_FAILED, detail=problem) if problem else rested
 
     def _enter(self, phase: str) -> Stage:
-        """Begin a phase: the world and the grip are about the object that it concerns."""
+        """Begin a phase: make its object that of the world and the grip control."""
         stage = self._objects.stage(phase)
         if self._objects.enter(stage):
             workpiece, rate_hz = self._world.scene.workpiece, self._world.settings.rate_hz
@@ -298,7 +298,7 @@ class Execution:
         self._world.command_arm(self._configuration, (0.0,) * len(self._configuration))
         self._world.step()
 
-    def _watch(
+    def _phase_monitor(
         self,
         carried_at: Pose | None,
         resting_on: str,
@@ -317,39 +317,39 @@ class Execution:
             sensor=self._sensor,
         )
 
-    def _observe(self, phase: str, watch: PhaseMonitor, load_m_s2: float) -> Contacts:
-        """Observe a step in which the arm is held."""
-        contacts = watch.after_step(load_m_s2, None)
+    def _observe(self, phase: str, monitor: PhaseMonitor, load_m_s2: float) -> Contacts:
+        """Observe a step in which the arm is at rest."""
+        contacts = monitor.after_step(load_m_s2, None)
         if not self._is_alone:
-            self._show(phase, watch, contacts)
+            self._show(phase, monitor, contacts)
         return contacts
 
-    def _show(self, phase: str, watch: PhaseMonitor, contacts: Contacts) -> None:
-        """Call the observer and the checkpoint, which may wait or end the task."""
+    def _show(self, phase: str, monitor: PhaseMonitor, contacts: Contacts) -> None:
+        """Call the observer and the checkpoint, which may block or end the task."""
         if self._observer is not None:
             stage = self._objects.stage(phase)
             is_closed = stage.is_carrying or isinstance(stage.step, GripStep)
             force_n = self._grip.force_n if is_closed else None
-            self._observer.after_step(self._world, phase, contacts, watch.grip_margin, force_n)
+            self._observer.after_step(self._world, phase, contacts, monitor.grip_margin, force_n)
         if self._checkpoint is not None:
             self._checkpoint()
 
-    def _result(self, phase: str, watch: PhaseMonitor, steps: int, metrics: dict[str, Metric]) -> PhaseResult:
-        watch.note(self._objects.displaced(self._control.displaced_m))
+    def _result(self, phase: str, monitor: PhaseMonitor, steps: int, metrics: dict[str, Metric]) -> PhaseResult:
+        monitor.note(self._objects.displaced(self._control.displaced_m))
         pose = self._world.workpiece_pose()
         metrics["workpiece_position_m"] = pose.position_m
         metrics["workpiece_tilt_rad"] = pose.tilt_rad
         return PhaseResult(
             phase=phase,
-            failure=watch.failure,
-            detail=watch.detail,
+            failure=monitor.failure,
+            detail=monitor.detail,
             duration_s=steps * self._step_s,
             metrics=metrics,
         )
 
 
 def _firmness(stage: Stage, common_s: float) -> tuple[float | None, float]:
-    """Force above which every finger must press, None if the step does not state it, and for how long."""
+    """Threshold of every finger's force, None if the step does not state one, and its duration."""
     step = stage.step
     if not isinstance(step, GripStep):
         return None, common_s

@@ -1,4 +1,4 @@
-"""A film of a trial, drawn from its trace when the trial is over."""
+"""Film of a trial, rendered from its trace after the trial."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _FRAME_COLOUR = 255
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Frame:
-    """One picture of a trial.
+    """One frame of a film.
 
     Attributes:
-        picture: What is seen, shape (height, width, 3).
-        time_s: When it is seen.
-        span: The phase that ran then.
+        picture: Colours, shape (height, width, 3).
+        time_s: Time in the trial.
+        span: The phase at that time.
     """
 
     picture: Picture
@@ -35,7 +35,7 @@ class Frame:
 
 
 class Film:
-    """The frames of a trial, each drawn when it is requested; a context manager that closes its cameras."""
+    """Frames of a trial, rendered on request; a context manager that closes its cameras."""
 
     def __init__(
         self,
@@ -52,15 +52,15 @@ class Film:
 
         Args:
             spec: The trial.
-            trace: Its course.
+            trace: Its trace.
             view: View of the camera.
-            inset: View of a second camera, whose picture is set into the lower right of the first.
+            inset: View of a second camera, whose picture is inset in the lower right of the first.
             width: Width of the pictures in pixels.
             height: Height of the pictures in pixels.
             rate_hz: Frames a second.
 
         Raises:
-            SimulationError: The engine cannot build what is to be seen.
+            SimulationError: The engine cannot build the rendered scene.
         """
         self._trace = trace
         self._rate_hz = rate_hz
@@ -68,7 +68,7 @@ class Film:
         scene = conditions_of(spec).true_scene
         if scene.task.candidates is not None:
             scene = with_grasp_of(scene, cell_of(spec))
-        with ExitStack() as cameras:  # closes the first camera should the second fail
+        with ExitStack() as cameras:  # closes the first camera if the second fails
             self._camera = cameras.enter_context(Camera(scene, spec.gripper, view, width=width, height=height))
             if inset is not None:
                 size = {"width": round(_INSET_SHARE * width), "height": round(_INSET_SHARE * height)}
@@ -92,12 +92,12 @@ class Film:
         return math.ceil(self._trace.duration_s * self._rate_hz - 1e-9) + 1
 
     def frame(self, index: int) -> Frame:
-        """The frame of an index; the last one shows the end."""
+        """Frame by index; the last one shows the end."""
         last = index >= len(self) - 1
         return self._frame(len(self._trace.time_s) - 1 if last else self._trace.sample_at(index / self._rate_hz))
 
     def ends_of_phases(self) -> tuple[Frame, ...]:
-        """A frame of the end of each phase that ran."""
+        """Frame at the end of each phase that ran."""
         return tuple(self._frame(span.last) for span in self._trace.spans)
 
     def _frame(self, sample: int) -> Frame:
@@ -116,7 +116,7 @@ class Film:
 
 
 def _set_into(picture: Picture, inset: Picture) -> None:
-    """Put a picture with a white frame into the lower right of another."""
+    """Inset a picture with a white border in the lower right of another."""
     height, width, _ = picture.shape
     margin = round(_INSET_MARGIN_SHARE * height)
     bottom, right = height - margin, width - margin

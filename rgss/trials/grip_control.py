@@ -1,4 +1,4 @@
-"""Control of the grip: commanded finger force and its increases."""
+"""Grip control: commanded finger force and its increases."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from rgss.trials.plants import ControlSettings
 
 
 class GripControl:
-    """Commanded finger force of a task, from a share of the greatest force up to all of it.
+    """Commanded finger force of a task, from a share of the greatest force up to the greatest force.
 
     Attributes:
         force_n: Commanded force of each finger.
-        tightenings: How often it was increased in this phase.
+        tightenings: Number of increases in this phase.
         since_tightening_s: Carrying time since the last increase; the caller adds each step.
-        mass_kg: Mass of the object as the robot knows it.
-        friction: Coefficient of a finger on the object as the robot knows it.
+        mass_kg: Mass of the object assumed by the robot.
+        friction: Coefficient of a finger on the object assumed by the robot.
     """
 
     def __init__(
@@ -26,12 +26,12 @@ class GripControl:
         *,
         is_regulated: bool = True,
     ) -> None:
-        """Begin with the share that holds an object at rest.
+        """Start with the share for an object at rest.
 
         Args:
-            world: The world whose fingers are driven.
+            world: The world with the fingers.
             control: The shares, and the least time between two increases.
-            estimate: What the robot knows of its grip; None where that is the truth.
+            estimate: Grip estimate of the robot; None if the true values are known.
             is_regulated: Whether the force can be increased; otherwise it is the greatest from the start.
         """
         self._world = world
@@ -52,18 +52,18 @@ class GripControl:
             self._estimate.begin_phase()
 
     def readings(self, forces_n: tuple[float, ...]) -> tuple[float, ...]:
-        """The fingers' normal forces as the robot reads them in this step.
+        """Sensed normal forces of the fingers in this step.
 
         Args:
-            forces_n: The true ones.
+            forces_n: The true forces.
         """
         return forces_n if self._estimate is None else self._estimate.read(forces_n)
 
     def margin(self, true_margin: float | None, forces_n: tuple[float, ...], load_m_s2: float) -> float | None:
-        """The grip margin as the robot knows it after a step; None before it can be known.
+        """Grip margin estimated by the robot after a step; None before an estimate is available.
 
         Args:
-            true_margin: The true one.
+            true_margin: The true margin.
             forces_n: The fingers' true normal forces.
             load_m_s2: Tool acceleration minus gravity, in magnitude.
         """
@@ -74,7 +74,7 @@ class GripControl:
         self._world.drive_fingers(self._world.gripper.finger_velocity_m_s, self.force_n)
 
     def keep(self) -> None:
-        """Increase the force where friction is short of what the load needs, unless that was done just now."""
+        """Increase the force if friction is insufficient for the load, at most once in the force window."""
         if self.since_tightening_s >= self._control.force_window_s:
             self.tighten()
 

@@ -1,8 +1,8 @@
-"""Impact of a closing finger on the object: its force by theory, and whether the step resolves it.
+"""Impact of a closing finger on the object: theoretical force, and resolution by the time step.
 
 By the momentum of the finger its force, averaged over the object's force window T, exceeds that of its motor by at most
-2 M v / T; by the energy of the pad of stiffness k it is at most F + sqrt(F² + k M v²). The impact lasts half a
-period of the finger on its pad, pi sqrt(M / k).
+2 M v / T; by the energy of the pad of stiffness k it is at most F + sqrt(F² + k M v²). The impact lasts half a period
+of the finger on its pad, pi sqrt(M / k).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from rgss.trials.trial_spec import TrialSpec
 
 LEAST_STEPS = 10.0
-"""Steps, of the impact or of the force window if that is longer, from which the sensed force is within 10 %."""
+"""Steps, in the impact or in the force window if longer, for an error of the sensed force within 10 %."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -21,12 +21,12 @@ class ClosingImpact:
     """Impact of a finger that closes on the object.
 
     Attributes:
-        duration_s: How long it lasts.
-        least_n: Force with which a finger holds the object in any case.
-        greatest_n: Greatest force of the impact by theory, averaged over the force window.
-        limit_n: Force that the object bears.
+        duration_s: Its duration.
+        least_n: Holding force of a finger without impact.
+        greatest_n: Greatest theoretical force of the impact, averaged over the force window.
+        limit_n: Force limit of the object.
         rate_hz: Physics steps a second.
-        least_rate_hz: Rate from which the step resolves it.
+        least_rate_hz: Least rate that resolves the impact.
     """
 
     duration_s: float
@@ -38,7 +38,7 @@ class ClosingImpact:
 
     @property
     def is_resolved(self) -> bool:
-        """True if the step resolves the impact, or damage does not depend on it."""
+        """True if the time step resolves the impact, or damage does not depend on it."""
         depends_on_impact = self.least_n < self.limit_n < self.greatest_n
         return not depends_on_impact or self.rate_hz >= self.least_rate_hz * (1 - 1e-9)
 

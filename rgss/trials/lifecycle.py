@@ -24,15 +24,14 @@ class SimulationState(str, Enum):
 
 
 class Simulation:
-    """One trial that can be paused; a context manager that always shuts down.
+    """Trial that can be paused; a context manager that always shuts down.
 
-    `pause`, `resume` and `shut_down` may be called from another thread or from an observer while
-    `execute` runs. A pause takes effect between two steps, those of the kinematic model being whole
-    phases, and changes no result.
+    `pause`, `resume` and `shut_down` may be called from another thread or from an observer while `execute` runs. A
+    pause takes effect between two steps, which in the kinematic model are whole phases, and does not change results.
     """
 
     def __init__(self, spec: TrialSpec, *, observer: StepObserver | None = None) -> None:
-        """Take a trial; nothing is computed yet.
+        """Prepare a trial without computing anything.
 
         Args:
             spec: The trial.
@@ -48,7 +47,7 @@ class Simulation:
 
     @property
     def state(self) -> SimulationState:
-        """Its state."""
+        """State of the simulation."""
         return self._state
 
     def __enter__(self) -> Simulation:
@@ -64,27 +63,27 @@ class Simulation:
         """Read the scene into the models and plan and time every move.
 
         Raises:
-            SimulationError: It was initialised before.
+            SimulationError: The simulation was initialised before.
         """
         with self._lock:
-            self._demand(SimulationState.READY, SimulationState.CREATED)
+            self._require(SimulationState.READY, SimulationState.CREATED)
         self._pieces.prepare(self._spec)
         with self._lock:
             if self._state is SimulationState.CREATED:
                 self._state = SimulationState.READY
 
     def execute(self) -> TrialRecord:
-        """Run the eight states of the task; if it is paused, once it is resumed.
+        """Run the task; blocks while paused.
 
         Returns:
-            The record, the same as without any pause.
+            The record, which is independent of pauses.
 
         Raises:
-            SimulationError: It is not initialised, has run, or was shut down meanwhile.
+            SimulationError: The simulation is not initialised, has run, or was shut down meanwhile.
         """
         with self._lock:
             if self._executing or self._state is not SimulationState.PAUSED:
-                self._demand(SimulationState.RUNNING, SimulationState.READY)
+                self._require(SimulationState.RUNNING, SimulationState.READY)
                 self._state = SimulationState.RUNNING
             self._executing = True
         try:
@@ -92,7 +91,7 @@ class Simulation:
             self._wait_while_paused()
         except _ShutDownError:
             raise SimulationError(
-                "the simulation was shut down before the task was complete", hint="make a new one to run it"
+                "the simulation was shut down before the task was complete", hint="create a new simulation to run it"
             ) from None
         except BaseException:
             self.shut_down()
@@ -103,13 +102,13 @@ class Simulation:
         return record
 
     def pause(self) -> None:
-        """Stop between two steps until `resume`.
+        """Pause between two steps until `resume`.
 
         Raises:
-            SimulationError: It is not running or about to run.
+            SimulationError: The simulation is neither initialised nor running.
         """
         with self._lock:
-            self._demand(SimulationState.PAUSED, SimulationState.RUNNING, SimulationState.READY)
+            self._require(SimulationState.PAUSED, SimulationState.RUNNING, SimulationState.READY)
             self._state = SimulationState.PAUSED
             self._may_run.clear()
 
@@ -117,15 +116,15 @@ class Simulation:
         """Continue after a pause.
 
         Raises:
-            SimulationError: It is not paused.
+            SimulationError: The simulation is not paused.
         """
         with self._lock:
-            self._demand(SimulationState.RUNNING, SimulationState.PAUSED)
+            self._require(SimulationState.RUNNING, SimulationState.PAUSED)
             self._state = SimulationState.RUNNING if self._executing else SimulationState.READY
             self._may_run.set()
 
     def shut_down(self) -> None:
-        """End it, even in the middle of the task; the world is closed. Twice is allowed."""
+        """End the simulation, even in the middle of the task, and close the world; calling twice is allowed."""
         with self._lock:
             self._state = SimulationState.SHUT_DOWN
             self._may_run.set()
@@ -135,8 +134,8 @@ class Simulation:
         if self._state is SimulationState.SHUT_DOWN:
             raise _ShutDownError
 
-    def _demand(self, state: SimulationState, *before: SimulationState) -> None:
-        """Refuse to become a state except from those that come before it; the lock is held."""
+    def _require(self, state: SimulationState, *before: SimulationState) -> None:
+        """Require a state from which a transition is allowed; the lock must be held."""
         if self._state not in before:
             allowed = " or ".join(_shown(allowed) for allowed in before)
             raise SimulationError(
@@ -146,7 +145,7 @@ class Simulation:
 
 
 class _ShutDownError(Exception):
-    """Unwinds the task so that its world is closed."""
+    """Signal that unwinds the task, so that its world is closed."""
 
 
 def _shown(state: SimulationState) -> str:

@@ -14,12 +14,12 @@ Violation = tuple[Failure, str]
 
 
 def check_displacement(world: ContactWorld, largest_m: float, *, touched: bool) -> tuple[float, Violation | None]:
-    """Displacement of an object that was not grasped yet (m), and the violation if it exceeds a limit.
+    """Displacement in m of an object before its grasp, and the violation if it exceeds a limit.
 
     Args:
         world: The world.
         largest_m: The limit.
-        touched: Whether the robot touched the object.
+        touched: Whether the robot has touched the object.
     """
     pose, start = world.workpiece_pose(), world.scene.workpiece.pose
     moved_m = math.dist(pose.position_m, start.position_m)
@@ -30,7 +30,7 @@ def check_displacement(world: ContactWorld, largest_m: float, *, touched: bool) 
     if touched:
         return moved_m, (Failure.OBJECT_COLLISION, f"the object was pushed {displacement}")
     if pose.tilt_rad > world.scene.place.largest_tilt_rad:
-        lean = f"it leans by {math.degrees(pose.tilt_rad):.0f}° and moved {displacement}"
+        lean = f"it is tilted by {math.degrees(pose.tilt_rad):.0f}° and moved {displacement}"
         return moved_m, (Failure.NOT_UPRIGHT, f"the object toppled by itself: {lean}")
     if fallen_m > largest_m:
         return moved_m, (
@@ -41,7 +41,7 @@ def check_displacement(world: ContactWorld, largest_m: float, *, touched: bool) 
 
 
 def check_place(world: ContactWorld) -> tuple[dict[str, Metric], Violation | None]:
-    """Error and tilt of the placed object, and the violation if one of them exceeds its limit.
+    """Position error and tilt of the placed object, and the violation if one of them exceeds its limit.
 
     Args:
         world: The world.
@@ -53,7 +53,7 @@ def check_place(world: ContactWorld) -> tuple[dict[str, Metric], Violation | Non
     height_error_m = abs(z - centre[2] - scene.workpiece.shape.half_height_m)
     violation: Violation | None = None
     if tilt_rad > scene.place.largest_tilt_rad:
-        violation = Failure.NOT_UPRIGHT, f"the object leans by {math.degrees(tilt_rad):.1f} deg"
+        violation = Failure.NOT_UPRIGHT, f"the object is tilted by {math.degrees(tilt_rad):.1f} deg"
     elif error_m > scene.place.radius_m or height_error_m > scene.place.radius_m:
         violation = (
             Failure.NOT_IN_PLACE_REGION,
@@ -63,16 +63,16 @@ def check_place(world: ContactWorld) -> tuple[dict[str, Metric], Violation | Non
 
 
 def has_moved(world: ContactWorld, control: ControlSettings, before: Pose, now: Pose) -> bool:
-    """True if the object has moved, by its centre or by turning about it.
+    """True if the object has moved, by translation or rotation.
 
-    The criterion is a distance, not a speed: when the engine detects a resting body's contacts again, the body has a
-    speed for one step and hardly moves.
+    The criterion is a displacement, not a speed: when the engine detects a resting body's contacts again, the body has
+    a speed for one step and hardly moves.
 
     Args:
         world: The world.
-        control: The speed and the time below which the object counts as settled.
-        before: Transform of the object to the world before.
-        now: The same now.
+        control: Speed and time below which the object counts as settled.
+        before: Earlier transform of the object to the world.
+        now: Present transform of the object to the world.
     """
     moved_m = configuration_distance_m(before, now, world.scene.workpiece.shape.half_height_m)
     return moved_m > control.settled_speed_m_s * control.settled_s

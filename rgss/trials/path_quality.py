@@ -21,9 +21,8 @@ class PathQuality:
     """Least clearance and least manipulability along a timed move.
 
     Attributes:
-        clearance_m: Least distance of arm, gripper and what it carries from the scene and from the standing object,
-            negative where they overlap; the object and the bodies that bear it may touch. None where the scene has
-            nothing to keep clear of.
+        clearance_m: Least distance of arm, gripper and carried object from the scene and the placed object, negative
+        for an overlap; contacts of the object with its supports are excluded. None if the scene has no obstacle.
         manipulability_m3: Least manipulability.
     """
 
@@ -32,14 +31,14 @@ class PathQuality:
 
 
 def path_quality(trajectory: SampledTrajectory, model: CollisionModel, arm: Arm) -> PathQuality:
-    """The path quality of a move.
+    """Path quality of a move.
 
-    The manipulability is sampled every 10 ms. The clearance, of which each value is a query of all pairs of
-    bodies, is sampled every 40 ms, and every 5 ms on both sides of the least of these.
+    The manipulability is sampled every 10 ms. The clearance, whose evaluation queries all pairs of bodies, is sampled
+    every 40 ms, and every 5 ms on both sides of the least sample.
 
     Args:
         trajectory: The timed move.
-        model: Bodies that can collide in it.
+        model: Collision model of the move.
         arm: Kinematics of the tool.
     """
     clearance_m = _least(trajectory, model.clearance_m)
@@ -55,8 +54,8 @@ def path_quality(trajectory: SampledTrajectory, model: CollisionModel, arm: Arm)
 def manipulability(arm: Arm, q: Array) -> float:
     """Manipulability √det(J Jᵀ) of a configuration in m³ (Yoshikawa 1985); 0 at a singularity.
 
-    J is the Jacobian at the grasp centre, of which three rows are in m/rad and three in rad/rad. An arm of six joints
-    has a square one, so that the value is |det J|. An arm of fewer joints moves the tool in fewer directions: the value
+    J is the Jacobian at the grasp centre, of which three rows are in m/rad and three in rad/rad. For an arm of six
+    joints it is square, and the value is |det J|. An arm of fewer joints moves the tool in fewer directions: the value
     is √det(Jᵀ J).
 
     Args:
@@ -72,7 +71,7 @@ def manipulability(arm: Arm, q: Array) -> float:
 
 
 def _least(trajectory: SampledTrajectory, value: Callable[[Array], float]) -> float:
-    """Least value along a move, by a coarse pass and a fine one about its least."""
+    """Least value along a move, by coarse sampling and refinement about the least sample."""
     times = _times(0.0, trajectory.duration_s, _CLEARANCE_STEP_S)
     values = [value(q) for q in trajectory.positions(times)]
     at = int(np.argmin(values))

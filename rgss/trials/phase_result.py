@@ -13,12 +13,12 @@ class PhaseResult:
     """Outcome and observations of one phase.
 
     Attributes:
-        phase: Which of the eight states.
-        failure: What went wrong; None if it is complete.
-        detail: The numbers that show the failure; empty if it is complete.
-        duration_s: Simulated time that it took.
-        metrics: Observations of this phase alone, so that a trial that ends earlier has the
-            same ones for the phases that it shares.
+        phase: Name of the phase.
+        failure: The failure; None if it is complete.
+        detail: Numbers of the failure; empty if it is complete.
+        duration_s: Its simulated time.
+        metrics: Observations of only this phase, so that a trial that ends earlier has the same ones for the shared
+        phases.
     """
 
     phase: str

@@ -1,4 +1,4 @@
-"""The task program: the steps of a task in their order, on a plant of any fidelity."""
+"""Task program: execution of the steps of a task in order, on a plant of any fidelity."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ def run_program(
     task: TaskProgram,
     checkpoint: Callable[[], None] | None = None,
 ) -> tuple[PhaseResult, ...]:
-    """Run the steps in order until one fails or has no motion.
+    """Run the steps in order until one fails or has no targets.
 
-    A step depends on those before it and on nothing after it, so a trial that ends earlier,
-    because a planner found no path in time, has the same results for the phases that it shares.
+    A step depends only on earlier ones, so that a trial that ends earlier, because a planner found no path in time, has
+    the same results for the shared phases.
 
     Args:
-        plant: The machine, not yet started.
-        references: Targets of the moves; the program ends before the first move that has none.
+        plant: The plant, not yet started.
+        references: Targets of the moves; the program ends before the first move without targets.
         task: The task. Its first step is a move.
-        checkpoint: Called before each phase; it may wait, or end the program by raising.
+        checkpoint: Callback before each phase; it may block, or end the program by raising.
 
     Returns:
         The phases that ran, in order.

@@ -1,4 +1,4 @@
-"""Assembly of a trial's record from its plan and its execution under the design's planning limit."""
+"""Assembly of a trial's record from plan and execution under the design's planning limit."""
 
 from __future__ import annotations
 
@@ -39,18 +39,18 @@ def assemble_record(
     *,
     bench_payload_kg: float | None = None,
 ) -> TrialRecord:
-    """Assemble the record of a trial from pieces that it shares with others.
+    """Assemble the record of a trial from shared pieces.
 
-    Phases run in order until a move finds no path within the design's planning limit, cannot be
-    timed, or fails in the physics, or until planning and motion take longer than the task allows; what comes
-    after is not run.
+    The phases end at the first move without a path within the design's planning limit, without a timing, or with a
+    failure in the physics, or when planning and motion exceed the time limit of the task; later phases count as not
+    run.
 
     Args:
         spec: The trial.
-        plan: The searches, which went on at least as long as the limit.
-        timing_failures: Moves that have a path but no trajectory, and why.
-        execution: The phases that physics ran, in order.
-        bench_payload_kg: What the gripper holds on the payload bench; None where that is not known.
+        plan: The searches, at least as long as the limit.
+        timing_failures: Moves with a path but without a trajectory, and the reasons.
+        execution: The executed phases, in order.
+        bench_payload_kg: Payload of the gripper on the bench; None if unknown.
     """
     planned_phases, results = spec.task.planned, {result.phase: result for result in execution}
     phases: list[PhaseRecord] = []
@@ -144,7 +144,7 @@ def _metrics(
     success: bool,
     bench_payload_kg: float | None,
 ) -> dict[str, Metric]:
-    """Every metric of the trial: those that are computed here, the others aggregated as their descriptor states."""
+    """All metrics of the trial: those computed here, and the others aggregated by their descriptors."""
     computed: dict[str, Metric] = {
         "success": int(success),
         "phases_completed": sum(phase.outcome is PhaseOutcome.COMPLETED for phase in phases),
@@ -165,7 +165,7 @@ def _metrics(
 
 
 def _aggregated(metric: MetricDescriptor, task: TaskProgram, phases: Sequence[PhaseRecord]) -> Metric:
-    """The value of the trial by the metric's rule; None where no phase has a value."""
+    """Aggregated value of the trial; None if no phase has a value."""
     rule = metric.trial
     if rule is Aggregation.AT_GRASP:
         return _at_grasps(metric, [phase for phase in phases if phase.phase in task.grips])
@@ -208,7 +208,7 @@ def _durations(
         "motion_time_s": motion_s,
         "task_time_s": motion_s + planning_s if success else None,
         "attempt_time_s": motion_s + planning_s,
-        # Of several cycles the longest, if all were carried out.
+        # Of several cycles the longest, if all were completed.
         "grasp_cycle_time_s": None
         if None in cycles_s
         else max((one for one in cycles_s if one is not None), default=None),
@@ -216,7 +216,7 @@ def _durations(
 
 
 def _at_grasps(metric: MetricDescriptor, grasps: Sequence[PhaseRecord]) -> Metric:
-    """The value at the grasp; of several, the worst number, or else that of the first."""
+    """Value at the grasp; of several grasps the worst number, or the first value if it is not a number."""
     values = [value for phase in grasps if (value := phase.metrics.get(metric.source)) is not None]
     if len(values) < 2:
         return values[0] if values else None
@@ -227,7 +227,7 @@ def _at_grasps(metric: MetricDescriptor, grasps: Sequence[PhaseRecord]) -> Metri
 
 
 def _of_greatest(metric: MetricDescriptor, phases: Sequence[PhaseRecord]) -> Metric:
-    """The value in the phase in which the metric's source is greatest, the first of equals."""
+    """Value in the first phase in which the metric's source is greatest."""
     found = [
         (source, phase.metrics.get(metric.name))
         for phase in phases

@@ -1,4 +1,4 @@
-"""A timed move as the targets of every physics step."""
+"""Reference of a move: targets of every physics step."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ Array = NDArray[np.float64]
 
 
 class SampledTrajectory(Protocol):
-    """A joint trajectory that can be sampled."""
+    """Interface of a joint trajectory."""
 
     @property
     def duration_s(self) -> float:
-        """Its length in time."""
+        """Duration of the trajectory in s."""
 
     def positions(self, times_s: Array) -> Array:
         """Joint positions (k, n) at times (k,)."""
@@ -32,15 +32,15 @@ class ToolPositions(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reference:
-    """Targets for each step of a move, and what the tool does along it.
+    """Targets for each step of a move, and the tool's motion along it.
 
     Attributes:
         positions_rad: Joint positions (k + 1, n), the first at the start.
         velocities_rad_s: Mean joint velocities (k, n) over each step.
         tool_m: Tool positions (n + 1, 3) in the world.
-        load_m_s2: Magnitude (n,) of tool acceleration minus gravity over each step: the load
-            that a grasp carries for each kilogram.
-        arc_m: Displacement (n, 3) of the tool over each step less that along its tangent at the start.
+        load_m_s2: Magnitude (n,) of tool acceleration minus gravity over each step: the load of a grasp for each
+        kilogram.
+        arc_m: Displacement (n, 3) of the tool over each step minus that along its tangent at the start.
         peak_tool_speed_m_s: Greatest tool speed.
         peak_tool_acceleration_m_s2: Greatest tool acceleration.
     """
@@ -76,7 +76,7 @@ def reference_of(
 
 
 def reference_along(positions: Array, tool: ToolPositions, *, step_s: float, gravity_m_s2: float) -> Reference:
-    """The targets of a move of which the positions at each step are given.
+    """Targets of a move from its joint positions at each step.
 
     Args:
         positions: Joint positions (k + 1, n), the first at the start.
@@ -102,7 +102,7 @@ def reference_along(positions: Array, tool: ToolPositions, *, step_s: float, gra
 
 
 def _arcs(tool: ToolPositions, positions_rad: Array, tool_m: Array) -> Array:
-    """Displacement of the tool over each step less that along its tangent, to third order in the step.
+    """Displacement of the tool over each step minus that along its tangent, with an error of third order.
 
     At constant joint velocities, half the second difference of the tool's position about the start of the step.
     """

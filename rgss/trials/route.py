@@ -1,4 +1,4 @@
-"""Route of a task: the poses and configurations at which its moves meet, and what can collide in each move."""
+"""Route of a task: poses and configurations between its moves, and the collision context of each move."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from rgss.kinematics import CollisionContext
 from rgss.scenes import (
     CUP_LINK,
     GripperGeometry,
+    ObjectPlacement,
     Pose,
     Scene,
-    Standing,
     Waypoint,
     grasp_opening_m,
-    initial_standings,
+    initial_placements,
     scene_about,
     waypoint_poses,
 )
@@ -24,13 +24,13 @@ _AT_PLACE = (Waypoint.PLACE_APPROACH, Waypoint.PLACE)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stop:
-    """An end of a move.
+    """Start or end of a move.
 
     Attributes:
         name: Its name in messages.
         pose: Transform of the grasp-centre frame to the world; None for a configuration.
         configuration_rad: Joint positions; empty for a pose.
-        is_turn_free: Whether the tool may be turned about its axis at the pose.
+        is_turn_free: True if the tool may be rotated about its axis at the pose.
     """
 
     name: str
@@ -45,10 +45,10 @@ class Leg:
 
     Attributes:
         step: The move.
-        start: Index of the stop where it begins.
-        goal: Index of the stop where it ends.
-        scene: The scene in it: its object is the workpiece, the others are bodies.
-        context: Opening of the gripper, and where the object is.
+        start: Index of the stop at its start.
+        goal: Index of the stop at its end.
+        scene: The scene during the move: its object is the workpiece, the others are bodies.
+        context: Opening of the gripper, and pose of the object.
     """
 
     step: MoveStep
@@ -60,11 +60,11 @@ class Leg:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Route:
-    """The stops of a task and the moves between them.
+    """Stops of a task and the moves between them.
 
     Attributes:
-        stops: The stops in the order in which they are first reached. A stop that is reached again is the same one
-            only if the moves then form one chain or cycle.
+        stops: The stops in the order of the first visit. Repeated visits share a stop only if the moves then form one
+        chain or cycle.
         legs: The moves in order.
     """
 
@@ -78,10 +78,10 @@ class Route:
 
 
 def route_of(scene: Scene, geometry: GripperGeometry, task: TaskProgram) -> Route:
-    """The route of a task, by what is expected to stand where after each step.
+    """Route of a task, from the expected object poses after each step.
 
     Args:
-        scene: The scene at the start, as it is perceived.
+        scene: The perceived scene at the start.
         geometry: The gripper's shape.
         task: The task.
     """
@@ -108,16 +108,16 @@ def route_of(scene: Scene, geometry: GripperGeometry, task: TaskProgram) -> Rout
 
 
 class _Cell:
-    """What stands where, step by step."""
+    """Object poses, step by step."""
 
     def __init__(self, scene: Scene, geometry: GripperGeometry) -> None:
         self._scene = scene
         self._geometry = geometry
         self._opening_m = geometry.largest_opening_m
-        self._standings = initial_standings(scene)
+        self._placements = initial_placements(scene)
         self._turns: dict[str, int] = {}
-        # Where each object stood before its last grip: the waypoints of the grasp stay there until the next.
-        self._origins = dict(self._standings)
+        # Pose of each object before its last grip, the reference of the grasp's waypoints until the next grip.
+        self._origins = dict(self._placements)
         self._held: Pose | None = None
         self.home = Stop(name="home", configuration_rad=scene.robot.home_rad)
 
@@ -125,10 +125,10 @@ class _Cell:
         """Begin a stage."""
         if self._turns.get(stage.object) != stage.turn:
             self._turns[stage.object] = stage.turn
-            self._origins[stage.object] = self._standings[stage.object]
+            self._origins[stage.object] = self._placements[stage.object]
 
     def stop_of(self, target: Target, stage: Stage) -> Stop:
-        """The stop that is a target."""
+        """Stop of a target."""
         if target.configuration_rad:
             return Stop(name=target.name, configuration_rad=target.configuration_rad)
         if target.pose is not None:
@@ -136,8 +136,8 @@ class _Cell:
         waypoint = Waypoint(target.waypoint)
         name = stage.object if waypoint in _AT_PLACE else target.object or stage.object
         place = target.place or stage.place
-        origin = self._origins[name] if name == stage.object else self._standings[name]
-        view = scene_about(self._scene, name, place=place, standings={**self._standings, name: origin})
+        origin = self._origins[name] if name == stage.object else self._placements[name]
+        view = scene_about(self._scene, name, place=place, placements={**self._placements, name: origin})
         parts = [target.name]
         parts += [f"of {name}"] if name != self._scene.workpiece.id else []
         parts += [f"at {place}"] if place and waypoint in _AT_PLACE else []
@@ -145,7 +145,7 @@ class _Cell:
         return Stop(name=" ".join(parts), pose=pose, is_turn_free=self._scene.task.is_yaw_free)
 
     def context_of(self, stage: Stage) -> tuple[Scene, CollisionContext]:
-        """The scene and the collision context of a move."""
+        """Scene and collision context of a move."""
         view = self._view(stage)
         if self._held is None:
             touched = frozenset({(view.workpiece.id, CUP_LINK)} if self._geometry.cup is not None else ())
@@ -160,7 +160,7 @@ class _Cell:
         return view, carrying
 
     def grip(self, stage: Stage) -> None:
-        """Take the object into the hand."""
+        """Move the object into the hand."""
         view = self._view(stage)
         self._held = view.grasp.inverse() @ view.workpiece.pose
 
@@ -170,18 +170,18 @@ class _Cell:
             raise AssertionError("checked before: an object is held")
         view = self._view(stage)
         pose = (view.place_pose @ self._held).raised(-view.task.place_clearance_m)
-        self._standings[stage.object] = Standing(pose=pose, support=view.place_support)
+        self._placements[stage.object] = ObjectPlacement(pose=pose, support=view.place_support)
         self._held = None
 
     def _view(self, stage: Stage) -> Scene:
-        return scene_about(self._scene, stage.object, place=stage.place, standings=self._standings)
+        return scene_about(self._scene, stage.object, place=stage.place, placements=self._placements)
 
 
 def _numbered(visited: list[Stop]) -> tuple[tuple[Stop, ...], list[int]]:
-    """The stops without those that are reached again, and the index of each visit.
+    """Distinct stops, and the index of the stop of each visit.
 
-    The choice of configurations is over a chain or a cycle. Where a task returns in another way, each visit is a stop
-    of its own.
+    The choice of configurations needs a chain or a cycle. If a task returns in another way, each visit is a separate
+    stop.
     """
     stops = list(dict.fromkeys(visited))
     indices = [stops.index(stop) for stop in visited]

@@ -1,4 +1,4 @@
-"""Checks of a scene: overlapping bodies, an object without support, waypoints out of reach."""
+"""Checks of a scene: overlapping bodies, unsupported objects, unreachable waypoints."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from rgss.scenes import (
     half_extents_m,
 )
 from rgss.tasks import TaskProgram
-from rgss.trials.planning import GoalReason, unserved_waypoints
+from rgss.trials.planning import GoalReason, infeasible_waypoints
 from rgss.trials.workcell import Workcell, grasp_search_of
 
 TOUCHING_M = 1e-3
-"""Bodies that overlap by no more are meant to touch: what a file states is rounded to millimetres."""
+"""Tolerance in m of overlaps between touching bodies, since sizes in files are rounded to millimetres."""
 
 OBJECT_TOUCHING_M = 1e-4
-"""The object is held to less, for the physics would throw it out of what it overlaps."""
+"""Tolerance in m of overlaps of the object, which the physics would eject from an overlap."""
 
 DEEP = 0.5
-"""Furniture may be built into other furniture, up to this share of the thinner body; more is a mistake."""
+"""Tolerance of overlaps between fixed bodies, as a share of the thinner body; more counts as an error."""
 
 _RIM = 16
 
@@ -50,17 +50,17 @@ class SceneProblemKind(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SceneProblem:
-    """One problem of a scene.
+    """Problem of a scene.
 
     Attributes:
         kind: Kind of the problem.
-        first: The body that it is about, or the robot's link.
-        second: The other body; empty where there is none.
-        distance_m: The depth of an overlap, or how far the object stands beyond its support's edge; NaN
-            where neither.
-        waypoint: The waypoint that has no configuration; None for other problems.
-        reason: Why it has none; None for other problems.
-        detail: Which filter rejected how many grasp candidates; empty for other problems.
+        first: The body, or the robot's link.
+        second: The other body; empty if there is none.
+        distance_m: Penetration depth of an overlap, or distance of the object beyond its support's edge; NaN for other
+        problems.
+        waypoint: The waypoint without a configuration; None for other problems.
+        reason: The reason; None for other problems.
+        detail: Numbers of grasp candidates rejected by each filter; empty for other problems.
     """
 
     kind: SceneProblemKind
@@ -94,8 +94,8 @@ def reach_problems(
     Args:
         scene: The scene.
         geometry: The gripper's shape.
-        clearance_m: Distance that planned paths keep from everything.
-        friction: Coefficient of the pads, by which grasp candidates are chosen; not used where the grasp is stated.
+        clearance_m: Clearance of planned paths.
+        friction: Coefficient of the pads for the choice of grasp candidates; unused for a stated grasp.
         task: The task.
 
     Raises:
@@ -120,7 +120,7 @@ def reach_problems(
         return tuple(found)
     found += [
         SceneProblem(kind=SceneProblemKind.UNSERVED, first=scene.workpiece.id, waypoint=waypoint, reason=reason)
-        for waypoint, reason in unserved_waypoints(cell).items()
+        for waypoint, reason in infeasible_waypoints(cell).items()
     ]
     return tuple(found)
 
@@ -184,7 +184,7 @@ def _least_extent(shape: ObjectShape) -> float:
 
 
 def _holds(outer: Solid, inner: Solid) -> bool:
-    """True if a solid lies wholly in another, which is convex: then all of its extreme points do."""
+    """True if a solid is inside another, convex one: by its extreme points."""
     to_outer = outer.pose.inverse() @ inner.pose
     for point in _extreme_points(inner.shape):
         x, y, z = (to_outer @ Pose(position_m=point)).position_m
@@ -200,7 +200,7 @@ def _holds(outer: Solid, inner: Solid) -> bool:
 
 
 def _extreme_points(shape: ObjectShape) -> list[tuple[float, float, float]]:
-    """The corners of a box; of a cylinder, points of its rims."""
+    """Corners of a box, or points on the rims of a cylinder."""
     if not isinstance(shape, Cylinder):
         return [corner for part in corners_of(shape) for corner in part]
     turns = [2.0 * math.pi * place / _RIM for place in range(_RIM)]

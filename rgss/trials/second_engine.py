@@ -1,4 +1,4 @@
-"""Physics settings under which a contact trial runs in MuJoCo instead of PyBullet."""
+"""Physics settings of contact trials in MuJoCo instead of PyBullet."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _ADAPTER = "rgss.physics.mujoco.settings"
 
 
 def mujoco_settings(*, rate_hz: float | None = None) -> MujocoSettings:
-    """The settings of a trial in MuJoCo as it is installed; they carry its release and the code that adapts it.
+    """Settings of a trial in the installed MuJoCo, with its release and the digest of its adapter.
 
     Args:
         rate_hz: Steps a second; that of `MujocoSettings` by default.

@@ -1,4 +1,4 @@
-"""Settings of planning and simulation: everything that is neither the scene nor the design."""
+"""Settings of planning and simulation: all inputs other than scene and design."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ class PlanningSettings:
     """Settings of the planning of moves.
 
     Attributes:
-        clock: What a planner's time is counted by.
-        search_limit_s: Duration of a shared search: at least the greatest planning limit
-            of any design, which are all read off it.
-        resolution_rad: Greatest joint step between two states of a motion that a search checks.
-        verification_resolution_rad: Greatest joint step between two checked states of the path that will run; as
-            the search if None.
-        on_unverified: What is done with a path of the search that is not valid at that resolution.
-        simplification_checks: Validity checks that may be spent on looking for shortcuts.
-        simplification_limit_s: Longest time of simplifying a path by the planning clock, the final check of
-            its result included. A move's planning time is at most the planning limit and this one together.
-        clearance_m: Distance that planned paths keep from everything; what runs keeps a quarter of it.
-        moves: Kind of each of the planned moves of the task, in their order; all are planned if it is empty.
+        clock: The planning clock.
+        search_limit_s: Limit of a shared search: at least the greatest planning limit of any design, since one search
+        gives the results under all smaller limits.
+        resolution_rad: Greatest joint step between two checked states of a search.
+        verification_resolution_rad: Greatest joint step between two checked states of the path found; as the search if
+        None.
+        on_unverified: Handling of a path that is not valid at that resolution.
+        simplification_checks: Budget of validity checks of the search for shortcuts.
+        simplification_limit_s: Time limit of the simplification by the planning clock, including the final check. A
+        move's planning time is at most the sum of the planning limit and this limit.
+        clearance_m: Clearance of planned paths; executed motions keep a quarter of it.
+        moves: Kind of each planned move of the task, in order; empty if all are planned.
     """
 
     clock: PlanningClock
@@ -44,7 +44,7 @@ class PlanningSettings:
     moves: tuple[MoveKind, ...] = ()
 
     def kinds(self, planned: Sequence[str]) -> dict[str, MoveKind]:
-        """Kind of each move that the task leaves to the planner.
+        """Kind of each planned move.
 
         Args:
             planned: Names of those moves.
@@ -53,14 +53,14 @@ class PlanningSettings:
 
     @property
     def search_checks(self) -> int:
-        """Validity checks of a search; a search by the wall clock is bounded by its time alone."""
+        """Budget of validity checks of a search; a search by the wall clock is bounded only by its time."""
         if self.clock.kind is ClockKind.COUNTED:
             return self.clock.checks_within(self.search_limit_s)
         return _NO_BUDGET
 
     @property
     def verified_every_rad(self) -> float:
-        """Greatest joint step between two checked states of the path that will run."""
+        """Verification resolution in effect, in rad."""
         given = self.verification_resolution_rad
         return self.resolution_rad if given is None else given
 
@@ -70,11 +70,11 @@ class TrialSettings:
     """Planning, timing, physics and control of a trial.
 
     Attributes:
-        planning: How moves are planned.
-        physics: How physics is stepped.
+        planning: Settings of planning.
+        physics: Time step and solver.
         control: Thresholds of the task program.
-        timing: How moves are timed.
-        controller: Control of the joints, which the dynamic fidelity simulates.
+        timing: Settings of timing.
+        controller: Joint controller, simulated in the dynamic fidelity.
     """
 
     planning: PlanningSettings

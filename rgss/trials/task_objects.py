@@ -1,4 +1,4 @@
-"""Objects of a task in contact physics: which one a phase concerns, and whether another was displaced."""
+"""Objects of a task in contact physics: object of each phase, and displacement of the others."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ import math
 
 from rgss.evidence import Failure
 from rgss.physics import ContactWorld
-from rgss.scenes import Pose, Scene, Standing, initial_standings, scene_about
+from rgss.scenes import ObjectPlacement, Pose, Scene, initial_placements, scene_about
 from rgss.tasks import GripStep, ReleaseStep, Stage, TaskProgram, stages_of
 
 
 class TaskObjects:
-    """The objects of a scene as a task moves them.
+    """State of the objects of a scene during a task.
 
     Attributes:
-        first: The object with which the world begins.
+        first: The initial object of the world.
     """
 
     def __init__(self, world: ContactWorld, task: TaskProgram) -> None:
-        """Begin with every object where it stands.
+        """Start with the present poses of all objects.
 
         Args:
             world: The world.
@@ -30,11 +30,11 @@ class TaskObjects:
         self._stages = {stage.step.name: stage for stage in stages_of(task, self.first)}
         begin = next(iter(self._stages.values()), None)
         self._about = (self.first, 1, "") if begin is None else (self.first, begin.turn, begin.place)
-        self._supports = {name: one.support for name, one in initial_standings(self._scene).items()}
+        self._supports = {name: one.support for name, one in initial_placements(self._scene).items()}
         self._around: dict[str, Pose] = {}
 
     def stage(self, phase: str) -> Stage:
-        """The stage of a phase.
+        """Stage of a phase.
 
         Args:
             phase: Its name.
@@ -42,7 +42,7 @@ class TaskObjects:
         return self._stages[phase]
 
     def enter(self, stage: Stage) -> bool:
-        """Begin a stage; true if the world is about another object, place or grip than before.
+        """Begin a stage; returns True if object, place or grip differ from the previous stage.
 
         Args:
             stage: The stage.
@@ -51,7 +51,7 @@ class TaskObjects:
         is_new = about != self._about
         if is_new:
             self._about = about
-            self._world.concern(self._view(stage.object, stage.place))
+            self._world.set_workpiece(self._view(stage.object, stage.place))
         self._around = {
             one.workpiece.id: self._world.object_pose(one.workpiece.id)
             for one in (self._scene.objects if self._scene.others else ())
@@ -60,7 +60,7 @@ class TaskObjects:
         return is_new
 
     def displaced(self, largest_m: float) -> tuple[Failure, str] | None:
-        """The violation if another object was displaced since the phase began.
+        """Violation if another object was displaced since the start of the phase.
 
         Args:
             largest_m: Greatest displacement.
@@ -72,7 +72,7 @@ class TaskObjects:
         return None
 
     def resting_on(self, stage: Stage) -> str:
-        """The body that the object of a stage may touch; empty for none.
+        """Body that the object of a stage may touch; empty for none.
 
         Args:
             stage: The stage.
@@ -84,7 +84,7 @@ class TaskObjects:
         return ""
 
     def note_release(self, stage: Stage) -> None:
-        """Take note of a release.
+        """Register a release.
 
         Args:
             stage: Its stage.
@@ -92,10 +92,10 @@ class TaskObjects:
         self._supports[stage.object] = self._world.scene.place_support
 
     def _view(self, name: str, place: str) -> Scene:
-        standings = {
-            one.workpiece.id: Standing(
+        placements = {
+            one.workpiece.id: ObjectPlacement(
                 pose=self._world.object_pose(one.workpiece.id), support=self._supports[one.workpiece.id]
             )
             for one in self._scene.objects
         }
-        return scene_about(self._scene, name, place=place, standings=standings)
+        return scene_about(self._scene, name, place=place, placements=placements)

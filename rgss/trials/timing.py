@@ -1,4 +1,4 @@
-"""The timing of a task: a trajectory for each move under the joints' limits and the tool speed."""
+"""Timing of a task: a trajectory for each move under the joint limits and the tool speed."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ from rgss.trials.workcell import Workcell, cell_of
 _FAILURES = {
     TimingOutcome.IN_COLLISION: (
         Failure.TRAJECTORY_IN_COLLISION,
-        "the timed motion would touch something that the path did not",
+        "the timed motion collides, although the path does not",
     ),
     TimingOutcome.INFEASIBLE: (
         Failure.TRAJECTORY_INFEASIBLE,
-        "no motion along the path keeps the limits of joints and tool",
+        "no motion along the path satisfies the limits of joints and tool",
     ),
 }
 
 _TIME_OPTIMAL = TimingSettings()
 
 LONGEST_MOVE_S = 600.0
-"""A move that would take longer is not run: its targets, one for each physics step, would fill the memory."""
+"""Greatest duration of a move in s: its targets, one for each physics step, must fit into memory."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,8 +49,8 @@ class TaskTiming:
     """The timed moves.
 
     Attributes:
-        trajectories: The trajectory of each move that has one.
-        failures: Why the others that have a path have none.
+        trajectories: The trajectories by move.
+        failures: Reason for each move with a path but without a trajectory.
         qualities: Clearance and manipulability along each trajectory.
     """
 
@@ -67,14 +67,14 @@ def time_task(
     settings: PlanningSettings,
     timing: TimingSettings = _TIME_OPTIMAL,
 ) -> TaskTiming:
-    """Time every move of a plan; the trajectory that runs is itself checked for collisions.
+    """Time every move of a plan; the resulting trajectory is checked for collisions.
 
     Args:
         cell: Scene, arm and collision models.
         plan: The paths.
         tool_speed_m_s: Greatest speed of the tool.
         settings: Resolution of the check, and the kinds of the moves.
-        timing: The velocity profile, and the shares of the joints' limits that it uses.
+        timing: The velocity profile, and its shares of the joint limits.
     """
     limits = _limits(cell, timing, tool_speed_m_s)
     trajectories: dict[str, Trajectory] = {}
@@ -99,15 +99,15 @@ def time_task(
 
 
 def _no_line(cell: Workcell, phase: str) -> str:
-    """Why a move that is a straight line by definition has no path."""
-    told = f"the arm cannot follow the straight line of the {phase.replace('_', ' ')} without collision"
+    """Reason why a straight move has no path."""
+    message = f"the arm cannot follow the straight line of the {phase.replace('_', ' ')} without collision"
     (leg,) = (leg for leg in cell.route.legs if leg.step.name == phase)
     why = too_wide(cell.geometry, leg.scene)
-    return f"{told}: {why}" if why else told
+    return f"{message}: {why}" if why else message
 
 
 def timing_of(spec: TrialSpec, plan: TaskPlan) -> TaskTiming:
-    """The timing of a trial.
+    """Timing of a trial.
 
     Args:
         spec: The trial.
@@ -144,12 +144,12 @@ def _timed(
 def _too_slow(trajectory: Trajectory, limits: MotionLimits) -> str:
     return (
         f"the move would take {trajectory.duration_s:.3g} s, more than {LONGEST_MOVE_S:g} s "
-        f"(the tool may move at {limits.tool_speed_m_s:g} m/s)"
+        f"(tool speed limit {limits.tool_speed_m_s:g} m/s)"
     )
 
 
 def _paths(task: TaskProgram, plan: TaskPlan) -> Iterator[tuple[MoveStep, Array | None]]:
-    """The moves to be timed with their paths: those found, and the straight ones; one that is impossible is None."""
+    """Moves to be timed with their paths, planned and straight; None for an infeasible straight one."""
     for step in task.moves:
         if step.name in plan.direct:
             yield step, plan.direct[step.name]

@@ -1,4 +1,4 @@
-"""Settings of the timing of moves: the profile, and how much of the joints' limits it uses."""
+"""Settings of the timing of moves: velocity profile and shares of the joint limits."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ class TimingSettings:
 
     Attributes:
         profile: The velocity profile.
-        peak_speed: Share of each joint's greatest speed that is used.
-        peak_acceleration: Share of each joint's greatest acceleration that is used.
-        joint_speeds_rad_s: Greatest speed of some joints by name, where it is less than the robot's.
-        joint_accelerations_rad_s2: Greatest acceleration of some joints by name, where it is less than the robot's.
+        peak_speed: Share of each joint's speed limit.
+        peak_acceleration: Share of each joint's acceleration limit.
+        joint_speeds_rad_s: Reduced speed limits of some joints by name.
+        joint_accelerations_rad_s2: Reduced acceleration limits of some joints by name.
     """
 
     profile: TimingProfile = TimingProfile.TIME_OPTIMAL
@@ -37,10 +37,10 @@ class TimingSettings:
     joint_accelerations_rad_s2: tuple[tuple[str, float], ...] = ()
 
     def limits(self, joints: Sequence[Joint], *, tool_speed_m_s: float, tool_acceleration_m_s2: float) -> MotionLimits:
-        """The limits of a motion.
+        """Limits of a motion.
 
         Args:
-            joints: The arm's joints with their own limits.
+            joints: The arm's joints with their limits.
             tool_speed_m_s: Greatest speed of the tool centre.
             tool_acceleration_m_s2: Greatest acceleration of the tool centre.
         """

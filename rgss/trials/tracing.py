@@ -1,4 +1,4 @@
-"""Recording the course of a trial over time."""
+"""Recording of a trial's trace."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ TRACE_RATE_HZ = 240.0
 
 
 def run_traced_trial(spec: TrialSpec, *, rate_hz: float = TRACE_RATE_HZ) -> tuple[TrialRecord, TrialTrace | None]:
-    """Run one trial and record its course; the trial's record is the one that `run_trial` gives.
+    """Run one trial and record its trace; the trial's record equals that of `run_trial`.
 
     Args:
         spec: The trial.
@@ -33,18 +33,18 @@ def run_traced_trial(spec: TrialSpec, *, rate_hz: float = TRACE_RATE_HZ) -> tupl
     """
     recorder = TraceRecorder(spec, rate_hz=rate_hz)
     record = run_trial(spec, observer=recorder)
-    # Physics may run moves that came too late for the design's planning limit, since others share them.
+    # The execution, shared with other trials, may contain moves beyond this design's planning limit.
     return record, recorder.trace({phase.phase for phase in record.phases if phase.duration_s is not None})
 
 
 class TraceRecorder:
-    """Recorder of samples of the world at a fixed rate; an observer of one execution."""
+    """Observer of one execution that samples the world at a fixed rate."""
 
     def __init__(self, spec: TrialSpec, *, rate_hz: float = TRACE_RATE_HZ) -> None:
-        """Begin with no samples.
+        """Start without samples.
 
         Args:
-            spec: The trial that is observed.
+            spec: The observed trial.
             rate_hz: Samples a second.
         """
         physics = spec.settings.physics
@@ -87,13 +87,15 @@ class TraceRecorder:
         self._spans.append(PhaseSpan(phase=phase, start_s=start_s, end_s=end_s, last=len(self._times_s) - 1))
 
     def trace(self, phases: Collection[str]) -> TrialTrace | None:
-        """The course of these phases, which must be the first ones that ran; None if there are none."""
+        """Trace of these phases, which must be the first ones that ran; None if there are none."""
         spans = tuple(span for span in self._spans if span.phase in phases)
         if not spans:
             return None
         spec, count = self._spec, spans[-1].last + 1
         positions = np.array([position for position, _ in self._joints[:count]])
-        if offsets := conditions_of(spec).joint_offsets_rad:  # what is seen is where the arm is, not what it reports
+        if offsets := conditions_of(
+            spec
+        ).joint_offsets_rad:  # the trace has the true positions of the arm, not the reported ones
             positions = positions + np.array(offsets)
         velocities = np.array([velocity for _, velocity in self._joints[:count]])
         arm = Arm(spec.scene.robot, spec.gripper.geometry.grasp_centre)

@@ -14,22 +14,22 @@ from rgss.trials.settings import TrialSettings
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrialSpec:
-    """One variant to be tried once.
+    """Specification of a trial: one variant under one seed.
 
     Attributes:
         variant: Id of the design variant.
         seed: The trial's seed.
         fidelity: Its fidelity.
-        scene: Where it happens, as the files say.
+        scene: The scene of the files.
         gripper: The gripper of the design.
         planner: Name of the planner of the design, in the study or in OMPL.
         planning_limit_s: Longest planning time for one move.
         tool_speed_m_s: Greatest tool speed.
-        settings: How it is planned and simulated.
+        settings: Settings of planning and simulation.
         task: The steps.
         planner_settings: The planner with its parameters; the one of OMPL with that name if None.
-        uncertainty: What differs from the files; the seed draws it.
-        workload: The objects that are carried; the seed chooses one.
+        uncertainty: The uncertain quantities, drawn by the seed.
+        workload: The cases of objects, chosen by the seed.
     """
 
     variant: int
@@ -48,7 +48,7 @@ class TrialSpec:
 
     @property
     def searched(self) -> frozenset[str]:
-        """The moves that a planner searches for."""
+        """Names of the moves that a planner searches."""
         kinds = self.settings.planning.kinds(self.task.planned)
         return frozenset(name for name, kind in kinds.items() if kind is MoveKind.PLANNED)
 

@@ -1,4 +1,4 @@
-"""Scene, arm and gripper for planning."""
+"""Workcell: scene, arm and gripper for planning."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _SHARE_KEPT = 0.25
 
 
 class Workcell:
-    """The arm's kinematics and the collision models of each move, for planning and for what runs.
+    """Kinematics of the arm and collision models of each move, for planning and execution.
 
-    Building it costs more than a timed move, so that pieces with the same scene and gripper
-    shape share it; it holds no state that a use changes.
+    Its construction takes longer than the timing of a move, so pieces with the same scene and gripper shape share it;
+    it is immutable in use.
     """
 
     def __init__(self, scene: Scene, geometry: GripperGeometry, *, clearance_m: float, task: TaskProgram) -> None:
@@ -30,7 +30,7 @@ class Workcell:
         Args:
             scene: The scene with its robot.
             geometry: The gripper's shape.
-            clearance_m: Distance that planned paths keep from everything.
+            clearance_m: Clearance of planned paths.
             task: The task.
         """
         self.scene = scene
@@ -40,14 +40,14 @@ class Workcell:
         self.route = route_of(scene, geometry, self.task)
         contexts = {leg.step.name: (leg.scene, leg.context) for leg in self.route.legs}
         self.planning: Mapping[str, CollisionModel] = _models(contexts, geometry, clearance_m)
-        # Between two checked states, and where a held object gives way, some clearance may be lost.
+        # Between two checked states, and by compliance of a held object, some clearance may be lost.
         self.running: Mapping[str, CollisionModel] = _models(contexts, geometry, _SHARE_KEPT * clearance_m)
 
 
 def _models(
     contexts: Mapping[str, tuple[Scene, CollisionContext]], geometry: GripperGeometry, clearance_m: float
 ) -> dict[str, CollisionModel]:
-    """The collision model of each move; moves in the same context share one."""
+    """Collision model of each move; moves in the same context share one."""
     built: dict[tuple[Scene, CollisionContext], CollisionModel] = {}
     for scene, context in contexts.values():
         if (scene, context) not in built:
@@ -57,19 +57,19 @@ def _models(
 
 @lru_cache(maxsize=4)
 def workcell_of(scene: Scene, geometry: GripperGeometry, clearance_m: float, task: TaskProgram) -> Workcell:
-    """The workcell of a scene and a gripper shape, built once in a process.
+    """Workcell of a scene and a gripper shape, cached in the process.
 
     Args:
         scene: The scene with its robot.
         geometry: The gripper's shape.
-        clearance_m: Distance that planned paths keep from everything.
+        clearance_m: Clearance of planned paths.
         task: The task.
     """
     return Workcell(scene, geometry, clearance_m=clearance_m, task=task)
 
 
 def cell_of(spec: TrialSpec) -> Workcell:
-    """The workcell of a trial as the robot perceives it.
+    """Workcell of a trial, as perceived by the robot.
 
     Args:
         spec: The trial.
@@ -95,13 +95,13 @@ def grasp_search_of(
     clearance_m: float,
     task: TaskProgram,
 ) -> GraspSearch:
-    """The grasp that is taken of the candidates that a scene states.
+    """Choice of a grasp among the candidates of a scene.
 
     Args:
-        scene: The scene as it is perceived.
+        scene: The perceived scene.
         geometry: The gripper's shape.
         friction: Coefficient of the pads.
-        clearance_m: Distance that planned paths keep from everything.
+        clearance_m: Clearance of planned paths.
         task: The task.
     """
     if scene.task.candidates is None:
@@ -116,10 +116,10 @@ def grasp_search_of(
 
 
 def with_grasp_of(scene: Scene, cell: Workcell) -> Scene:
-    """A scene with the grasp that was taken for the perceived one.
+    """Scene with the grasp chosen for the perceived scene.
 
     Args:
-        scene: The scene as it is.
+        scene: The true scene.
         cell: The workcell of the perceived one.
     """
     taken = cell.scene.task.grasp

@@ -12,7 +12,7 @@ import pytest
 from rgss.cli import main as main_module
 from rgss.cli.main import main
 from rgss.cli.safe_output import data_stream, own_stream, safe_output
-from rgss.documents.steering import steers
+from rgss.documents.steering import has_control_characters
 from rgss.errors import DefinitionError, SimulationError
 
 HOSTILE = "\x1b]0;owned\x07\x1b[2J\u202eabc\u2066 \x9b31m [bold red]🤖"
@@ -40,7 +40,7 @@ def test_what_is_printed_steers_nothing_and_json_says_the_same(verb, capsys):
 
     assert verb(handler) == 0
     captured = capsys.readouterr()
-    assert not steers(captured.out + captured.err)
+    assert not has_control_characters(captured.out + captured.err)
     assert json.loads(captured.out) == {"detail": HOSTILE}
     assert captured.err == 2 * ("\\u001b]0;owned\\u0007\\u001b[2J\\u202eabc\\u2066 \\u009b31m [bold red]🤖\n")
 
@@ -51,7 +51,7 @@ def test_so_it_is_with_complaints(verb, capsys, error):
         raise error
 
     assert verb(handler) in {2, 3}
-    assert not steers(capsys.readouterr().err)
+    assert not has_control_characters(capsys.readouterr().err)
 
 
 def test_the_streams_are_what_they_were_afterwards(verb):
@@ -71,7 +71,7 @@ def test_the_content_of_a_file_is_as_it_is_but_on_a_terminal(capsys, monkeypatch
         assert capsys.readouterr().out == HOSTILE
         monkeypatch.setattr(own_stream(sys.stdout), "isatty", lambda: True)
         data_stream().write(HOSTILE)
-        assert not steers(capsys.readouterr().out)
+        assert not has_control_characters(capsys.readouterr().out)
 
 
 def test_no_verb_goes_round_it():

@@ -9,12 +9,12 @@ CASES = {
     "duplicate component": (
         "id: large",
         "id: ¦small",
-        "error: id 'small' is already in line 8 (give each its own id) [design.duplicate-id]",
+        "error: id 'small' is already in line 8 (use a unique id) [design.duplicate-id]",
     ),
     "duplicate role": (
         "  - id: planner\n    name: Planner\ncomponents",
         "  - id: planner\n    name: Planner\n  - id: ¦planner\n    name: Again\ncomponents",
-        "error: id 'planner' is already in line 5 (give each its own id) [design.duplicate-id]",
+        "error: id 'planner' is already in line 5 (use a unique id) [design.duplicate-id]",
     ),
     "unknown role": (
         "id: large\n    role: gripper",
@@ -42,7 +42,7 @@ CASES = {
     "unit out of SI": (
         "{force: N}",
         "{force: ¦kN}",
-        "error: force: unit 'kN' is not of SI (write N) [design.unit]",
+        "error: force: the unit must be SI, got 'kN' (write N) [design.unit]",
     ),
     "unit with an offset": (
         "{force: N}",
@@ -52,7 +52,7 @@ CASES = {
     "unit of what SI does not measure": (
         "{force: N}",
         "{force: N, dots: ¦pixel}",
-        "error: dots: unit 'pixel' measures what has no unit in SI (use units such as mm, kg, s, N) [design.unit]",
+        "error: dots: unit 'pixel' has no SI equivalent (use units such as mm, kg, s, N) [design.unit]",
     ),
     "cost as a property": (
         "{force: N}",
@@ -82,7 +82,7 @@ CASES = {
     "negative cost": (
         "value: 1 USD",
         "value: ¦-1 USD",
-        "error: cost must be at least 0, got '-1 USD' (write what it costs) [design.value]",
+        "error: cost must be at least 0, got '-1 USD' (write a cost of at least 0) [design.value]",
     ),
     "assumption without a rationale": (
         "assumption: true, rationale: Invented.",
@@ -126,7 +126,7 @@ CASES = {
     "match without values": (
         "[200 g, 0.3 kg]",
         "¦[]",
-        "error: d1: at least one value is expected (write the values that will do) [document.value]",
+        "error: d1: at least one value is expected (write the allowed values) [document.value]",
     ),
 }
 

@@ -75,13 +75,13 @@ def test_terms_choose_variants(project, terms, expected):
         ),
         (
             ("d1 < 3 N",),
-            "--only: 'd1 < 3 N': a value in kg is compared with one in N (compare what has one unit)",
+            "--only: 'd1 < 3 N': a value in kg is compared with one in N (compare values with the same dimension)",
         ),
-        (("4/4",), "--only: 4/4 is not a part of the variants (write a fraction such as 1/4)"),
-        (("1/0",), "--only: 1/0 is not a part of the variants (write a fraction such as 1/4)"),
+        (("4/4",), "--only: the fraction must be above 0 and below 1, got 4/4 (write a fraction such as 1/4)"),
+        (("1/0",), "--only: the fraction must be above 0 and below 1, got 1/0 (write a fraction such as 1/4)"),
         (("1/4,3",), "--only: the fraction '1/4' must be the only term (give it its own --only)"),
-        (("d3=RRT", "2"), "--only: no variant is left at '2' ('rgss variants' lists all of them)"),
-        (("d1 > 5 kg",), "--only: no variant is left at 'd1 > 5 kg' ('rgss variants' lists all of them)"),
+        (("d3=RRT", "2"), "--only: no variant is left at '2' (run 'rgss variants' to list them)"),
+        (("d1 > 5 kg",), "--only: no variant is left at 'd1 > 5 kg' (run 'rgss variants' to list them)"),
     ],
 )
 def test_mistakes_are_told(project, terms, message):
@@ -115,7 +115,7 @@ def test_what_is_no_variant_is_passed_over_in_a_range_and_told_alone(project):
     project.space_text += "rules:\n  - {id: r, rationale: So., exclude: {d2: 3, d3: RRT}}\n"
     space = project.load()
     assert ids(space, "1-5") == [1, 2, 4, 5]
-    with pytest.raises(DefinitionError, match=r"^--only: 3 is not a variant: it breaks rule 'r' \('rgss variants'"):
+    with pytest.raises(DefinitionError, match=r"^--only: 3 is not a variant: it breaks rule 'r' \(run 'rgss variants'"):
         picked(space, ["3"])
 
 

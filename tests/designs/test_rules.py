@@ -97,7 +97,7 @@ MISTAKES = {
     ),
     "a parameter by two names": (
         "    exclude: {d4: 3 N, ¦force: 3 N}\n",
-        "error: force is d4, which is named already (name it once) [design.named-twice]",
+        "error: force refers to d4, which is listed already (name it once) [design.named-twice]",
     ),
     "unknown number": (
         "    limit: {product_of: [design.d4], at_most: ¦component.gripper.forse}\n",
@@ -114,7 +114,7 @@ MISTAKES = {
         "    limit: ¦{product_of: [design.d1, design.d4], at_most: component.gripper.force}\n",
         (
             "error: a product in kg·N is compared with component.gripper.force in N "
-            "(compare what has one unit) [design.unit]"
+            "(compare values with the same dimension) [design.unit]"
         ),
     ),
     "limit without factors": (
@@ -161,7 +161,7 @@ def _first_of(project):
 def test_duplicate_rules_are_found(project):
     project.space_text += RULES + "    exclude: {d2: 3}\n  - {id: ¦r, rationale: So., exclude: {d3: PRM}}\n"
     assert project.findings() == [
-        f"{project.marks()[0]}: error: id 'r' is already in line 25 (give each its own id) [design.duplicate-id]"
+        f"{project.marks()[0]}: error: id 'r' is already in line 25 (use a unique id) [design.duplicate-id]"
     ]
 
 

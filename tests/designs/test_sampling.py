@@ -197,7 +197,10 @@ MISTAKES = {
         "resolution: ¦0.03 N",
         "",
         "",
-        "0.4 N to 1.2 N is not a whole number of steps of 0.03 N (let one divide the other) [design.range]",
+        (
+            "0.4 N to 1.2 N is not a whole number of steps of 0.03 N "
+            "(make the range a multiple of the resolution) [design.range]"
+        ),
     ),
     "resolution of nothing": (
         "resolution: 0.01 N",
@@ -232,7 +235,7 @@ MISTAKES = {
         "range: [2, ¦5.5]",
         "",
         "",
-        "d2: 5.5 is not a whole number from 0 (write a count, such as 2) [design.value]",
+        "d2: a whole number from 0 is expected, got 5.5 (write a count, such as 2) [design.value]",
     ),
     "range of names": (
         "parameter: d2, range: [2, 5]",
@@ -264,8 +267,8 @@ MISTAKES = {
         "",
         "",
         (
-            "100 is not a power of two, and a Sobol sample is even only with one "
-            "(write 64 or 128, or take latin_hypercube) [design.sample]"
+            "the size of a Sobol sample must be a power of two, got 100 "
+            "(write 64 or 128, or use latin_hypercube) [design.sample]"
         ),
     ),
     "set by a constant too": (
@@ -273,7 +276,7 @@ MISTAKES = {
         "constants: {d4: 1 N}\nfactors:",
         "parameter: d4",
         "parameter: ¦d4",
-        "d4 is set already by the constants (set it in one place) [design.set-twice]",
+        "d4 is already set by the constants (set it in one place) [design.set-twice]",
     ),
     "no component for a value": (
         "levels: [{id: low, sets: {d1: 0.1 kg}}, {id: high, sets: {d1: 200 g}}]",

@@ -46,7 +46,7 @@ MISTAKES = {
     "negative": (
         "d4, " + FORCE,
         "d4, name: force, symbol: F, unit: s, sets: planning.simplification_limit, ",
-        "error: d4 must be at least 0 s (0 s leaves paths as they are found) [design.negative]",
+        "error: d4 must be at least 0 s (0 s leaves paths as found) [design.negative]",
     ),
     "property that is not there": (
         PROPERTIES,
@@ -61,7 +61,7 @@ MISTAKES = {
     "property that chooses": (
         PROPERTIES,
         PROPERTIES + "\n    sets: {force: ¦catalogue.planner}",
-        "error: property 'force' cannot choose a component (let a parameter choose it) [design.sets]",
+        "error: property 'force' cannot select a component (use a parameter instead) [design.sets]",
     ),
 }
 
@@ -79,7 +79,7 @@ def test_two_parameters_that_set_the_same_quantity(project):
     project.change("name: mass, symbol: m, unit: kg, ", "name: mass, symbol: m, unit: N, sets: gripper.finger.force, ")
     project.change(FORCE, FORCE + "sets: ¦gripper.finger.force, ")
     (mark,) = project.marks()
-    expected = "error: gripper.finger.force is set already by d1 in line 2 (set it in one place) [design.set-twice]"
+    expected = "error: gripper.finger.force is already set by d1 in line 2 (set it in one place) [design.set-twice]"
     assert f"{mark}: {expected}" in project.findings()
 
 
@@ -89,7 +89,7 @@ def test_a_parameter_and_a_property_that_set_the_same_quantity(project):
     (mark,) = project.marks()
     assert project.findings() == [
         (
-            f"{mark}: error: gripper.finger.force is set already by property 'force' of role 'gripper' "
+            f"{mark}: error: gripper.finger.force is already set by property 'force' of role 'gripper' "
             "in catalogue.yaml:5 (set it in one place) [design.set-twice]"
         )
     ]
@@ -104,7 +104,7 @@ def test_two_properties_that_set_the_same_quantity(project):
     (mark,) = project.marks()
     assert project.findings() == [
         (
-            f"{mark}: error: gripper.finger.force is set already by property 'force' of role 'gripper' in line 5 "
+            f"{mark}: error: gripper.finger.force is already set by property 'force' of role 'gripper' in line 5 "
             "(set it in one place) [design.set-twice]"
         )
     ]

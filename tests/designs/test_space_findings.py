@@ -8,22 +8,22 @@ CASES = {
     "duplicate parameter": (
         "{id: d2, name: fingers",
         "{id: ¦d1, name: fingers",
-        "error: id 'd1' is already in line 2 (give each its own id) [design.duplicate-id]",
+        "error: id 'd1' is already in line 2 (use a unique id) [design.duplicate-id]",
     ),
     "duplicate name": (
         "{id: d2, name: fingers",
         "{id: d2, name: ¦mass",
-        "error: name 'mass' is already in line 2 (give each its own name) [design.duplicate-id]",
+        "error: name 'mass' is already in line 2 (use a unique name) [design.duplicate-id]",
     ),
     "duplicate factor": (
         "id: fingers\n",
         "id: ¦mass\n",
-        "error: id 'mass' is already in line 9 (give each its own id) [design.duplicate-id]",
+        "error: id 'mass' is already in line 9 (use a unique id) [design.duplicate-id]",
     ),
     "duplicate level": (
         "{id: three,",
         "{id: ¦two,",
-        "error: id 'two' is already in line 17 (give each its own id) [design.duplicate-id]",
+        "error: id 'two' is already in line 17 (use a unique id) [design.duplicate-id]",
     ),
     "parameter with a dot": (
         "{id: d4, name: force",
@@ -38,7 +38,7 @@ CASES = {
     "unit out of SI": (
         "unit: N, description",
         "unit: ¦km, description",
-        "error: d4: unit 'km' is not of SI (write m) [design.unit]",
+        "error: d4: the unit must be SI, got 'km' (write m) [design.unit]",
     ),
     "count with a unit": (
         "kind: count,",
@@ -96,12 +96,12 @@ CASES = {
     "parameter of two factors": (
         "sets: {d2: 3}",
         "sets: {d2: 3, ¦d1: 0.1 kg}",
-        "error: d1 is set already by factor 'mass' (set it in one place) [design.set-twice]",
+        "error: d1 is already set by factor 'mass' (set it in one place) [design.set-twice]",
     ),
     "parameter of a constant and a factor": (
         "sets: {d2: 3}",
         "sets: {d2: 3, ¦d4: 1 N}",
-        "error: d4 is set already by the constants (set it in one place) [design.set-twice]",
+        "error: d4 is already set by the constants (set it in one place) [design.set-twice]",
     ),
     "parameter that other levels set": (
         "sets: {d2: 3}",
@@ -136,12 +136,12 @@ CASES = {
     "broken count": (
         "sets: {d2: 3}",
         "sets: {d2: ¦2.5}",
-        "error: d2: 2.5 is not a whole number from 0 (write a count, such as 2) [design.value]",
+        "error: d2: a whole number from 0 is expected, got 2.5 (write a count, such as 2) [design.value]",
     ),
     "negative count": (
         "sets: {d2: 3}",
         "sets: {d2: ¦-1}",
-        "error: d2: -1 is not a whole number from 0 (write a count, such as 2) [design.value]",
+        "error: d2: a whole number from 0 is expected, got -1 (write a count, such as 2) [design.value]",
     ),
     "number for a name": (
         "sets: {d3: PRM}",
@@ -171,7 +171,7 @@ CASES = {
         "¦{d1: [100 g, 200 g]}",
         (
             "error: 2 components fill the role 'gripper' where d1 = 0.1 kg: small, large "
-            "(let their 'matches' differ) [design.several-components]"
+            "(make their 'matches' distinct) [design.several-components]"
         ),
     ),
     "several components in every design": (
@@ -182,7 +182,7 @@ CASES = {
         ),
         (
             "error: 2 components fill the role 'arm' in every design: a, b "
-            "(let their 'matches' differ) [design.several-components]"
+            "(make their 'matches' distinct) [design.several-components]"
         ),
     ),
     "value that is none": (

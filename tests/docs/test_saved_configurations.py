@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from rgss.scenes import Waypoint, initial_standings, scene_about, waypoint_poses
+from rgss.scenes import Waypoint, initial_placements, scene_about, waypoint_poses
 from rgss.studies.project import load_project
 from rgss.tasks import default_task
 from rgss.trials import Workcell
@@ -26,7 +26,7 @@ def test_they_reach_the_waypoints_with_clearance():
     }
     project = load_project(REPOSITORY, "studies/yumi_widget.yaml")
     (gripper,) = project.grippers.values()
-    scene = scene_about(project.scene, "widget_2", place="", standings=initial_standings(project.scene))
+    scene = scene_about(project.scene, "widget_2", place="", placements=initial_placements(project.scene))
     cell = Workcell(scene, gripper.geometry, clearance_m=CLEARANCE_M, task=default_task())
     poses = waypoint_poses(scene)
 

@@ -166,7 +166,7 @@ def test_a_list_that_is_new_takes_several_entries():
 
 
 def test_a_place_that_is_not_there_is_said():
-    with pytest.raises(DefinitionError, match=r"^the file has nothing at requirements\.9"):
+    with pytest.raises(DefinitionError, match=r"^the file has no value at requirements\.9"):
         edited(TEXT, [SetKey(location=("requirements", 9), key="a", value="b")])
-    with pytest.raises(DefinitionError, match="two changes of one file meet"):
+    with pytest.raises(DefinitionError, match="the edits of a file must not overlap"):
         edited(TEXT, [RemoveKey(location=A, key="criterion"), SetKey(location=A, key="criterion", value="x")])

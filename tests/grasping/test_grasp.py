@@ -29,7 +29,7 @@ def test_contacts_belong_to_fingers(ring):
 @pytest.mark.parametrize(
     ("contacts", "centre", "length", "message"),
     [
-        ([], (0.0, 0.0, 0.0), None, "a grasp without a contact cannot be analysed (give at least one contact)"),
+        ([], (0.0, 0.0, 0.0), None, "a grasp must have at least one contact, got none (give at least one contact)"),
         (
             [AT_CENTRE],
             (0.0, math.inf, 0.0),
@@ -41,7 +41,7 @@ def test_contacts_belong_to_fingers(ring):
             (0.1, 0.0, 0.0),
             None,
             (
-                "the characteristic length of a grasp cannot be 0 m "
+                "the characteristic length of a grasp must be positive, got 0 m "
                 "(give a length above zero, such as the object's greatest radius)"
             ),
         ),
@@ -50,7 +50,7 @@ def test_contacts_belong_to_fingers(ring):
             (0.0, 0.0, 0.0),
             -0.5,
             (
-                "the characteristic length of a grasp cannot be -0.5 m "
+                "the characteristic length of a grasp must be positive, got -0.5 m "
                 "(give a length above zero, such as the object's greatest radius)"
             ),
         ),

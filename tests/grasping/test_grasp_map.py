@@ -92,7 +92,7 @@ def test_intensities_must_fit_the_contacts(ring, grasp_of):
         grasp_map(grasp_of(ring(2)), [[1.0, 0.0, 0.0], [1.0]])
 
     assert str(caught.value) == (
-        "the contacts have [3, 3] intensities each, not [3, 1] "
+        "the numbers of intensities of the contacts must be [3, 3], got [3, 1] "
         "(give 1 for a frictionless contact, 3 for a hard one, 4 for a soft one)"
     )
 
@@ -167,7 +167,7 @@ def test_a_planar_cone_has_its_two_edges_in_the_plane(ring, grasp_of):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"cone_edges": 2}, "a friction cone cannot have 2 edges (give at least 3)"),
+        ({"cone_edges": 2}, "a friction pyramid must have at least 3 edges, got 2 (give at least 3)"),
         (
             {"plane_normal": X},
             (
@@ -175,7 +175,10 @@ def test_a_planar_cone_has_its_two_edges_in_the_plane(ring, grasp_of):
                 "(leave plane_normal out for a grasp in space)"
             ),
         ),
-        ({"plane_normal": (0.0, 0.0, 2.0)}, "the normal of a plane has the length 2 (give it the length 1)"),
+        (
+            {"plane_normal": (0.0, 0.0, 2.0)},
+            "the normal of a plane must have the length 1, got 2 (give it the length 1)",
+        ),
     ],
 )
 def test_pyramids_that_cannot_be(ring, grasp_of, options, message):

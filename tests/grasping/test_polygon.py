@@ -162,4 +162,7 @@ def test_an_axis_without_direction(ring, grasp_of, axis):
     with pytest.raises(DefinitionError) as caught:
         grasp_polygon(grasp_of(ring(3)), axis)
 
-    assert str(caught.value) == f"{axis} is not an axis of a grasp (give three finite numbers, not all zero)"
+    assert (
+        str(caught.value)
+        == f"the axis of a grasp must be a finite, non-zero vector, got {axis} (give three finite numbers)"
+    )

@@ -193,5 +193,6 @@ def test_no_hull(monkeypatch):
         ball_radius(np.hstack([np.eye(6), -np.eye(6)]))
 
     assert str(caught.value) == (
-        "the wrenches of a grasp have no hull: QH6271 wide merge (check that contacts do not nearly coincide)"
+        "the convex hull of a grasp's wrenches cannot be computed: QH6271 wide merge "
+        "(check that contacts do not nearly coincide)"
     )

@@ -89,4 +89,7 @@ def test_a_length_is_positive(length):
     ):
         with pytest.raises(DefinitionError) as caught:
             measure()
-        assert str(caught.value) == f"a characteristic length cannot be {length:g} m (give a length above zero)"
+        assert (
+            str(caught.value)
+            == f"a characteristic length must be positive, got {length:g} m (give a length above zero)"
+        )

@@ -153,5 +153,5 @@ def test_turning_pyramids_changes_little(ring):
 
 
 def test_a_grasp_without_contacts():
-    with pytest.raises(DefinitionError, match="a grasp without a contact cannot be analysed"):
+    with pytest.raises(DefinitionError, match="a grasp must have at least one contact"):
         analyse_grasp([], centre_of_mass_m=CENTRE, finger_force_limit_n=10.0)

@@ -99,5 +99,5 @@ def test_bounds_that_nothing_keeps_have_no_choice():
 def test_legs_that_are_no_chain_over_all_waypoints(legs):
     with pytest.raises(DefinitionError) as caught:
         choose_branches([[np.zeros(2)]] * 3, legs=legs)
-    assert caught.value.message == f"the legs {legs} are no chain or cycle over the 3 waypoints"
-    assert caught.value.hint == "let each leg start where the one before ends, and visit every waypoint once"
+    assert caught.value.message == f"the legs must form a chain or cycle over all 3 waypoints, got {legs}"
+    assert caught.value.hint == "start each leg where the previous one ends, and visit every waypoint once"

@@ -14,7 +14,7 @@ from rgss.scenes import Pose
 
 
 def test_a_text_that_is_no_description(new_robot, capfd):
-    with pytest.raises(DefinitionError, match="the description of the robot ur10 cannot be read"):
+    with pytest.raises(DefinitionError, match="the URDF of the robot ur10 cannot be read"):
         Arm(new_robot(urdf="<robot name='x'><link"), Pose())
 
 
@@ -23,8 +23,8 @@ def test_joints_that_the_description_does_not_have(new_robot, robot):
     with pytest.raises(DefinitionError) as caught:
         Arm(new_robot(joints=joints), Pose())
     assert caught.value.message.startswith("the robot ur10 has the joints waist, shoulder_lift_joint")
-    assert "its description has shoulder_pan_joint" in caught.value.message
-    assert caught.value.hint == "name the movable joints as the description does, from base to flange"
+    assert "its URDF has shoulder_pan_joint" in caught.value.message
+    assert caught.value.hint == "name the movable joints as the URDF does, from base to flange"
 
 
 def test_a_flange_that_is_not_there(new_robot):

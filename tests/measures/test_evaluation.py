@@ -150,7 +150,7 @@ def test_what_trials_compute_from_the_design_alone_is_exact(load: Loader) -> Non
 
 def test_trials_that_differ_in_what_is_of_the_design_are_an_error(load: Loader) -> None:
     message = (
-        "trials of variant 1 give least = 1.5 and 2 kg, though its inputs are declared to follow from the design "
+        "trials of variant 1 give least = 1.5 and 2 kg, but its inputs are declared as of_design "
         "(remove 'of_design' from the input in the measures file)"
     )
     with pytest.raises(DefinitionError) as caught:
@@ -162,7 +162,7 @@ def test_an_input_of_the_design_needs_no_word_of_it(
     load: Loader, findings_of: Callable[..., tuple[Finding, ...]]
 ) -> None:
     (found,) = findings_of(lambda: bench(load, "of_design: true,"))
-    assert found.message == "design.d2 is of the design as it is; 'of_design' is for values that trials compute"
+    assert found.message == "design.d2 is a design value already; 'of_design' is for values computed by trials"
     assert (found.rule, found.hint) == ("measures.estimate", "remove 'of_design'")
 
 

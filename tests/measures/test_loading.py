@@ -106,8 +106,8 @@ def test_a_near_symbol_is_suggested(load_entries: Loader, entry: Writer, finding
 def test_cycles_are_named_in_the_direction_of_use(load_entries: Loader, entry: Writer, findings_of: Finder) -> None:
     findings = findings_of(load_entries, entry("a", "c"), entry("b", "a"), entry("c", "b + m"), entry("d", "d"))
     assert [(finding.line, finding.rule, finding.message) for finding in findings] == [
-        (FIRST_LINE, "measures.cycle", "measures depend on one another in a circle: a → c → b → a"),
-        (FIRST_LINE + 3, "measures.cycle", "measures depend on one another in a circle: d → d"),
+        (FIRST_LINE, "measures.cycle", "measures must not depend on each other in a cycle: a → c → b → a"),
+        (FIRST_LINE + 3, "measures.cycle", "measures must not depend on each other in a cycle: d → d"),
     ]
 
 
@@ -130,7 +130,7 @@ def test_a_measure_is_checked_against_what_another_declares(
 @pytest.mark.parametrize(
     ("more", "rule", "message"),
     [
-        ({}, "measures.estimate", "measure 'x' differs from trial to trial and has no 'estimate'"),
+        ({}, "measures.estimate", "measure 'x' varies from trial to trial and has no 'estimate'"),
         (
             {"estimate": MEAN, "summary": "sum"},
             "measures.summary",
@@ -149,7 +149,7 @@ def test_a_measure_is_checked_against_what_another_declares(
         (
             {"estimate": "{statistic: mean, over: all, least: 3 s, most: 50 ms}"},
             "measures.estimate",
-            "no trial can give at least 3 and at most 0.05 s",
+            "'least' must be below 'most', got 3 and 0.05 s",
         ),
         (
             {"estimate": "{statistic: mean, over: all, most: 5 kg}"},
@@ -168,7 +168,7 @@ def test_a_measure_of_trials_says_how_it_is_estimated(
 def test_a_proportion_has_its_bounds(load_entries: Loader, entry: Writer, findings_of: Finder) -> None:
     rule = "{statistic: proportion, over: all, most: 0.9}"
     (finding,) = findings_of(load_entries, entry("x", "time / time", "1", estimate=rule))
-    assert (finding.message, finding.hint) == ("a proportion lies between 0 and 1 as it is", "remove the bound")
+    assert (finding.message, finding.hint) == ("a proportion is always between 0 and 1", "remove the bound")
 
 
 def test_a_row_says_how_it_is_summarised(load_entries: Loader, entry: Writer, findings_of: Finder) -> None:
@@ -255,7 +255,7 @@ def test_ids_are_symbols_and_stand_once(load: Loader, findings_of: Finder) -> No
         (10, "'nowhere' is not a constant, an input, a measure or an equation"),
         (13, "id '1.1' is already in line 12"),
         (15, "id 'g' is already in line 3"),
-        (15, "measures depend on one another in a circle: g → g"),
+        (15, "measures must not depend on each other in a cycle: g → g"),
         (16, "'x.y' cannot be a symbol"),
     ]
 

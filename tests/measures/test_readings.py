@@ -67,7 +67,7 @@ def test_two_readings_that_need_each_other_cannot_be_taken_together(load_entries
     )
     read = with_alternative(measures, "a", "other")
 
-    with pytest.raises(DefinitionError, match="would depend on one another in a circle: a → b → a"):
+    with pytest.raises(DefinitionError, match="would depend on each other in a cycle: a → b → a"):
         with_alternative(read, "b", "other")
 
 
@@ -116,7 +116,7 @@ def test_an_unknown_alternative_names_those_there_are(
         (
             "[{id: x, expression: a, rationale: R.}]",
             "measures.cycle",
-            "alternative 'x' of 'a': measures depend on one another in a circle: a → a",
+            "alternative 'x' of 'a': measures must not depend on each other in a cycle: a → a",
         ),
         (
             f"[{{id: x, estimate: {MEAN}, rationale: R.}}]",
@@ -141,7 +141,7 @@ def test_a_wrong_alternative_is_a_finding_in_its_line(
         ("nothing", "'nothing' is not another measure"),
         ("a", "'a' is not another measure"),
         ("speed", "'speed' is measured in 'm/s', 'a' in 's'"),
-        ("design_time", "'design_time' follows from the design alone; no simulation shows it"),
+        ("design_time", "'design_time' depends only on the design, not on simulation"),
     ],
 )
 def test_a_simulated_twin_is_a_measure_of_trials_in_the_same_dimension(

@@ -103,5 +103,5 @@ def test_binary_rounding_never_decides(comparison: str, answer: bool) -> None:
 
 
 def test_a_criterion_in_another_dimension_cannot_judge() -> None:
-    with pytest.raises(DefinitionError, match=r"criterion t_e <= 10 kg cannot judge a value in 's'"):
+    with pytest.raises(DefinitionError, match=r"must be in a unit of criterion t_e <= 10 kg, got 's'"):
         judge(criterion("<=", 10.0, unit="kg"), Estimate.exact(1.0, "s"))

@@ -156,5 +156,5 @@ def test_a_path_of_no_length_stays_where_it_is(anything, points):
 def test_a_resolution_that_is_none(anything, resolution):
     with pytest.raises(MotionError) as caught:
         blend(JointPath(ELL), anything, resolution_rad=resolution)
-    assert caught.value.message == f"a path cannot be checked every {resolution:g} rad"
+    assert caught.value.message == f"the resolution must be above 0 rad, got {resolution:g} rad"
     assert caught.value.hint == "give a distance above zero"

@@ -41,20 +41,22 @@ def test_a_wall_clock_tells_what_passes():
 def test_a_charge_that_is_none(charge_s):
     with pytest.raises(MotionError) as caught:
         PlanningClock(charge_s=charge_s)
-    assert caught.value.message == f"a planning clock cannot charge {charge_s:g} s for a check"
-    assert caught.value.hint == "charge more than zero, or use the wall clock"
+    assert caught.value.message == f"the charge of a counted clock must be above 0 s a check, got {charge_s:g} s"
+    assert caught.value.hint == "give a time above zero, or use the wall clock"
 
 
 @pytest.mark.parametrize("limit_s", [-1.0, float("inf"), float("nan")])
 def test_a_limit_that_is_none(limit_s):
     with pytest.raises(MotionError) as caught:
         PlanningClock().checks_within(limit_s)
-    assert caught.value.message == f"a planning time of {limit_s:g} s is no limit"
+    assert caught.value.message == f"the planning time must be at least 0 s, got {limit_s:g} s"
     assert caught.value.hint == "give a time of zero or more"
 
 
 def test_a_wall_clock_does_not_count():
-    with pytest.raises(MotionError, match="a wall clock cannot tell how many checks fit into a time"):
+    with pytest.raises(
+        MotionError, match="the number of checks within a limit needs a counted clock, got a wall clock"
+    ):
         WALL.checks_within(1.0)
-    with pytest.raises(MotionError, match="a wall clock charges nothing for a check"):
+    with pytest.raises(MotionError, match="the time of a number of checks needs a counted clock, got a wall clock"):
         WALL.time_s(1)

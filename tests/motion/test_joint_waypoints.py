@@ -133,7 +133,7 @@ def test_the_same_path_has_the_same_timing(timed, polylines):
 
 def test_limits_for_other_joints(anything, arm):
     limits = MotionLimits(speed_rad_s=(1.0,) * 5, acceleration_rad_s2=(1.0,) * 5, tool_speed_m_s=1.0)
-    with pytest.raises(MotionError, match="the path has 6 joints, but there are limits for 5"):
+    with pytest.raises(MotionError, match="the limits must be for 6 joints, those of the path, got limits for 5"):
         time_move_by_joint_waypoints(
             JointPath(np.array([START, START + 0.1])), anything, arm, limits, resolution_rad=RESOLUTION
         )

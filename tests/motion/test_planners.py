@@ -212,7 +212,7 @@ def test_a_path_length_needs_no_cost(planned):
 
 @engine
 def test_an_objective_without_the_cost_that_it_needs(planned):
-    with pytest.raises(MotionError, match="the objective of the planner needs the cost of a state"):
+    with pytest.raises(MotionError, match="the planner's objective needs the cost of a state"):
         planned(PlannerSettings(algorithm="TRRT", objective=Objective.CLEARANCE))
 
 
@@ -230,7 +230,11 @@ def test_a_roadmap_that_cannot_connect_spends_the_budget(planned):
     ("settings", "message", "hint"),
     [
         (PlannerSettings(algorithm="RRTStar"), "unknown planner 'RRTStar'", "the planners are "),
-        (PlannerSettings(algorithm="SST"), "planner SST cannot be run: it goes on to its limit", "the planners are "),
+        (
+            PlannerSettings(algorithm="SST"),
+            "planner SST cannot be run: it always runs to its limit",
+            "the planners are ",
+        ),
         (
             PlannerSettings(algorithm="RRT", parameters=(("step", 1.0),)),
             "RRT has no parameter 'step'",

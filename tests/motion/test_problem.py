@@ -26,7 +26,7 @@ def test_arrays_become_plain_numbers():
 def test_numbers_of_joints_that_differ():
     with pytest.raises(MotionError) as caught:
         problem(goal=(0.5, 0.5, 0.5))
-    assert caught.value.message == "a planning problem needs ranges, start and goal of the same number of joints"
+    assert caught.value.message == "ranges, start and goal must have the same number of joints"
     assert caught.value.hint == "found 2, 2, 2, 3"
 
 
@@ -39,21 +39,21 @@ def test_a_range_that_is_empty():
     with pytest.raises(MotionError) as caught:
         problem(lower_rad=(-1.0, 1.0))
     assert caught.value.message == "a joint's planning range is empty"
-    assert caught.value.hint == "let its lower end be below its upper end"
+    assert caught.value.hint == "let its lower limit be below its upper limit"
 
 
 @pytest.mark.parametrize("resolution", [0.0, -0.1, math.inf, math.nan])
 def test_a_resolution_that_is_none(resolution):
     with pytest.raises(MotionError) as caught:
         problem(resolution_rad=resolution)
-    assert caught.value.message == f"a path cannot be checked every {resolution:g} rad"
+    assert caught.value.message == f"the resolution must be above 0 rad, got {resolution:g} rad"
     assert caught.value.hint == "give a distance above zero"
 
 
 def test_limits_of_different_numbers_of_joints():
     with pytest.raises(MotionError) as caught:
         MotionLimits(speed_rad_s=(1.0, 1.0), acceleration_rad_s2=(1.0,), tool_speed_m_s=1.0)
-    assert caught.value.message == "there are 2 joint speeds but 1 accelerations"
+    assert caught.value.message == "joint speed and acceleration limits must be equally many, got 2 and 1"
     assert caught.value.hint == "give one of each for every joint"
 
 
@@ -62,6 +62,6 @@ def test_limits_of_different_numbers_of_joints():
 )
 def test_a_limit_that_nothing_can_keep(changes):
     limits = MotionLimits(speed_rad_s=(1.0,), acceleration_rad_s2=(1.0,), tool_speed_m_s=1.0)
-    with pytest.raises(MotionError, match="a motion cannot keep a limit of") as caught:
+    with pytest.raises(MotionError, match="motion limits must be positive, got") as caught:
         replace(limits, **changes)
-    assert caught.value.hint == "let every limit be above zero"
+    assert caught.value.hint == "give every limit a value above zero"

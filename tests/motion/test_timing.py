@@ -256,7 +256,7 @@ def test_limits_for_other_joints(anything, arm):
     limits = MotionLimits(speed_rad_s=(1.0,) * 5, acceleration_rad_s2=(1.0,) * 5, tool_speed_m_s=1.0)
     with pytest.raises(MotionError) as caught:
         time_move(JointPath(np.zeros((2, 6))), anything, arm, limits, resolution_rad=RESOLUTION)
-    assert caught.value.message == "the path has 6 joints, but there are limits for 5"
+    assert caught.value.message == "the limits must be for 6 joints, those of the path, got limits for 5"
     assert caught.value.hint == "give limits for every joint"
 
 

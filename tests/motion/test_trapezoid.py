@@ -189,10 +189,10 @@ def test_a_path_of_one_point_takes_no_time(timed):
 
 def test_limits_of_another_number_of_joints(arm, anything, polylines):
     limits = MotionLimits(speed_rad_s=(1.0,) * 7, acceleration_rad_s2=(1.0,) * 7, tool_speed_m_s=1.0)
-    with pytest.raises(MotionError, match="the path has 6 joints, but there are limits for 7"):
+    with pytest.raises(MotionError, match="the limits must be for 6 joints, those of the path, got limits for 7"):
         time_move_by_trapezoids(JointPath(polylines(1)[0]), anything, arm, limits, resolution_rad=RESOLUTION)
 
 
 def test_a_resolution_of_nothing(arm, anything, limits, polylines):
-    with pytest.raises(MotionError, match="a path cannot be checked every 0 rad"):
+    with pytest.raises(MotionError, match="the resolution must be above 0 rad, got 0 rad"):
         time_move_by_trapezoids(JointPath(polylines(1)[0]), anything, arm, limits(), resolution_rad=0.0)

@@ -109,5 +109,5 @@ def test_verification_finds_what_lies_between_corners(wall):
 
 
 def test_a_resolution_of_nothing(through_the_doorway):
-    with pytest.raises(MotionError, match="a path cannot be checked every 0 rad"):
+    with pytest.raises(MotionError, match="the resolution must be above 0 rad, got 0 rad"):
         replace(through_the_doorway, verification_resolution_rad=0.0)

@@ -203,7 +203,7 @@ def test_a_body_that_the_engine_refuses(two_fingers, monkeypatch):
     before = connected(engine)
     monkeypatch.setattr(engine, "createMultiBody", lambda *_, **__: -1)
 
-    with pytest.raises(SimulationError, match=r"refused a body of a picture \(check its sizes\)"):
+    with pytest.raises(SimulationError, match=r"rejected a rendered body \(check its sizes\)"):
         Camera(two_fingers.scene, two_fingers.gripper, VIEWS["overview"], width=64, height=64)
     assert connected(engine) == before
 

@@ -85,7 +85,7 @@ def test_a_broken_urdf_closes_the_client_and_says_why_in_one_line(three_fingers,
 def test_a_body_without_extent_is_refused(three_fingers, capfd, shape, sizes):
     floor = replace(three_fingers.scene.bodies[0], shape=shape)
     error = refused(three_fingers, bodies=(floor,))
-    assert error.message == f"a body cannot have the sizes {sizes}"
+    assert error.message == f"the sizes of a body must be positive, got {sizes}"
     assert error.hint == "give lengths greater than zero"
     assert capfd.readouterr() == ("", "")
 
@@ -93,14 +93,14 @@ def test_a_body_without_extent_is_refused(three_fingers, capfd, shape, sizes):
 @pytest.mark.parametrize("mass_kg", [0.0, -1.0, float("nan"), float("inf")])
 def test_a_workpiece_without_mass_is_refused(three_fingers, mass_kg):
     error = refused(three_fingers, **three_fingers.with_workpiece(mass_kg=mass_kg))
-    assert error.message == f"the workpiece cannot have the mass {mass_kg} kg"
+    assert error.message == f"the mass of the workpiece must be positive, got {mass_kg} kg"
     assert error.hint == "give a mass greater than zero"
 
 
 def test_a_body_that_the_engine_does_not_make_is_refused(three_fingers, monkeypatch):
     monkeypatch.setattr(pybullet(), "createMultiBody", lambda *_, **__: -1)
     error = refused(three_fingers)
-    assert (error.message, error.hint) == ("the physics engine refused a body", "check its sizes")
+    assert (error.message, error.hint) == ("the physics engine rejected a body", "check its sizes")
 
 
 def test_any_other_refusal_of_the_engine_is_a_simulation_error(three_fingers, monkeypatch):
@@ -109,7 +109,7 @@ def test_any_other_refusal_of_the_engine_is_a_simulation_error(three_fingers, mo
 
     monkeypatch.setattr(pybullet(), "createMultiBody", refuse)
     error = refused(three_fingers)
-    assert error.message == "the physics engine refused the world: createMultiBody failed."
+    assert error.message == "the physics engine rejected the world: createMultiBody failed."
     assert error.hint == "check the scene"
 
 

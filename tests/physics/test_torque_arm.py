@@ -200,7 +200,7 @@ def test_a_refusal_of_the_engine_is_a_simulation_error(three_fingers, monkeypatc
     with pytest.raises(SimulationError) as caught:
         arm_of(three_fingers)
     assert (caught.value.message, caught.value.hint) == (
-        "the physics engine refused the arm: no motors today",
+        "the physics engine rejected the arm: no motors today",
         "check the robot",
     )
 

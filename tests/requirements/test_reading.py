@@ -46,7 +46,7 @@ def test_an_id_is_unique_across_the_files_of_a_part(project):
     assert project.findings() == [
         (
             "requirements/system/2-late.yaml:2:9: error: id 'SYS-1' is already declared at "
-            "requirements/system/1-early.yaml:2:9 (give it an id of its own) [requirements.duplicate-id]"
+            "requirements/system/1-early.yaml:2:9 (use a unique id) [requirements.duplicate-id]"
         )
     ]
 
@@ -93,7 +93,10 @@ def test_a_file_that_would_be_passed_over_is_reported(project):
     divided(project)
     (project.folder / "system" / "1-early.yaml").rename(project.folder / "system" / "1-early.yml")
     assert project.findings() == [
-        "requirements/system/1-early.yml:1:1: error: a file of requirements ends in .yaml (rename it) [document.name]"
+        (
+            "requirements/system/1-early.yml:1:1: error: the name of a requirements file must end in .yaml "
+            "(rename it) [document.name]"
+        )
     ]
 
 

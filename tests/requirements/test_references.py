@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-DUPLICATE = "(give it an id of its own) [duplicate-id]"
+DUPLICATE = "(use a unique id) [duplicate-id]"
 ANOTHER = """\
   - id: SYS-2
     group: gripper

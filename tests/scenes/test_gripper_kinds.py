@@ -69,7 +69,7 @@ def test_the_speed_of_an_open_loop_gripper_follows_from_its_command(tmp_path):
     [
         ("parallel", "kind: parallel", "kind: tentacle", "unknown kind of gripper 'tentacle'"),
         ("parallel", "mounting: reverse\n", "mounting: sideways\n", "there is no mounting 'sideways'"),
-        ("parallel", "mounting: reverse\n", "", "a gripper with several mountings must name the one"),
+        ("parallel", "mounting: reverse\n", "", "a gripper with several mountings must name its default"),
         ("parallel", "open: 16 mm", "open: 0 mm", "mounting 'normal' opens to 0 mm and closes to 0 mm"),
         ("parallel", "closed: 0 mm", "closed: -1 mm", "closed must not be less than zero"),
         ("parallel", "drive_inertia: 0.1 kg", "drive_inertia: 0 kg", "drive_inertia must be greater than zero"),

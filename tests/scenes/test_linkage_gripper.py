@@ -155,7 +155,7 @@ def test_the_hand_of_a_whole_robot_is_read_from_its_urdf(tmp_path):
         ('joint="left_joint"/>', 'joint="left_joint" multiplier="0.5"/>', "mm beside the tool axis"),
         ('joint="left_joint"/>', 'joint="left_joint" offset="0.01"/>', "mm beside the tool axis"),
         ('value="0.05"', 'value="0"', "has no mass or no inertia for link 'left'"),
-        ('xyz="0 0 0.06"', 'xyz="0 0 60"', "puts a part of the link 'left' 60.04 m from the flange"),
+        ('xyz="0 0 0.06"', 'xyz="0 0 60"', "places a part of the link 'left' 60.04 m from the flange"),
         ('value="0.4"', 'value="400"', "gives the link 'palm' 400 kg"),
         ('effort="30"', 'effort="0"', "gives the driven joint 'left_joint' no effort"),
         ('lower="-0.01"', 'lower="0.03"', "leaves the driven joint 'left_joint' no travel"),
@@ -209,7 +209,7 @@ def test_a_gripper_file_that_does_not_fit_its_urdf_is_refused(jaws, file, expect
 def test_a_pad_that_approaches_and_parts_again_is_refused(two_finger, tmp_path):
     text = TWO_FINGER.read_text(encoding="utf-8").replace('lower="0" upper="0.7"', 'lower="-1.5" upper="0.7"')
     (tmp_path / TWO_FINGER.name).write_text(text, encoding="utf-8")
-    with pytest.raises(DocumentError, match="approach and part again"):
+    with pytest.raises(DocumentError, match="approach and separate again"):
         load_gripper_file(tmp_path / "gripper.yaml")
 
 

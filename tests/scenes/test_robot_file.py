@@ -56,7 +56,7 @@ def test_a_joint_that_stands_twice_is_found(kitchen):
     kitchen.change("robots/six.yaml", "name: joint_4", "name: ¦joint_3")
     (finding,) = kitchen.findings("robot")
     assert finding == (
-        f"{kitchen.marks()[0]} scene.duplicate-id joint 'joint_3' stands already above "
+        f"{kitchen.marks()[0]} scene.duplicate-id joint 'joint_3' is listed twice "
         "(name each joint of the arm once, from the base to the flange)"
     )
 

@@ -8,7 +8,7 @@ from rgss.scenes import LANDING_LIMIT_M_S, Box, Cylinder, Task
 
 TOO_HIGH = (
     "scene.drop a place_clearance of 11 mm drops the object from more than 10 mm "
-    "(release it lower, or let place_region have a larger largest_drop)"
+    "(release it lower, or increase largest_drop of place_region)"
 )
 
 
@@ -118,8 +118,8 @@ def test_touching_is_allowed_and_so_is_no_friction(kitchen):
             "  place_yaw: 90 deg\n",
             "  place_yaw: 90 deg\n  grasp: automatic\n  free_yaw: ¦true\n",
             (
-                "scene.free-yaw the yaw is free only where every object is an upright cylinder that is gripped "
-                "from above (leave free_yaw out, or let grasp be as_stated)"
+                "scene.free-yaw free_yaw requires that every object is an upright cylinder gripped from above "
+                "(remove free_yaw, or set grasp to as_stated)"
             ),
         ),
         ("600 mm, 0.7 m", "¦0 mm, 0.7 m", "scene.not-positive box must be greater than zero"),
@@ -180,8 +180,9 @@ def test_a_drop_that_damages_the_object_is_found(kitchen):
     kitchen.change("kitchen.yaml", "clearance: 2 mm", "clearance: ¦52 mm")
     (finding,) = kitchen.findings("scene")
     assert finding == (
-        f"{kitchen.marks()[0]} scene.landing a place_clearance of 52 mm lands the object with 1.01 m/s, it bears 1 m/s "
-        "(release it lower, or give the workpiece a greater landing_limit)"
+        f"{kitchen.marks()[0]} scene.landing a place_clearance of 52 mm lands the object with 1.01 m/s, "
+        "above its limit of 1 m/s "
+        "(release it lower, or increase landing_limit of the workpiece)"
     )
 
 

@@ -19,9 +19,9 @@ VALUES = [
         "{d7: 0.5 m/s}",
         "{d7: 1e-9 m/s}",
         "1e-9 m/s}",
-        "error: d7 must be at least 1 mm/s (a slower arm or hand would need hours for the task) [design.too-slow]",
+        "error: d7 must be at least 1 mm/s (a slower arm or hand would take hours for the task) [design.too-slow]",
     ),
-    ("d4: 0.04 m/s", "d4: 0.9 mm/s", "0.9 mm/s", "error: d4 must be at least 1 mm/s (a slower arm or hand would need"),
+    ("d4: 0.04 m/s", "d4: 0.9 mm/s", "0.9 mm/s", "error: d4 must be at least 1 mm/s (a slower arm or hand would take"),
     ("{d9: 4 s}", "{d9: -4 s}", "-4 s}", "error: d9 must be greater than zero [design.not-positive]"),
     (
         "{d8: TRRT}",

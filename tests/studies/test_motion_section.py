@@ -195,7 +195,7 @@ def test_a_design_sets_profile_mode_and_gains(folder, edit):
         (
             'unit: "1", sets: timing.peak_speed',
             "1.5",
-            "x must be at most 1, got 1.5 (a share of what the joint can do)",
+            "x must be at most 1, got 1.5 (a share of the joint's limit)",
         ),
         ('unit: "1", sets: timing.peak_acceleration', "0", "x must be greater than zero"),
         ("unit: rad/s, sets: control.position_gain", "-1 rad/s", "x must be at least 0 rad/s"),

@@ -46,7 +46,7 @@ def troubles_of_tasks() -> dict[str, TaskError]:
         "fail": TaskError(kind=RunFailureKind.RAISED, detail="ZeroDivisionError: division by zero", may_pass=True),
         "refuse": TaskError(
             kind=RunFailureKind.RAISED,
-            detail="the workpiece cannot have the mass 0 (give it some)",
+            detail="the mass of the workpiece must be positive, got 0 (give it some)",
             may_pass=False,
         ),
         "hang": TaskError(kind=RunFailureKind.TIMED_OUT, detail="not done after 5 s", may_pass=True),

@@ -351,7 +351,7 @@ def test_every_kind_of_trouble_is_recorded_and_the_sweep_goes_on(specs_of, store
         lost(2, RunFailureKind.CRASHED, crashed),
         lost(3, RunFailureKind.TIMED_OUT, "not done after 3 s"),
         lost(4, RunFailureKind.OUT_OF_MEMORY, "MemoryError"),
-        lost(5, RunFailureKind.RAISED, "the workpiece cannot have the mass 0 (give it some)", attempts=1),
+        lost(5, RunFailureKind.RAISED, "the mass of the workpiece must be positive, got 0 (give it some)", attempts=1),
         lost(7, RunFailureKind.RAISED, "ZeroDivisionError: division by zero", what="execution", key=execution),
     ]
     assert sorted(result.lost, key=lambda each: each.trials) == expected

@@ -187,7 +187,7 @@ def test_a_line_that_ends_in_another_configuration_is_unreachable(ends):
 
     assert found.outcome is PlanOutcome.MOVE_UNREACHABLE
     assert found.detail == (
-        "the straight line of the tool ends in another configuration of the arm than the next move begins in"
+        "the straight line of the tool ends in a configuration of the arm that differs from the start of the next move"
     )
 
 

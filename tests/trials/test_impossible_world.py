@@ -13,5 +13,5 @@ pytestmark = pytest.mark.engine
 
 
 def test_a_workpiece_without_mass_is_an_error(spec_of):
-    with pytest.raises(SimulationError, match="the workpiece cannot have the mass 0"):
+    with pytest.raises(SimulationError, match="the mass of the workpiece must be positive, got 0"):
         run_trial(with_workpiece(spec_of(28), mass_kg=0.0))

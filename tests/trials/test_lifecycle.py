@@ -318,7 +318,7 @@ def test_shut_down_in_the_middle_ends_the_task_and_closes_the_world(trial):
     bystander.action = stop
     simulation.initialise()
     text = refusal(simulation.execute)
-    assert text == "the simulation was shut down before the task was complete (make a new one to run it)"
+    assert text == "the simulation was shut down before the task was complete (create a new simulation to run it)"
     assert worlds == [before + 1]
     assert open_clients() == before
     assert bystander.steps == 50

@@ -249,7 +249,7 @@ class ScriptedWorld:
         self.grip_fault = ""
         self.enter(Phase.GRASP)
 
-    def solve_freely(self, *, free):
+    def reduce_solver_effort(self, *, free):
         """Nothing is solved."""
 
     def enter(self, phase):

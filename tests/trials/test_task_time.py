@@ -62,7 +62,7 @@ def test_a_task_beyond_its_time_limit_ends_in_the_phase_in_which_it_passes(spec,
             continue
         assert record.failure is Failure.TASK_TIME_LIMIT
         taken_s = 0.5 * (index + 1)
-        assert record.failure_detail == f"the task had taken {taken_s:.3g} s, and may take {limit_s:g} s"
+        assert record.failure_detail == f"the task took {taken_s:.3g} s, which exceeds its limit of {limit_s:g} s"
         assert record.phases[index].outcome is PhaseOutcome.FAILED
         assert record.phases[index].duration_s == 0.5
         assert all(later.outcome is PhaseOutcome.NOT_RUN for later in record.phases[index + 1 :])

@@ -58,7 +58,7 @@ def verify_evidence(options: argparse.Namespace, store: EvidencePlace) -> int:
 
 def _mend(found: Verification, store: EvidencePlace) -> str:
     """Repair the damage; returns a description of the repair."""
-    from rgss.evidence.store import salvage, take_away
+    from rgss.evidence.store import remove_damaged_rows, salvage
 
     if found.pages_are_damaged:
         path, to = store.path, store.path.with_name(f"{store.path.name}.mended")
@@ -67,7 +67,7 @@ def _mend(found: Verification, store: EvidencePlace) -> str:
             f"{saved} sound rows are saved in {to.name} beside it. When no sweep is running, remove {path.name} and "
             f"the files {path.name}-wal and {path.name}-shm if they are there, and rename {to.name} to {path.name}."
         )
-    removed = take_away(store.path, found, label=store.label)
+    removed = remove_damaged_rows(store.path, found, label=store.label)
     if not removed:
         return "The ledger is rewritten for the rows that exist; 'rgss sweep' makes the others again as needed."
     return f"{removed} damaged {plural('row', removed)} removed; 'rgss sweep' makes their contents again."

@@ -1,4 +1,4 @@
-"""Names and values by which filters and rules choose among designs, and the choice itself."""
+"""Selection of designs by filters, and the names and values of filters and rules."""
 
 from rgss.designs.choosing.filter_names import FilterNames, NamedValues, respelt
 from rgss.designs.choosing.picking import picked

@@ -1,6 +1,6 @@
-"""Names that filters and rules share: parameters, factors with their levels, and roles with their components.
+"""Names of filters and rules: parameters, factors with their levels, and roles with their components.
 
-``gripper=three`` after ``--only`` and ``gripper: three`` in a rule choose the same designs.
+``gripper=three`` after ``--only`` and ``gripper: three`` in a rule select the same designs.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from rgss.designs.parameters import DesignParameter, ParameterValue
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NamedValues:
-    """Values of a factor or a role, each with the settings that it means; any of them will do.
+    """Values of a factor or a role, each with its alternative settings.
 
     Attributes:
-        own: Levels of the factor, and components of the role.
-        choosing: Further levels by which the component of the role is chosen, such as its number of fingers.
+        own: Levels of the factor, or components of the role.
+        choosing: Further levels that select the component of the role, such as its number of fingers.
     """
 
     own: Mapping[str, tuple[Alternative, ...]]
     choosing: Mapping[str, tuple[Alternative, ...]]
 
     def alternatives(self, value: str) -> tuple[Alternative, ...]:
-        """The settings that a value means, whatever its capitals; empty if it is unknown."""
+        """Settings of a value, case-insensitive; empty if it is unknown."""
         for known in (self.own, self.choosing):
             spelt = respelt(value, known)
             if spelt in known:
@@ -53,9 +53,9 @@ class FilterNames:
     selectors: Mapping[str, Mapping[str, tuple[ParameterValue, ...]]]
 
     def parameter(self, name: str) -> DesignParameter | None:
-        """The parameter that a name means: by its id, by what it sets, or by its name if nothing else has that.
+        """Parameter by id, by the quantity that it sets, or by its name if unique.
 
-        A factor with a range means its parameter. Capitals make no difference where one name alone is meant.
+        The name of a factor with a range refers to its parameter. Case is ignored if the name is then unique.
         """
         ids = {one.id: one for one in self.parameters}
         by_name = {**{one.sets: one for one in self.parameters if one.sets}, **ids}
@@ -73,7 +73,7 @@ class FilterNames:
         return named.get(respelt(name, named))
 
     def values(self, name: str) -> NamedValues | None:
-        """The values of the factor or the role that a name means; None if it means neither."""
+        """Values of a factor or a role by name; None if there is neither."""
         factors = {one.id: one for one in self.factors if one.span is None}
         roles = [role.id for role in self.catalogue.roles]
         factor = factors.get(respelt(name, factors))
@@ -89,7 +89,7 @@ class FilterNames:
         return NamedValues(own=own, choosing=choosing)
 
     def known(self) -> set[str]:
-        """Every name, without prefixes."""
+        """All names, without prefixes."""
         parameters = {one.id for one in self.parameters} | {one.name for one in self.parameters}
         roles = {role.id for role in self.catalogue.roles}
         return parameters | {one.id for one in self.factors} | set(set_names(self.parameters)) | roles
@@ -105,7 +105,7 @@ class FilterNames:
 
 
 def respelt(name: str, known: Iterable[str]) -> str:
-    """A name as it is known, if capitals alone distinguish it from exactly one that is; else the name itself."""
+    """Known name that differs only in case, if unique; else the name itself."""
     names = list(known)
     if name in names:
         return name

@@ -1,4 +1,4 @@
-"""Choosing some of the variants of a design space by a text, as ``--only`` takes it."""
+"""Selection of variants of a design space by a text, the argument of ``--only``."""
 
 from __future__ import annotations
 
@@ -26,26 +26,25 @@ Filter = Callable[[DesignVariant], bool]
 
 
 def picked(space: DesignSpace, terms: Sequence[str], *, option: str = "--only") -> tuple[DesignVariant, ...]:
-    """The variants that every one of some terms chooses.
+    """Variants selected by all of the terms.
 
     A term is one of
 
-    - ids and filters with commas between them, which choose what any of them does: ``1,5,60-72``,
-      ``planning.planner=RRT,planning.planner=TRRT``. A filter compares a parameter (by its id, its name or
-      what it sets), a factor's level or a component with a value (``planning.planner=RRT``, ``fingers=two``,
-      ``gripper!=kg-2-light``), whatever its capitals, a component also with a level that chooses it
-      (``gripper=three``), or is a constraint as in the file of the design space
-      (``robot.tool_speed <= 0.8 m/s``);
-    - a fraction such as ``1/4``: so many of the variants that the terms before it choose, balanced
-      over the levels of their factors.
+    - ids and filters separated by commas, which select the union: ``1,5,60-72``,
+      ``planning.planner=RRT,planning.planner=TRRT``. A filter compares a parameter (by its id, its name or what it
+      sets), a factor's level or a component with a value (``planning.planner=RRT``, ``fingers=two``,
+      ``gripper!=kg-2-light``), case-insensitive, a component also with a level that selects it (``gripper=three``), or
+      is a constraint as in the file of the design space (``robot.tool_speed <= 0.8 m/s``);
+    - a fraction such as ``1/4``: that share of the variants selected by the terms before it, balanced over the levels
+    of their factors.
 
     Args:
         space: The design space.
         terms: The terms, in order.
-        option: What the user knows them by.
+        option: Name of the option in messages.
 
     Raises:
-        DefinitionError: A term is unknown, or no variant is left.
+        DefinitionError: A term is unknown, or no variant is selected.
     """
     variants = space.expand()
     for term in terms:
@@ -58,7 +57,7 @@ def picked(space: DesignSpace, terms: Sequence[str], *, option: str = "--only") 
             variants = tuple(one for one in variants if any(holds(one) for holds in filters))
         if before and not variants:
             raise DefinitionError(
-                f"{option}: no variant is left at {term.strip()!r}", hint="'rgss variants' lists all of them"
+                f"{option}: no variant is left at {term.strip()!r}", hint="run 'rgss variants' to list them"
             )
     return variants
 
@@ -68,7 +67,8 @@ def _fraction(
 ) -> tuple[DesignVariant, ...]:
     if not 0 < part < of:
         raise DefinitionError(
-            f"{option}: {part}/{of} is not a part of the variants", hint="write a fraction such as 1/4"
+            f"{option}: the fraction must be above 0 and below 1, got {part}/{of}",
+            hint="write a fraction such as 1/4",
         )
     count = max(1, (2 * len(variants) * part + of) // (2 * of))
     rows = [_codes(space, variant) for variant in variants]
@@ -76,7 +76,7 @@ def _fraction(
 
 
 def _codes(space: DesignSpace, variant: DesignVariant) -> list[int]:
-    """The level of each factor as a number; of a range, the quarter of it."""
+    """Level of each factor as a number; the quarter for a range."""
     codes = []
     for factor in space.factors:
         if factor.span is not None:
@@ -128,12 +128,12 @@ def _ids(space: DesignSpace, text: str, option: str) -> Filter:
         )
     if first == last and first not in known:
         why = f"repeats variant {repeats[first]}" if first in repeats else f"breaks rule {excluded[first][0]!r}"
-        raise DefinitionError(f"{option}: {first} is not a variant: it {why}", hint="'rgss variants' lists all of them")
+        raise DefinitionError(f"{option}: {first} is not a variant: it {why}", hint="run 'rgss variants' to list them")
     return lambda variant: first <= variant.id <= last
 
 
 def _equals(space: DesignSpace, name: str, value: str, option: str) -> Filter | None:
-    """A filter on one name and its value; None if nothing has the name."""
+    """Filter on a name and its value; None if the name is unknown."""
     names = _names(space)
     parameter = names.parameter(name)
     if parameter is not None:

@@ -1,4 +1,4 @@
-"""Quantities of a trial that a design can set: their type, and the parameters of planners."""
+"""Settable quantities of a trial: their type, and the parameters of planners."""
 
 from rgss.designs.settable.motion_quantities import MOTION_QUANTITIES
 from rgss.designs.settable.planner_quantities import PLANNER_PREFIX, PLANNER_QUANTITIES

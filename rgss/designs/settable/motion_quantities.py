@@ -1,11 +1,11 @@
-"""Quantities of the timing of moves and of the control of the joints that a design sets."""
+"""Settable quantities of timing and joint control."""
 
 from __future__ import annotations
 
 from rgss.designs.parameters import ParameterKind
 from rgss.designs.settable.quantity import SettableQuantity
 
-_SHARE = "a share of what the joint can do"
+_SHARE = "a share of the joint's limit"
 
 MOTION_QUANTITIES = (
     SettableQuantity(
@@ -21,7 +21,7 @@ MOTION_QUANTITIES = (
     SettableQuantity(
         name="timing.peak_speed",
         unit="1",
-        meaning="Share of each joint's greatest speed that moves use.",
+        meaning="Share of each joint's speed limit that moves use.",
         field="settings.timing.peak_speed",
         default="timing.peak_speed in the study",
         required=False,
@@ -31,7 +31,7 @@ MOTION_QUANTITIES = (
     SettableQuantity(
         name="timing.peak_acceleration",
         unit="1",
-        meaning="Share of each joint's greatest acceleration that moves use.",
+        meaning="Share of each joint's acceleration limit that moves use.",
         field="settings.timing.peak_acceleration",
         default="timing.peak_acceleration in the study",
         required=False,
@@ -67,7 +67,7 @@ MOTION_QUANTITIES = (
     SettableQuantity(
         name="control.position_gain",
         unit="rad/s",
-        meaning="Velocity that the mode velocity adds for each unit of a joint's position error.",
+        meaning="Position gain of the mode velocity: added velocity per joint position error.",
         field="settings.controller.position_gain_1_s",
         default="control.position_gain in the study",
         required=False,
@@ -78,7 +78,7 @@ MOTION_QUANTITIES = (
     SettableQuantity(
         name="control.velocity_gain",
         unit="rad/s",
-        meaning="Acceleration that the mode velocity commands for each unit of a joint's velocity error.",
+        meaning="Velocity gain of the mode velocity: commanded acceleration per joint velocity error.",
         field="settings.controller.velocity_gain_1_s",
         default="control.velocity_gain in the study",
         required=False,

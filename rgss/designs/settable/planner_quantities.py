@@ -1,7 +1,7 @@
-"""Parameters of OMPL's planners as quantities that a design or a study sets, with their units.
+"""Parameters of OMPL's planners as settable quantities, with their units.
 
-The names, and which of them are counts, are those of OMPL's parameter sets; a test compares them with the table of
-`rgss.motion`, which has for each planner its own parameters, their defaults and their ranges.
+Names and types are those of OMPL's parameter sets; a test compares them with the table of `rgss.motion`, which has the
+parameters, defaults and ranges of each planner.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from rgss.designs.parameters import ParameterKind
 from rgss.designs.settable.quantity import Application, SettableQuantity
 
 PLANNER_PREFIX = "planning.planner."
-"""``sets: planning.planner.<parameter>`` sets a parameter of the planner that the design has."""
+"""``sets: planning.planner.<parameter>`` sets a parameter of the design's planner."""
 
 _DISTANCES: Mapping[str, str] = MappingProxyType(
     {
         "frontier_threshold": "Distance in joint space beyond which a new state widens the frontier of TRRT's tree.",
         "pruning_radius": "Distance in joint space within which SST keeps only the best state.",
-        "range": "Longest motion in joint space that is added to a tree; 0 rad leaves it to OMPL.",
+        "range": "Longest motion in joint space that is added to a tree; 0 rad for OMPL's default.",
         "selection_radius": "Distance in joint space within which SST selects the best state.",
     }
 )
@@ -117,4 +117,4 @@ def _quantities() -> Iterator[SettableQuantity]:
 
 
 PLANNER_QUANTITIES: Mapping[str, SettableQuantity] = MappingProxyType({one.name: one for one in _quantities()})
-"""Parameters of planners by what ``sets`` names them."""
+"""Parameters of planners by their name in ``sets``."""

@@ -1,4 +1,4 @@
-"""A quantity of a trial that a design can set, and how it is applied."""
+"""Settable quantity of a trial."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from rgss.designs.parameters import ParameterKind
 
 
 class Application(Enum):
-    """Way in which the value of a quantity is applied to a trial."""
+    """Application of a quantity's value to a trial."""
 
     REPLACE = "replaces the field"
     REQUIRE = "must equal the field"
@@ -19,7 +19,7 @@ class Application(Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SettableQuantity:
-    """A quantity of a trial that a design can set.
+    """Quantity of a trial that a design can set.
 
     Attributes:
         name: Its name in files, such as ``robot.tool_speed``.
@@ -27,15 +27,15 @@ class SettableQuantity:
         unit: The SI unit of its values; ``"1"`` for counts and ratios, empty for names.
         meaning: Meaning, in a sentence.
         field: The field of `rgss.trials.pieces.TrialSpec` that it sets, such as ``gripper.finger_mass_kg``.
-        application: How it is applied to the field.
-        default: The file and key that give its value where no design does; empty if there is none.
-        required: Whether a trial cannot be made without it.
+        application: Application to the field.
+        default: File and key of its default value; empty if there is none.
+        required: Whether a trial needs a value.
         positive: Whether it must be greater than zero.
-        least: The least value that is accepted, with its unit; empty for none.
-        least_reason: Reason that a smaller value is refused.
-        greatest: The greatest value that is accepted, with its unit; empty for none.
-        greatest_reason: Reason that a greater value is refused.
-        choices: The names that are accepted; empty where something else knows them.
+        least: The least allowed value, with its unit; empty for none.
+        least_reason: Reason why smaller values are rejected.
+        greatest: The greatest allowed value, with its unit; empty for none.
+        greatest_reason: Reason why greater values are rejected.
+        choices: The allowed names; empty if they are checked elsewhere.
     """
 
     name: str

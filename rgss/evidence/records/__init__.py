@@ -1,4 +1,4 @@
-"""Values of the evidence: records, pieces, provenance, and their encoding and digests."""
+"""Evidence values: records, pieces and provenance, with serialisation and digests."""
 
 from rgss.evidence.records.codec import plain_json, read_json, read_plain, record_from_json, record_to_json
 from rgss.evidence.records.digests import is_digest, record_digest, text_digest, trial_key

@@ -1,4 +1,4 @@
-"""Records as JSON texts, read back strictly: a damaged text gives an error."""
+"""Strict JSON serialisation of records; a damaged text raises an error."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from rgss.evidence.records.readers import MismatchError, reader_of
 from rgss.evidence.records.records import TrialRecord
 
 _LONGEST_INTEGER = 1000
-"""Digits of the longest integer that is read: the time for it grows with their square."""
+"""Greatest number of digits of an integer; the parsing time is quadratic in it."""
 
 Value = TypeVar("Value")
 
 _WHERE_VARIED: Mapping[str, object] = MappingProxyType({"workload": "", "draws": {}})
-"""Keys that a record has only where something was drawn, with their defaults elsewhere."""
+"""Keys present only in records with draws, with their defaults."""
 
 
 def record_to_json(record: TrialRecord) -> str:
-    """Write a record as canonical JSON.
+    """Record as canonical JSON.
 
-    The record is compared with what its text reads back as, so that nothing is written that
-    could not be read: a value of the wrong type, or one that is not finite.
+    The text is read back and compared with the record, so that no text is written that could not be read, such as one
+    with a value of a wrong type or a non-finite number.
 
     Raises:
         EvidenceError: The record has such a value.
@@ -47,16 +47,16 @@ def record_to_json(record: TrialRecord) -> str:
 
 
 def record_from_json(text: str) -> TrialRecord:
-    """Read a record that `record_to_json` wrote.
+    """Record from the output of `record_to_json`.
 
     Raises:
-        EvidenceError: The text is not such a record; the message names the part that is wrong.
+        EvidenceError: The text is not a record; the message names the invalid part.
     """
     data = _loaded(text, "record", float)
     if isinstance(data, dict):
         for name, default in _WHERE_VARIED.items():
             if name in data and data[name] == default:
-                raise EvidenceError(f"record.{name} is empty, and then is left out")
+                raise EvidenceError(f"record.{name} must be omitted if empty")
         data = {**_WHERE_VARIED, **data}
     return read_plain(data, TrialRecord, "record")
 
@@ -64,25 +64,25 @@ def record_from_json(text: str) -> TrialRecord:
 def read_json(text: str, kind: type[Value], name: str) -> Value:
     """Read a JSON text as a type: a dataclass, enumeration, mapping, tuple, union or plain type.
 
-    Nothing is coerced and nothing left out: every field must be there, and no other.
+    Nothing is coerced; exactly the fields of the type are required.
 
     Args:
         text: The text.
-        kind: What it should be.
+        kind: The expected type.
         name: Its name in messages.
 
     Raises:
-        EvidenceError: It is something else.
+        EvidenceError: The text has another content.
     """
-    # Whether its floats are finite is checked by type, where their location is known.
+    # Finite floats are required by type, where their location is known.
     return read_plain(_loaded(text, name, float), kind, name)
 
 
 def read_plain(data: Any, kind: type[Value], name: str) -> Value:
-    """Read plain data, as JSON gives it, as a type; see `read_json`.
+    """Read plain data from JSON as a type; see `read_json`.
 
     Raises:
-        EvidenceError: It is something else.
+        EvidenceError: The data are of another type.
     """
     try:
         return reader_of(kind)(data)  # type: ignore[no-any-return, arg-type]
@@ -91,14 +91,14 @@ def read_plain(data: Any, kind: type[Value], name: str) -> Value:
 
 
 def plain_json(text: str, name: str) -> Any:
-    """Read a JSON text as plain data: its numbers finite, no key twice.
+    """Read a JSON text as plain data, with finite numbers and without duplicate keys.
 
     Args:
         text: The text.
         name: Its name in messages.
 
     Raises:
-        EvidenceError: It is too long or no such JSON.
+        EvidenceError: The text is too long, or not such JSON.
     """
     return _loaded(text, name, _finite_number)
 

@@ -16,13 +16,13 @@ _DIGEST = re.compile(r"[0-9a-f]{64}")
 
 
 def trial_key(inputs: Mapping[str, Any]) -> str:
-    """The key of a trial: the SHA-256 of everything that decides its result.
+    """Key of a trial: SHA-256 of all inputs of its result.
 
     Args:
         inputs: Digests of the trial's inputs and versions of the code and engines, by name.
 
     Raises:
-        EvidenceError: An input has no canonical form, such as one that is not a number.
+        EvidenceError: An input has no canonical form, such as NaN.
     """
     try:
         return digest(inputs)
@@ -31,7 +31,7 @@ def trial_key(inputs: Mapping[str, Any]) -> str:
 
 
 def record_digest(record: TrialRecord) -> str:
-    """The SHA-256 of a record's canonical JSON: equal only if every bit of every number is.
+    """SHA-256 of a record's canonical JSON; equal only for bitwise equal numbers.
 
     Raises:
         EvidenceError: The record cannot be written.
@@ -40,10 +40,10 @@ def record_digest(record: TrialRecord) -> str:
 
 
 def text_digest(text: str) -> str:
-    """The SHA-256 of a text, as 64 hexadecimal digits."""
+    """SHA-256 of a text, as 64 hexadecimal digits."""
     return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 
 def is_digest(text: object) -> bool:
-    """True if something is a SHA-256 in 64 lower-case hexadecimal digits."""
+    """True if a text is a SHA-256 in 64 lower-case hexadecimal digits."""
     return isinstance(text, str) and _DIGEST.fullmatch(text) is not None

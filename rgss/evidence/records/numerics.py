@@ -1,7 +1,7 @@
-"""Numerics of a process, part by part, as part of the provenance.
+"""Numerics of a process, part by part, as an item of the provenance.
 
-Each part is a text: the names of what computes, for readers, and at its end a digest of the results of fixed
-problems. Two processes compute alike where the digests agree, whatever the names.
+Each part is a text: the names of numerical libraries and kernels, for information, followed by a digest of the results
+of fixed problems. Two processes give equal results if the digests agree, regardless of the names.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from collections.abc import Mapping
 from rgss.errors import EvidenceError
 
 Numerics = Mapping[str, str]
-"""A text for each part: ``platform``, ``libm``, ``numpy``, ``blas``."""
+"""Mapping of parts to texts: ``platform``, ``libm``, ``numpy``, ``blas``."""
 
 
 def results_of(numerics: Numerics) -> dict[str, str]:
-    """Compared values: the digest of each part's results.
+    """Digest of each part's results, the compared values.
 
     Args:
         numerics: The numerics.
@@ -24,7 +24,7 @@ def results_of(numerics: Numerics) -> dict[str, str]:
 
 
 def numerics_text(numerics: Numerics) -> str:
-    """Numerics in one line; "not recorded" if they are not known.
+    """Numerics in one line; "not recorded" if unknown.
 
     Args:
         numerics: The numerics.
@@ -33,10 +33,10 @@ def numerics_text(numerics: Numerics) -> str:
 
 
 def numerics_difference(there: Numerics, here: Numerics) -> str:
-    """The parts that compute otherwise, in one line; empty if none does, or one side is not known.
+    """Parts with different results, in one line; empty if there are none, or one side is unknown.
 
     Args:
-        there: The numerics of the one process.
+        there: The numerics of one process.
         here: The numerics of the other.
     """
     if not (there and here):
@@ -47,19 +47,19 @@ def numerics_difference(there: Numerics, here: Numerics) -> str:
 
 
 def require_alike(what: str, there: Numerics, here: Numerics) -> None:
-    """Check that stored trials and new ones have the same numerics.
+    """Require equal numerics of stored and new trials.
 
     Args:
-        what: Name of what is stored, for messages.
-        there: The numerics of the process that made it; empty if they are not known.
-        here: Those of the process that makes the rest.
+        what: Name of the stored trials, for messages.
+        there: The numerics of the process that made them; empty if unknown.
+        here: The numerics of the process that makes the new ones.
 
     Raises:
-        EvidenceError: They differ, so that neither could be run again bit for bit on the other's machine.
+        EvidenceError: The numerics differ, so that neither result could be reproduced bit for bit on the other machine.
     """
     difference = numerics_difference(there, here)
     if difference:
         raise EvidenceError(
             f"{what} was computed with other numerics ({difference})",
-            hint="go on where it was made, or keep another store; docs/determinism.md lists what agrees",
+            hint="continue on the first machine, or use another store; docs/determinism.md lists compatible ones",
         )

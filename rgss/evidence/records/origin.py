@@ -18,18 +18,18 @@ _PACKAGE = Path(__file__).resolve().parents[2]
 _PATIENCE_S = 5.0
 
 LARGEST_FILE_BYTES = 4 * 1024**3
-"""Bytes of the largest input file: a folder of inputs is not meant for recordings."""
+"""Greatest size of an input file in bytes; folders of inputs are not meant for recordings."""
 
 
 def code_revision() -> str:
-    """The revision of this code in its version control; empty if it is not known.
+    """Revision of this code in version control; empty if unknown.
 
-    A working copy with changes has ``+changes`` behind its revision. A released package says
-    what it was built from if it was installed from version control.
+    ``+changes`` is appended for a working copy with changes. An installed package has a revision if it was installed
+    from version control.
     """
     package = _PACKAGE
     if _git(package, "ls-files", "--error-unmatch", "__init__.py") is None:
-        # Another project's repository may lie around the folder in which rgss is installed.
+        # The installation folder of rgss may be inside the repository of another project.
         return _installed_from()
     revision = _git(package, "rev-parse", "HEAD")
     if not revision:
@@ -38,27 +38,27 @@ def code_revision() -> str:
 
 
 def machine() -> str:
-    """System, processor and Python that trials run on, in one line; no name of the machine or its user."""
+    """System, processor and Python version in one line, without host and user names."""
     parts = (platform.system(), platform.machine(), _processor(), f"Python {platform.python_version()}")
     return ", ".join(part for part in parts if part)
 
 
 def file_digests(folder: Path, names: Iterable[str]) -> dict[str, str]:
-    """The SHA-256 of input files by their names.
+    """SHA-256 of input files by name.
 
     Args:
         folder: The project's folder.
-        names: Files or folders in it; a folder includes all files below it but hidden ones.
+        names: Files or folders in it; a folder includes all files below it except hidden ones.
 
     Raises:
-        EvidenceError: A file is not there or cannot be read.
+        EvidenceError: A file does not exist or cannot be read.
     """
     paths = {path.relative_to(folder).as_posix(): path for name in names for path in _files(folder / name)}
     return {name: _file_digest(name, path) for name, path in sorted(paths.items())}
 
 
 def _file_digest(name: str, path: Path) -> str:
-    """The SHA-256 of a file, which is read piece by piece: a mesh or a point cloud may be larger than the memory."""
+    """SHA-256 of a file, read in chunks: a mesh or a point cloud may be larger than the memory."""
     hashed = hashlib.sha256()
     try:
         for chunk in chunks_of(path, largest=LARGEST_FILE_BYTES):
@@ -71,13 +71,13 @@ def _file_digest(name: str, path: Path) -> str:
 def _files(path: Path) -> list[Path]:
     if not path.is_dir():
         return [path]
-    # A notebook reads a study and is not an input of it.
+    # A notebook reads a study but is not an input of it.
     below = (file for file in sorted(path.rglob("*")) if file.is_file() and file.suffix != ".ipynb")
     return [file for file in below if not any(part.startswith(".") for part in file.relative_to(path).parts)]
 
 
 def _git(package: Path, *arguments: str) -> str | None:
-    """Output of git in a folder; None if it does not know the folder or is not there."""
+    """Output of git in a folder; None if git is missing or the folder is not in a repository."""
     program = shutil.which("git")
     if program is None:
         return None
@@ -105,7 +105,7 @@ def _installed_from() -> str:
 
 
 def _processor() -> str:
-    """The processor's name from Linux, which Python does not provide."""
+    """Name of the processor from Linux, since Python does not provide it."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:

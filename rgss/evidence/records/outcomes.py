@@ -1,4 +1,4 @@
-"""The outcomes that a trial can have: expected results, kept in records, never raised."""
+"""Outcomes of a trial: expected results, stored in records, never raised."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compression of texts for the store, with a bound on their length."""
+"""Compression of texts for the store, with a bound on their size."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ import zlib
 from rgss.errors import EvidenceError
 
 LARGEST_TEXT = 16 * 1024 * 1024
-"""Bytes of the longest text that is kept, which also bounds what a forged file can unpack to."""
+"""Greatest size of a stored text in bytes, which also bounds the unpacked size of a forged file."""
 
-# Records shrink to a quarter at the fastest level; the slowest saves a tenth more for ten times the time.
+# Records shrink to a quarter at the fastest level; the slowest saves another tenth for ten times the time.
 _LEVEL = 1
 
 
@@ -33,14 +33,14 @@ def pack(text: str, name: str) -> bytes:
 
 
 def unpack(content: object, name: str) -> str:
-    """Read a text that `pack` compressed.
+    """Text from the output of `pack`.
 
     Args:
         content: The compressed text.
         name: Its name in messages.
 
     Raises:
-        EvidenceError: It is something else, or would be too long.
+        EvidenceError: The content is invalid, or the text would be too long.
     """
     if not isinstance(content, bytes):
         raise EvidenceError(f"its {name} is not of bytes")

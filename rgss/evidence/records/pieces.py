@@ -1,4 +1,4 @@
-"""The pieces of trials, kept so that each is made once: plans, timings, executions, benches."""
+"""Stored pieces of trials: plans, timings, executions, benches."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class PieceKind(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Piece:
-    """One piece of the trials that share it.
+    """Piece shared by trials.
 
     Attributes:
-        digest: SHA-256 of exactly its inputs, which is its key.
-        kind: What it is.
+        digest: SHA-256 of exactly its inputs, its key.
+        kind: Its kind.
         text: Its content as JSON.
     """
 
@@ -37,22 +37,24 @@ class Piece:
 
 
 def piece_row(piece: Piece) -> tuple[str, str, str, str, bytes]:
-    """The row that keeps a piece: digest, kind, digest of the content, seal, packed content.
+    """Row of a piece: digest, kind, digest of the content, seal, packed content.
 
     Raises:
-        EvidenceError: Its digest is none, or its text is too long.
+        EvidenceError: Its digest is malformed, or its text is too long.
     """
     if not is_digest(piece.digest):
-        raise EvidenceError(f"{shown(piece.digest)} is not the digest of a piece", hint="it is a SHA-256 of its inputs")
+        raise EvidenceError(
+            f"the digest of a piece must be a SHA-256, got {shown(piece.digest)}", hint="use the SHA-256 of its inputs"
+        )
     kind, content = PieceKind(piece.kind).value, text_digest(piece.text)
     return (piece.digest, kind, content, _seal(piece.digest, kind, content), pack(piece.text, "piece"))
 
 
 def read_piece(row: tuple[object, ...]) -> Piece:
-    """Read a row that `piece_row` made.
+    """Piece from a row of `piece_row`.
 
     Raises:
-        EvidenceError: It is not as it was made; the message names the problem.
+        EvidenceError: The row is damaged; the message names the problem.
     """
     name, kind, content_digest, seal, content = row
     if not (is_digest(name) and isinstance(name, str)):
@@ -68,5 +70,5 @@ def read_piece(row: tuple[object, ...]) -> Piece:
 
 
 def _seal(name: str, kind: str, content: str) -> str:
-    """Seal of a row, which binds its parts to each other."""
+    """Seal of a row: a digest that binds its columns to each other."""
     return digest_of([name, kind, content])

@@ -15,8 +15,7 @@ class PlanningRun:
         problem: The problem: gripper and move.
         planner: Name of the planner.
         seed: Seed of the search.
-        limit_s: Longest planning time that it was given.
-        outcome: Its outcome.
+        limit_s: Planning limit of the run. outcome: Its outcome.
         checks: State-validity checks of the search.
         simplification_checks: State-validity checks spent on shortening the path.
         time_s: Planning time by the planning clock; None if the search did not run.

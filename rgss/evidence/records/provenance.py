@@ -16,17 +16,17 @@ from rgss.evidence.records.numerics import Numerics
 class Provenance:
     """Inputs of a trial, and the software that made it.
 
-    None of this but the digests of the pieces enters a trial's key or the digest of its record.
+    Of these only the digests of the pieces are part of a trial's key; none is part of its record's digest.
 
     Attributes:
         inputs: SHA-256 of each of its pieces' inputs by name: ``plan``, ``timing``, ``execution``,
             ``trial``.
         versions: Version of the code and of each engine by name.
-        inputs_digest: What the store knows the trial's named inputs by, to say later which of
-            them changed; empty if they were not kept.
+        inputs_digest: Key of the trial's named inputs in the store, for later reports of changes; empty if they were
+        not stored.
         files: SHA-256 of each input file by its name in the project.
-        revision: Revision of the code in its version control; empty if it is not known.
-        machine: Its machine: system, processor, Python; empty if it is not known.
+        revision: Revision of the code in version control; empty if unknown.
+        machine: System, processor and Python version; empty if unknown.
         numerics: Numerics of the process, part by part; empty if not recorded.
     """
 
@@ -45,14 +45,14 @@ _FIRST_FIELDS = {"inputs", "versions"}
 _LATER_FIELDS: Mapping[str, object] = MappingProxyType(
     {"inputs_digest": "", "files": {}, "revision": "", "machine": "", "numerics": {}}
 )
-"""What later ones say besides, in the order in which it came, with what it is taken for where it is missing."""
+"""Keys added by later schemas, in order, with their defaults."""
 
 
 def provenance_to_json(provenance: Provenance) -> str:
-    """Write a provenance as canonical JSON.
+    """Provenance as canonical JSON.
 
     Raises:
-        EvidenceError: It holds something else than texts.
+        EvidenceError: A value is not a text.
     """
     try:
         text = canonical_json({each.name: getattr(provenance, each.name) for each in fields(provenance)})
@@ -63,10 +63,10 @@ def provenance_to_json(provenance: Provenance) -> str:
 
 
 def provenance_from_json(text: str) -> Provenance:
-    """Read a provenance that `provenance_to_json` wrote, or an earlier rgss did.
+    """Provenance from the output of `provenance_to_json`, also of earlier releases.
 
     Raises:
-        EvidenceError: The text is not such a provenance.
+        EvidenceError: The text is not a provenance.
     """
     data = plain_json(text, "provenance")
     known_sets = (_FIRST_FIELDS, {*_FIRST_FIELDS, *_LATER_FIELDS} - {"numerics"})

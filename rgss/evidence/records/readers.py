@@ -1,4 +1,4 @@
-"""Strict readers of plain data by type; the reader of a type is built once and cached."""
+"""Strict readers of plain data by type, cached by type."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Reader = Callable[[Any], Any]
 
 
 class MismatchError(Exception):
-    """Data is not of a type; its location is collected while it propagates."""
+    """Type mismatch; its location is collected while it propagates."""
 
     def __init__(self, problem: str, data: str = "") -> None:
         super().__init__(problem)
@@ -27,21 +27,21 @@ class MismatchError(Exception):
         self._data = data
 
     def within(self, part: str) -> MismatchError:
-        """The same mismatch, located from the enclosing value."""
+        """The mismatch with its location relative to the enclosing value."""
         self._where = part + self._where
         return self
 
     def as_error(self, name: str) -> EvidenceError:
-        """Problem as a message, with the name of the whole."""
+        """Mismatch as an error, with the name of the whole value."""
         return EvidenceError(f"{name}{self._where} {self._problem}{self._data}")
 
 
 @lru_cache(maxsize=256)
 def reader_of(kind: Any) -> Reader:
-    """The reader of a dataclass, enumeration, mapping, tuple, union or plain type.
+    """Reader of a dataclass, enumeration, mapping, tuple, union or plain type.
 
-    It returns the value and raises `MismatchError` for any other data: nothing is coerced and
-    nothing left out; every field must be there, and no other.
+    It returns the value, and raises `MismatchError` for data of another type: nothing is coerced, and exactly the
+    fields of the type are required.
     """
     origin = get_origin(kind)
     if origin in (Union, types.UnionType):
@@ -81,7 +81,7 @@ def _mapping_reader(read_item: Reader) -> Reader:
         found = {}
         try:
             for key, item in data.items():
-                # Thousands of records have the same keys; interned, they share them.
+                # Interned, since thousands of records have the same keys.
                 found[sys.intern(key)] = read_item(item)
         except MismatchError as error:
             raise error.within(f".{key}") from None
@@ -126,7 +126,7 @@ def _enum_reader(kind: type[Enum]) -> Reader:
 
 
 def _union_reader(kinds: tuple[Any, ...]) -> Reader:
-    """A union is read by the outer type of the data; what is within it is read after that."""
+    """Reader of a union, selected by the outer type of the data."""
     readers: dict[type, Reader] = {}
     for kind in kinds:
         readers.setdefault(_outer_type(kind), reader_of(kind))
@@ -154,7 +154,7 @@ def _outer_type(kind: Any) -> type:
 
 
 def _float_reader(data: Any) -> float:
-    # An integer is valid where a float is expected; it stays an integer, because the digest distinguishes 0 and 0.0.
+    # An integer is accepted as a float, but stays an integer, because the digest distinguishes 0 and 0.0.
     if type(data) is int:
         return data
     if type(data) is not float:

@@ -1,4 +1,4 @@
-"""Record of one trial: plain, frozen values that survive a round trip through JSON."""
+"""Record of one trial: frozen plain values with a lossless JSON form."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from dataclasses import dataclass, field
 from rgss.evidence.records.outcomes import Failure, Fidelity, PhaseOutcome, PlanOutcome
 
 Metric = float | int | None | tuple[float | int | None, ...]
-"""A number, a row of numbers, or None where the trial cannot know it."""
+"""A number, a row of numbers, or None if not observed."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PhaseRecord:
-    """One step of the task as it was run.
+    """Result of one step of the task.
 
     Attributes:
         phase: The phase.
         outcome: Its outcome.
-        duration_s: Simulated time that it took; None if it did not run.
+        duration_s: Its simulated time; None if it did not run.
         metrics: Metrics of the phase, by name with unit, such as ``slip_m``.
     """
 
@@ -30,7 +30,7 @@ class PhaseRecord:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanningRecord:
-    """The planning of one of the five moves.
+    """Planning result of one planned move.
 
     Attributes:
         subtask: The move.
@@ -51,21 +51,21 @@ class PlanningRecord:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrialRecord:
-    """One variant tried once.
+    """Record of a trial: one variant under one seed.
 
     Attributes:
         variant: Id of the design variant.
         seed: The trial's seed.
         fidelity: Its fidelity.
-        success: True if all steps of the task are complete and the object is where it should be.
-        failure: What ended it; None on success.
+        success: True if all steps of the task are complete and the object is in its place.
+        failure: The failure that ended it; None on success.
         failed_phase: The phase that failed; None on success.
-        failure_detail: The numbers that show the failure, in one line; empty on success.
+        failure_detail: Numbers of the failure, in one line; empty on success.
         phases: The steps of the task in order.
         planning: The planned moves in order.
         metrics: Metrics of the whole trial, by name with unit.
-        workload: The case of the workload; empty where there is none.
-        draws: What was drawn for it of each uncertain quantity, in SI; empty where everything is as the files say.
+        workload: The case of the workload; empty if there is none.
+        draws: Draw of each uncertain quantity, in SI; empty without uncertainty.
     """
 
     variant: int

@@ -1,4 +1,4 @@
-"""Failures of a run, as opposed to failures of the robot: pieces or trials that could not be made."""
+"""Failures of a run, as opposed to failures of the robot: pieces or trials that could not be computed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rgss.evidence.records.digests import is_digest
 from rgss.findings import printable, shown
 
 LONGEST_DETAIL = 500
-"""Characters of a detail that are kept."""
+"""Greatest length of a detail in characters."""
 
 
 class RunFailureKind(str, Enum):
@@ -26,11 +26,11 @@ class RunFailureKind(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunFailure:
-    """A piece or a trial that could not be made.
+    """Piece or trial that could not be computed.
 
     Attributes:
         key: Digest of the piece, or key of the trial.
-        what: What it is, such as ``execution`` or ``trial``.
+        what: Its kind, such as ``execution`` or ``trial``.
         kind: Kind of the failure.
         detail: One line: the signal, the limit in seconds, the line of the exception; see `detail_line`.
         attempts: Number of attempts.
@@ -44,22 +44,25 @@ class RunFailure:
 
 
 def failure_row(failure: RunFailure) -> tuple[str, str, str, str, int, str]:
-    """The row that keeps a failure; its detail is cut to one line.
+    """Row of a failure, with its detail truncated to one line.
 
     Raises:
         EvidenceError: Its key or its number of attempts is invalid.
     """
     if not is_digest(failure.key):
-        raise EvidenceError(f"{shown(failure.key)} is not the key of a trial or piece", hint="it is a SHA-256")
+        raise EvidenceError(
+            f"the key of a trial or piece must be a SHA-256, got {shown(failure.key)}",
+            hint="use the digest of its inputs",
+        )
     if not (type(failure.attempts) is int and 0 < failure.attempts < 2**31):
-        raise EvidenceError(f"a run cannot fail after {shown(failure.attempts)} attempts")
+        raise EvidenceError(f"the number of attempts must be from 1 to 2147483647, got {shown(failure.attempts)}")
     kind = RunFailureKind(failure.kind).value
     row = (failure.key, detail_line(failure.what), kind, detail_line(failure.detail), failure.attempts)
     return (*row, digest_of(list(row)))
 
 
 def read_failure(row: tuple[object, ...]) -> RunFailure:
-    """Read a row that `failure_row` made.
+    """Failure from a row of `failure_row`.
 
     Raises:
         EvidenceError: It is not as it was made; the message names the problem.
@@ -80,13 +83,13 @@ def read_failure(row: tuple[object, ...]) -> RunFailure:
 
 
 def detail_line(text: str) -> str:
-    """A text from a process, an engine or a file as messages show it: one line, of bounded length, that steers nothing.
+    """Text of a process, an engine or a file for messages: one line of bounded length, without control characters.
 
-    Characters that are not printable, such as escapes and controls of the direction of text, are replaced.
+    Characters that are not printable, such as escapes and bidirectional controls, are replaced.
 
     Args:
         text: The text.
     """
-    # Text far beyond the bound is not examined.
+    # Text far beyond the bound is not processed.
     line = printable(" ".join(text[: 20 * LONGEST_DETAIL].split()))
     return line if len(line) <= LONGEST_DETAIL else line[: LONGEST_DETAIL - 1] + "…"

@@ -1,4 +1,4 @@
-"""The named inputs of trials, kept once by content, so that a change can be named later."""
+"""Named inputs of trials, stored once by content, for later reports of changes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rgss.evidence.records.packing import pack, unpack
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrialInputs:
-    """The named inputs of trials.
+    """Named inputs of trials.
 
     Attributes:
         digest: Their key in the store.
@@ -30,23 +30,23 @@ def inputs_digest(inputs: Mapping[str, Any]) -> str:
     """Key of named inputs in the store: the SHA-256 of their canonical JSON.
 
     Raises:
-        EvidenceError: They are not plain data.
+        EvidenceError: The inputs are not plain data.
     """
     return text_digest(_text(inputs))
 
 
 def inputs_row(inputs: Mapping[str, Any]) -> tuple[str, bytes]:
-    """The row that keeps named inputs: their digest and their packed text.
+    """Row of named inputs: their digest and their packed text.
 
     Raises:
-        EvidenceError: They are not plain data, or too long.
+        EvidenceError: The inputs are not plain data, or too long.
     """
     text = _text(inputs)
     return text_digest(text), pack(text, "inputs")
 
 
 def read_inputs(row: tuple[object, ...]) -> TrialInputs:
-    """Read a row that `inputs_row` made.
+    """Named inputs from a row of `inputs_row`.
 
     Raises:
         EvidenceError: It is not as it was made; the message names the problem.

@@ -1,4 +1,4 @@
-"""Trials as rows of the store, sealed when they are written and checked when they are read."""
+"""Trials as rows of the store, sealed on writing and verified on reading."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from rgss.findings import shown
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StoredTrial:
-    """A trial of the store.
+    """Stored trial.
 
     Attributes:
-        key: SHA-256 of what went into the trial.
+        key: SHA-256 of the trial's inputs.
         content_digest: SHA-256 of the record's canonical JSON.
         record: Its record.
         provenance: Its provenance.
@@ -35,7 +35,7 @@ TrialRow = tuple[str, int, int, str, str, str, bytes, bytes]
 
 
 def trial_row(key: str, record: TrialRecord, provenance: Provenance) -> TrialRow:
-    """The row that keeps a trial: key, variant, seed, fidelity, digest, seal, packed record and provenance.
+    """Row of a trial: key, variant, seed, fidelity, digest, seal, packed record and provenance.
 
     Raises:
         EvidenceError: The key or the record is malformed.
@@ -59,7 +59,7 @@ def trial_row(key: str, record: TrialRecord, provenance: Provenance) -> TrialRow
 
 
 def read_trial(row: tuple[object, ...]) -> StoredTrial:
-    """Read a row that `trial_row` made.
+    """Trial from a row of `trial_row`.
 
     Raises:
         EvidenceError: It is not as it was made; the message names the problem.
@@ -79,15 +79,15 @@ def read_trial(row: tuple[object, ...]) -> StoredTrial:
 
 
 def require_key(key: object) -> None:
-    """Check that a value is the key of a trial.
+    """Require a valid key of a trial.
 
     Raises:
-        EvidenceError: It is not.
+        EvidenceError: The value is not a SHA-256.
     """
     if not is_digest(key):
-        raise EvidenceError(f"{shown(key)} is not the key of a trial", hint="keys are made by trial_key")
+        raise EvidenceError(f"the key of a trial must be a SHA-256, got {shown(key)}", hint="compute it with trial_key")
 
 
 def _seal(key: str, content: str, provenance: str) -> str:
-    """Seal of a row, which binds its parts to each other."""
+    """Seal of a row: a digest that binds its columns to each other."""
     return digest([key, content, provenance])

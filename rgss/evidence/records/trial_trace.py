@@ -1,4 +1,4 @@
-"""Time series of one trial, the source of its pictures and plots."""
+"""Time series of one trial, the source of pictures and plots."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class PhaseSpan:
     Attributes:
         phase: The phase.
         start_s: Time of its start.
-        end_s: When it ended.
+        end_s: Time of its end.
         last: Index of its last sample.
     """
 
@@ -29,23 +29,23 @@ class PhaseSpan:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class TrialTrace:
-    """Time series of the phases that physics ran; n samples, in simulated time without planning.
+    """Time series of the executed phases; n samples, in simulated time without planning.
 
-    A sample covers the physics steps from it to the next: its forces are the greatest of them
-    and its grip margin the least, so that a coarse rate hides no peak. All else is as at its time.
+    A sample covers the physics steps up to the next one: its forces are the greatest of them and its grip margin the
+    least, so that a coarse rate hides no peak. All other values are those at its time.
 
     Attributes:
         spans: The phases in order.
         time_s: Times (n,) of the samples, from the start of the first phase.
         joint_positions_rad: Positions (n, joints) of the arm.
-        finger_travel_m: How far each finger had closed (n, fingers).
+        finger_travel_m: Travel of each finger from open (n, fingers).
         workpiece_position_m: Position (n, 3) of the workpiece in the world.
         workpiece_quaternion_xyzw: Orientation (n, 4) of the workpiece in the world, scalar last.
         tool_position_m: Position (n, 3) of the grasp centre in the world.
         tool_speed_m_s: Speed (n,) of the grasp centre.
-        tool_speed_limit_m_s: Greatest speed that the design allows it.
+        tool_speed_limit_m_s: Speed limit of the grasp centre in the design.
         finger_forces_n: Normal force (n, fingers) of each finger on the workpiece.
-        commanded_force_n: Commanded force (n,) of each finger; NaN where none.
+        commanded_force_n: Commanded force (n,) of each finger; NaN if there is none.
         grip_margin: Friction available over friction needed (n,); NaN while nothing is carried.
     """
 
@@ -77,5 +77,5 @@ class TrialTrace:
         return after if self.time_s[after] - time_s < time_s - self.time_s[after - 1] else after - 1
 
     def span_at(self, sample: int) -> PhaseSpan:
-        """The phase to which a sample belongs."""
+        """Phase of a sample."""
         return next(span for span in self.spans if sample <= span.last)

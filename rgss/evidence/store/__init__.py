@@ -1,4 +1,4 @@
-"""The evidence store: SQLite file, ledger, verification, rescue, export and merge."""
+"""Evidence store: SQLite file, ledger, verification, rescue, export and merge."""
 
 from rgss.evidence.store.census import numerics_census
 from rgss.evidence.store.collection import Garbage, collect_garbage, find_garbage
@@ -7,4 +7,4 @@ from rgss.evidence.store.contents import Contents, TrialName, contents_of, trial
 from rgss.evidence.store.exporting import export_trials, require_exportable
 from rgss.evidence.store.observation import observed, state_of
 from rgss.evidence.store.store import EvidenceStore
-from rgss.evidence.store.verification import Verification, salvage, take_away, verify
+from rgss.evidence.store.verification import Verification, remove_damaged_rows, salvage, verify

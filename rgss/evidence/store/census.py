@@ -1,4 +1,4 @@
-"""Number of trials of a store by the numerics that computed them."""
+"""Number of trials of a store by their numerics."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from rgss.evidence.store.connection import Database
 
 
 def numerics_census(database: Database) -> tuple[tuple[Numerics, int], ...]:
-    """The numerics of the trials of a store with the number of trials of each, the most frequent first.
+    """Numerics of the trials of a store with their number of trials, the most frequent first.
 
-    Trials that do not say are counted under empty numerics. A damaged row is left out; `verify` names it.
+    Trials without recorded numerics are counted under empty numerics. Damaged rows are skipped; `verify` reports them.
 
     Args:
         database: The store's file.

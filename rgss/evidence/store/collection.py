@@ -10,7 +10,7 @@ from pathlib import Path
 from rgss.errors import EvidenceError
 from rgss.evidence.records import provenance_from_json, unpack
 from rgss.evidence.store import connection as connecting
-from rgss.evidence.store.connection import Database, in_our_words
+from rgss.evidence.store.connection import Database, translated_errors
 from rgss.evidence.store.contents import TrialName, trial_names
 from rgss.evidence.store.creation import require_content
 from rgss.evidence.store.ledger import require_ledger, write_ledger
@@ -25,11 +25,11 @@ class Garbage:
     """Unreferenced entries of a store.
 
     Attributes:
-        trials: The trials.
-        pieces: Digests of the pieces that neither a kept trial nor a named one has.
-        inputs: Digests of the named inputs that no kept trial refers to.
+        trials: Keys of the trials.
+        pieces: Digests of the pieces that are not retained and not referenced by a retained trial.
+        inputs: Digests of the named inputs that no retained trial references.
         failures: Keys of the failures of unreferenced trials and pieces.
-        size_bytes: Bytes of all of that, without what the file needs to keep it.
+        size_bytes: Their total size in bytes, without overhead of the file.
     """
 
     trials: tuple[TrialName, ...]
@@ -48,9 +48,9 @@ class Collection:
 
     Attributes:
         garbage: Removed rows.
-        before_bytes: Bytes of the file before.
-        after_bytes: Bytes of the file after.
-        shrunk: Whether the file gave back what was freed; if not, it is used again by what comes.
+        before_bytes: Size of the file before.
+        after_bytes: Size of the file after.
+        shrunk: True if the file was compacted; otherwise its free pages are reused.
     """
 
     garbage: Garbage
@@ -60,13 +60,12 @@ class Collection:
 
 
 def find_garbage(database: Database, *, trials: AbstractSet[str], pieces: AbstractSet[str]) -> Garbage:
-    """Find unreferenced entries: all trials but the named ones, and what no kept trial refers to.
+    """Find unreferenced entries: trials that are not retained, and entries that no retained trial references.
 
     Args:
         database: The store's file.
-        trials: Keys of the trials that are to stay.
-        pieces: Digests of pieces that are to stay even if no kept trial has them, such as those of
-            trials that are still to be run.
+        trials: Keys of the trials to retain.
+        pieces: Digests of further pieces to retain, such as those of trials that are not run yet.
 
     Raises:
         EvidenceError: The store is damaged or cannot be read.
@@ -87,9 +86,9 @@ def find_garbage(database: Database, *, trials: AbstractSet[str], pieces: Abstra
 
 
 def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet[str], label: str) -> Collection:
-    """Remove unreferenced entries in one transaction, and give their space back.
+    """Remove unreferenced entries in one transaction, and compact the file.
 
-    Nothing else may have the store open: a running sweep has pieces in it that no trial refers to yet.
+    No other process may have the store open: pieces of a running sweep are not referenced by a trial yet.
 
     Args:
         path: The file.
@@ -101,15 +100,15 @@ def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet
         EvidenceError: Another process has the store open, or it is damaged or cannot be written.
     """
     require_content(path, label=label)
-    with in_our_words(label):
+    with translated_errors(label):
         connection = connecting.connect(path)
     database = Database(connection, label)
     try:
-        with in_our_words(label):
+        with translated_errors(label):
             prepare(connection, label)
             require_sound_pages(connection, label)
             require_ledger(database)
-        _take_for_oneself(database)
+        _lock_exclusively(database)
         before = database.size_bytes()
         with database.transaction():
             garbage = find_garbage(database, trials=trials, pieces=pieces)
@@ -122,17 +121,17 @@ def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet
                 for key in keys:
                     database.change(f"{table.delete} WHERE {table.key} = ?", [key])
             write_ledger(connection)
-        shrunk = _give_back(connection)
+        shrunk = _compact(connection)
         return Collection(garbage=garbage, before_bytes=before, after_bytes=database.size_bytes(), shrunk=shrunk)
     finally:
         database.close()
 
 
-def _take_for_oneself(database: Database) -> None:
+def _lock_exclusively(database: Database) -> None:
     """Lock the file exclusively until it is closed.
 
-    Leaving write-ahead logging needs a lock that is not granted while another process has the file open; the
-    next process that opens it goes back to logging.
+    Leaving write-ahead logging needs a lock that is not granted while another process has the file open; the next
+    process that opens the file enables logging again.
     """
     try:
         database.connection.execute(f"PRAGMA busy_timeout = {_PATIENCE_MS}")
@@ -140,15 +139,15 @@ def _take_for_oneself(database: Database) -> None:
         database.connection.execute("PRAGMA journal_mode = DELETE")
     except sqlite3.OperationalError as error:
         if "locked" not in str(error):
-            with in_our_words(database.name):
+            with translated_errors(database.name):
                 raise
         raise EvidenceError(
-            f"another process has the evidence store {database.name} open", hint="wait until the sweep is done"
+            f"another process has the evidence store {database.name} open", hint="wait until the sweep has finished"
         ) from error
 
 
-def _give_back(connection: sqlite3.Connection) -> bool:
-    """Rewrite the file without its free pages; on a full disk it stays as it is."""
+def _compact(connection: sqlite3.Connection) -> bool:
+    """Compact the file; no effect on a full disk."""
     try:
         connection.execute("VACUUM")
     except sqlite3.OperationalError:
@@ -157,7 +156,7 @@ def _give_back(connection: sqlite3.Connection) -> bool:
 
 
 def _references(database: Database, trials: AbstractSet[str]) -> tuple[set[str], set[str]]:
-    """Digests of the pieces and of the named inputs that the trials to be kept refer to."""
+    """Digests of the pieces and of the named inputs referenced by the retained trials."""
     pieces: set[str] = set()
     inputs: set[str] = set()
     for key in sorted(trials):
@@ -169,7 +168,7 @@ def _references(database: Database, trials: AbstractSet[str]) -> tuple[set[str],
         except EvidenceError as error:
             raise EvidenceError(
                 f"{database.name}: trial {key[:12]} is damaged: {error.message}",
-                hint="'rgss evidence verify --mend' takes it away",
+                hint="run 'rgss evidence verify --mend' to remove it",
             ) from error
         pieces.update(provenance.inputs.values())
         inputs.add(provenance.inputs_digest)

@@ -1,4 +1,4 @@
-"""Database file of a store: opening, transactions, translation of errors."""
+"""Database file of a store: opening, transactions, translation of SQLite errors."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ from rgss.evidence.records import LARGEST_TEXT
 from rgss.evidence.store.transactions import transaction
 
 BUSY_TIMEOUT_S = 30.0
-"""How long a connection waits for another process that is writing."""
+"""Timeout of a connection for another process that is writing."""
 
 LARGEST_ROW = LARGEST_TEXT + 1024 * 1024
-"""Bytes of the longest row that is read: a text that cannot be compressed, and the other columns."""
+"""Greatest size of a row in bytes: an incompressible text plus the other columns."""
 
 Row = tuple[Any, ...]
 
 PROBLEMS = (sqlite3.Error, UnicodeError)
-"""What a database file can raise; the second when an error's text repeats bytes of a damaged schema."""
+"""Exceptions of a database file; the second if an error's text contains bytes of a damaged schema."""
 
 _HINTS: Mapping[str, str] = {
     "locked": "another process is using it; try again when it is done",
     "readonly": "choose a file and a folder that can be written",
     "unable to open": "check that it is a file in a folder that can be written",
-    "not a database": "choose another file; this one is left as it is",
-    "malformed": "'rgss evidence verify' shows what is left of it",
-    "full": "free some space on the disk; what was put before is kept",
-    "disk I/O": "free some space on the disk or look for its health; what was put before is kept",
+    "not a database": "use another file; this one is unchanged",
+    "malformed": "run 'rgss evidence verify' to see what can be recovered",
+    "full": "free space on the disk; earlier entries are stored",
+    "disk I/O": "free space on the disk or check its health; earlier entries are stored",
     "closed": "open the store again",
-    "no index": "run 'rgss evidence' where the file can be written, which takes its log into it",
+    "no index": "run 'rgss evidence' with write access to the file, which merges its log",
     "thread": "open the store in the thread that uses it",
 }
 
@@ -44,14 +44,14 @@ _OUTSIDE = ("locked", "full", "disk I/O")
 """External causes of failure, by SQLite's messages."""
 
 _OUTSIDE_LATER = (*_OUTSIDE, "readonly", "unable to open")
-"""The same once a file could be opened and written."""
+"""External causes of failure after the file could be opened and written."""
 
 _NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EMFILE, errno.ENFILE)
-SPACE_HINT = "free some space on the disk, or raise the limit; what was put before is kept"
+SPACE_HINT = "free space on the disk, or raise the limit; earlier entries are stored"
 
 
 class Database:
-    """An open database file; every error of SQLite is raised as one of rgss, with the file's name.
+    """Open database file; SQLite errors are raised as errors of rgss, with the file's name.
 
     Attributes:
         connection: The connection, in autocommit mode.
@@ -63,28 +63,28 @@ class Database:
         self.name = name
 
     def one(self, statement: str, values: Iterable[object] = ()) -> Row | None:
-        """The first row of a query; None if there is none."""
-        with self.in_our_words():
+        """First row of a query; None if there is none."""
+        with self.translated_errors():
             row: Row | None = self.connection.execute(statement, tuple(values)).fetchone()
         return row
 
     def rows(self, statement: str, values: Iterable[object] = ()) -> list[Row]:
         """All rows of a query."""
-        with self.in_our_words():
+        with self.translated_errors():
             return self.connection.execute(statement, tuple(values)).fetchall()
 
     def change(self, statement: str, values: Iterable[object] = ()) -> int:
-        """Change rows; returns how many were."""
-        with self.in_our_words():
+        """Execute a change; returns the number of changed rows."""
+        with self.translated_errors():
             return self.connection.execute(statement, tuple(values)).rowcount
 
     def size_bytes(self) -> int:
-        """Bytes of the pages, with those that are still in the log and those that are free."""
+        """Size of all pages in bytes, including those in the log and free ones."""
         return int(self.one("PRAGMA page_count")[0]) * int(self.one("PRAGMA page_size")[0])  # type: ignore[index]
 
     @contextmanager
     def transaction(self, kind: str = "IMMEDIATE") -> Iterator[None]:
-        """Transaction: changes within it take effect as a whole or not at all.
+        """Atomic transaction.
 
         Args:
             kind: ``IMMEDIATE`` to write, ``DEFERRED`` to read.
@@ -92,48 +92,48 @@ class Database:
         Raises:
             EvidenceError: The database cannot be read or written.
         """
-        with self.in_our_words(), transaction(self.connection, kind):
+        with self.translated_errors(), transaction(self.connection, kind):
             yield
 
     def close(self) -> None:
-        """Close the file; a second time does nothing."""
-        with self.in_our_words():
+        """Close the file; calling twice is allowed."""
+        with self.translated_errors():
             self.connection.close()
 
-    def in_our_words(self) -> AbstractContextManager[None]:
-        """Translate errors of SQLite, given that the file could be opened."""
-        return in_our_words(self.name, outside=_OUTSIDE_LATER)
+    def translated_errors(self) -> AbstractContextManager[None]:
+        """Context that translates SQLite errors after the file was opened."""
+        return translated_errors(self.name, outside=_OUTSIDE_LATER)
 
 
 def is_writable(path: Path) -> bool:
-    """True if a file can be written, and the logs beside it that SQLite needs for that."""
+    """True if a file and the logs that SQLite creates beside it can be written."""
     effective = os.access in os.supports_effective_ids
     return all(os.access(place, os.W_OK, effective_ids=effective) for place in (path, path.parent))
 
 
 def connect(path: Path, *, though_damaged: bool = False, read_only: bool = False) -> sqlite3.Connection:
-    """Open a database file so that a commit outlasts a loss of power and nothing in the file can act.
+    """Open a database file with durable commits and without execution of code in its schema.
 
     Args:
         path: The file.
-        though_damaged: Also if it is shorter than its header states; only for reading.
-        read_only: Make no file beside it and change nothing, where nothing can be written.
+        though_damaged: True to open it even if it is shorter than its header states, for reading only.
+        read_only: True to create and change no file.
 
     Raises:
         sqlite3.Error: It cannot be opened.
     """
-    # In autocommit mode, so that transactions begin and end where the store does it.
+    # In autocommit mode; the store begins and ends transactions explicitly.
     connection = sqlite3.connect(
         _read_only_name(path) if read_only else path, timeout=BUSY_TIMEOUT_S, isolation_level=None, uri=read_only
     )
-    # A text that is not Unicode is damage of one row, which the row's digests detect.
+    # Invalid Unicode is damage of one row, detected by the row's digests.
     connection.text_factory = lambda content: content.decode("utf-8", "surrogateescape")
     try:
         if sys.version_info >= (3, 11):
-            # A longer row is an error before it is read.
+            # A longer row raises an error before it is read.
             connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST_ROW)
         if though_damaged:
-            # SQLite reads such a file only if its schema is writable.
+            # SQLite reads such a file only with a writable schema.
             connection.execute("PRAGMA writable_schema = ON")
             connection.execute("PRAGMA query_only = ON")
         for setting in (
@@ -143,7 +143,7 @@ def connect(path: Path, *, though_damaged: bool = False, read_only: bool = False
             # The schema of a foreign file must not call functions.
             "trusted_schema = OFF",
             "cell_size_check = ON",
-            # A file that is cut short under a map would end the process.
+            # Truncation of a memory-mapped file would kill the process.
             "mmap_size = 0",
         ):
             connection.execute(f"PRAGMA {setting}")
@@ -154,22 +154,22 @@ def connect(path: Path, *, though_damaged: bool = False, read_only: bool = False
 
 
 def _read_only_name(path: Path) -> str:
-    """URI of the file for SQLite with which it makes and changes no file, not even the index of the log.
+    """URI of the file with which SQLite creates and changes no file, not even the index of the log.
 
     Raises:
-        sqlite3.OperationalError: There is a log without an index, which only a process that may write can read.
+        sqlite3.OperationalError: There is a log without an index, which can be read only with write access.
     """
     log, index = (path.with_name(f"{path.name}{ending}") for ending in ("-wal", "-shm"))
     if index.exists():
         return f"{path.resolve().as_uri()}?mode=ro&readonly_shm=1"
     if log.exists() and log.stat().st_size > 0:
         raise sqlite3.OperationalError("its log has no index")
-    # Without a log nobody writes, and SQLite would otherwise make one.
+    # Without a log there is no writer; otherwise SQLite would create one.
     return f"{path.resolve().as_uri()}?immutable=1"
 
 
 def problem_of(error: Exception) -> str:
-    """Message for one of the `PROBLEMS`, in one line."""
+    """Message of one of the `PROBLEMS`, in one line."""
     if isinstance(error, UnicodeError):
         return "a text of its schema is not Unicode"
     text = "".join(character if character.isprintable() else " " for character in str(error))
@@ -177,16 +177,16 @@ def problem_of(error: Exception) -> str:
 
 
 @contextmanager
-def in_our_words(name: str, *, outside: Sequence[str] = _OUTSIDE, folder: Path | None = None) -> Iterator[None]:
-    """Turn errors of SQLite into ours.
+def translated_errors(name: str, *, outside: Sequence[str] = _OUTSIDE, folder: Path | None = None) -> Iterator[None]:
+    """Context that translates SQLite errors into errors of rgss.
 
     Args:
         name: The file's name in messages.
         outside: External causes of failure, by SQLite's messages.
-        folder: Where a file was to be opened: SQLite does not say why it could not be.
+        folder: The folder of a file to be opened, whose errors SQLite does not explain.
 
     Raises:
-        StorageError: The disk is full or fails, or another process keeps the file locked.
+        StorageError: The disk is full or fails, or another process locks the file.
         EvidenceError: For any other error of SQLite.
     """
     try:
@@ -199,13 +199,13 @@ def in_our_words(name: str, *, outside: Sequence[str] = _OUTSIDE, folder: Path |
                 f"the evidence store {name} cannot be used: {os.strerror(obstacle)}", hint=SPACE_HINT
             ) from error
         hints = (hint for phrase, hint in _HINTS.items() if phrase in problem)
-        hint = next(hints, "'rgss evidence verify' looks for damage")
+        hint = next(hints, "run 'rgss evidence verify' to check for damage")
         kind = StorageError if any(phrase in problem for phrase in outside) else EvidenceError
         raise kind(f"the evidence store {name} cannot be used: {problem}", hint=hint) from error
 
 
 def _obstacle(folder: Path) -> int | None:
-    """Error number for which the system has no room for another file in a folder; None if it has room."""
+    """Error number of creating a file in a folder; None if that succeeds."""
     try:
         tempfile.TemporaryFile(dir=folder).close()
     except OSError as error:
@@ -214,5 +214,5 @@ def _obstacle(folder: Path) -> int | None:
 
 
 def error_of(error: OSError) -> type[EvidenceError]:
-    """The kind of error that a file's is: `StorageError` if the disk is full or fails, or no more files can be open."""
+    """Error class of an OSError: `StorageError` if the disk is full or fails, or too many files are open."""
     return StorageError if error.errno in _NO_SPACE else EvidenceError

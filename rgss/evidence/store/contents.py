@@ -13,14 +13,14 @@ from rgss.evidence.store.tables import FAILURES
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrialName:
-    """Index entry of a trial; its record is not read.
+    """Index entry of a trial, without its record.
 
     Attributes:
-        key: SHA-256 of what went into it.
+        key: SHA-256 of its inputs.
         variant: Id of the design variant.
         seed: Its seed.
         fidelity: Its fidelity.
-        size_bytes: Bytes of what is kept of it.
+        size_bytes: Stored size in bytes.
     """
 
     key: str
@@ -32,14 +32,14 @@ class TrialName:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Contents:
-    """Size of a store's contents.
+    """Summary of a store's contents.
 
     Attributes:
         trials: The trials in the order of their keys.
         pieces: The number of pieces of each kind.
         inputs: The number of sets of named inputs.
-        failures: Trials and pieces that could not be made, in the order of the keys.
-        size_bytes: Bytes of its file, with what is still in the log beside it.
+        failures: Trials and pieces that could not be computed, in the order of the keys.
+        size_bytes: Size of its file in bytes, including the log.
     """
 
     trials: tuple[TrialName, ...]
@@ -71,22 +71,22 @@ def trial_names(database: Database) -> Iterator[TrialName]:
     """Index entry of each trial, in the order of the keys.
 
     Raises:
-        EvidenceError: A row is not what the store puts there, or the file cannot be read.
+        EvidenceError: A row is damaged, or the file cannot be read.
     """
     for key, variant, seed, fidelity, size in database.rows(_NAMES):
         if not (is_digest(key) and type(variant) is int and type(seed) is int and fidelity in _FIDELITIES):
-            raise _refusal(database, "a trial is filed under no proper key, variant, seed or fidelity")
+            raise _refusal(database, "a trial has an invalid key, variant, seed or fidelity")
         yield TrialName(key=key, variant=variant, seed=seed, fidelity=fidelity, size_bytes=int(size))
 
 
 def _kind(database: Database, kind: object) -> str:
     if kind not in _KINDS:
-        raise _refusal(database, "a piece is of no known kind")
+        raise _refusal(database, "a piece has an unknown kind")
     return str(kind)
 
 
 def _refusal(database: Database, problem: str) -> EvidenceError:
-    hint = "'rgss evidence verify' shows which, with --mend it takes it away"
+    hint = "run 'rgss evidence verify' to find it, and with --mend to remove it"
     return EvidenceError(f"{database.name}: {problem}", hint=hint)
 
 

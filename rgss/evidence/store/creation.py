@@ -1,4 +1,4 @@
-"""Creation of a store: complete under another name, then linked to its own, so that no empty file is ever a store."""
+"""Atomic creation of a store: completed under another name, then linked, so that a store is never an empty file."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from rgss.errors import EvidenceError, StorageError
-from rgss.evidence.store.connection import SPACE_HINT, connect, error_of, in_our_words
+from rgss.evidence.store.connection import SPACE_HINT, connect, error_of, translated_errors
 from rgss.evidence.store.schema import make
 
 _NO_LINKS = (errno.EPERM, errno.EOPNOTSUPP, errno.ENOSYS, errno.EMLINK)
@@ -22,7 +22,7 @@ _LOGS = ("", "-wal", "-shm", "-journal")
 
 
 def create_store(path: Path, *, label: str) -> None:
-    """Make a store without rows where there is no file, with its folder; one that appears meanwhile is kept.
+    """Create an empty store and its folder, if there is no file; one created concurrently is kept.
 
     A process that dies meanwhile leaves at most a hidden file, which the next one removes.
 
@@ -32,41 +32,41 @@ def create_store(path: Path, *, label: str) -> None:
 
     Raises:
         StorageError: The disk is full or fails.
-        EvidenceError: The folder or the file cannot be made.
+        EvidenceError: The folder or the file cannot be created.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         kind = error_of(error)
-        hint = SPACE_HINT if kind is StorageError else "choose a folder that can be written"
-        raise kind(f"the folder of {label} cannot be made: {error.strerror}", hint=hint) from error
+        hint = SPACE_HINT if kind is StorageError else "use a writable folder"
+        raise kind(f"the folder of {label} cannot be created: {error.strerror}", hint=hint) from error
     for attempt in range(_ATTEMPTS):
         try:
             _make_and_link(path, label)
         except FileNotFoundError:  # noqa: PERF203 - it is tried again
-            # On a shared disk a process of another machine may have taken ours for one that has died.
+            # On a shared disk a process of another machine may have considered this one dead.
             if attempt == _ATTEMPTS - 1:
                 raise
         except OSError as error:
-            raise error_of(error)(f"{label} cannot be made: {error.strerror}") from error
+            raise error_of(error)(f"{label} cannot be created: {error.strerror}") from error
         else:
             return
 
 
 def _make_and_link(path: Path, label: str) -> None:
-    for left in _left_behind(path):
+    for left in _leftovers(path):
         _remove(left)
     part = path.with_name(f".{path.name}.{os.getpid()}-{secrets.token_hex(4)}.{_ENDING}")
     try:
-        with in_our_words(label, folder=path.parent):
+        with translated_errors(label, folder=path.parent):
             connection = connect(part)
             try:
                 make(connection)
             finally:
                 connection.close()
-        with _alone_in(path.parent):
+        with _creation_lock(path.parent):
             if not path.exists():
-                # The log of a file that was moved does not belong to this one.
+                # The log of a moved file does not belong to this one.
                 _remove(path)
                 _link(part, path)
     finally:
@@ -74,8 +74,8 @@ def _make_and_link(path: Path, label: str) -> None:
 
 
 @contextmanager
-def _alone_in(folder: Path) -> Iterator[None]:
-    """Keep other processes from making a store in a folder, where the file system can."""
+def _creation_lock(folder: Path) -> Iterator[None]:
+    """Lock that excludes other processes from creating a store in a folder, if the file system supports it."""
     if sys.platform == "win32":
         yield
         return
@@ -98,13 +98,13 @@ def _link(part: Path, path: Path) -> None:
     except OSError as error:
         if error.errno not in _NO_LINKS:
             raise
-        # A file system without links: another process could only put an empty store there meanwhile.
+        # A file system without links: another process could only have created an empty store meanwhile.
         if not path.exists():
             part.rename(path)
 
 
-def _left_behind(path: Path) -> Iterator[Path]:
-    """Leftovers of processes that died while they made this store."""
+def _leftovers(path: Path) -> Iterator[Path]:
+    """Leftover files of processes that died while creating this store."""
     for file in path.parent.glob(f".{path.name}.*.{_ENDING}"):
         process = file.name.removeprefix(f".{path.name}.").partition("-")[0]
         with contextlib.suppress(OSError):
@@ -129,21 +129,20 @@ def _remove(file: Path) -> None:
 
 
 def require_content(path: Path, *, label: str) -> None:
-    """Check that an existing file is not empty.
+    """Require that an existing file is not empty.
 
-    A store is never empty, not even while it is made: such a file was cut to nothing, or was made by
-    something else.
+    A store is never empty, not even during creation: an empty file was truncated, or created by another program.
 
     Args:
         path: The file.
         label: Its name in messages.
 
     Raises:
-        EvidenceError: It is empty.
+        EvidenceError: The file is empty.
     """
     with contextlib.suppress(OSError):
         if path.is_file() and path.stat().st_size == 0:
-            raise EvidenceError(f"{label} is empty, which no evidence store is: it was cut to nothing", hint=_EMPTY)
+            raise EvidenceError(f"{label} is empty: an evidence store is never empty, so it was truncated", hint=_EMPTY)
 
 
-_EMPTY = "put a copy of it back, or remove the file to begin anew"
+_EMPTY = "restore a copy of it, or remove the file to start again"

@@ -1,4 +1,4 @@
-"""Trials as a file for other programs: Parquet or CSV, whole or not at all."""
+"""Export of trials to Parquet or CSV, written atomically."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ if TYPE_CHECKING:
 
 
 def require_exportable(path: Path) -> None:
-    """Check that a table can be written to a file of this name, before there is work in it.
+    """Require a supported file name and installed format, before any work.
 
     Raises:
-        EvidenceError: The name ends otherwise, or the format needs what is not installed.
+        EvidenceError: The suffix is unknown, or the format needs a package that is not installed.
     """
     ending = path.suffix.lower()
     if ending not in (".parquet", ".csv"):
-        raise EvidenceError(f"{path} ends in neither .parquet nor .csv", hint="the ending chooses the format")
+        raise EvidenceError(f"{path} must end in .parquet or .csv", hint="the suffix selects the format")
     if ending == ".parquet" and importlib.util.find_spec("pyarrow") is None:
         raise EvidenceError(
             "a Parquet file needs pyarrow, which is not installed",
@@ -37,15 +37,14 @@ def require_exportable(path: Path) -> None:
 
 
 def export_trials(trials: Iterable[StoredTrial], path: Path) -> int:
-    """Write trials as a table, one row each, with the columns of `rgss.evidence.store.trial_table`.
+    """Write trials as a table, one row for each, with the columns of `rgss.evidence.store.trial_table`.
 
     Args:
         trials: The trials.
-        path: The file, whose ending chooses the format. It takes the place of one that is there
-            only when it is complete.
+        path: The file, whose suffix selects the format. An existing file is replaced only when the new one is complete.
 
     Returns:
-        How many there are.
+        The number of trials.
 
     Raises:
         EvidenceError: As `require_exportable` and `rgss.evidence.store.trial_table.trial_frame`; or the
@@ -66,12 +65,12 @@ def export_trials(trials: Iterable[StoredTrial], path: Path) -> int:
 
 
 def _write_csv(frame: pd.DataFrame, file: IO[bytes]) -> None:
-    """Write a table as RFC 4180 has it, with an apostrophe before every text that could be a formula.
+    """Write a table as CSV by RFC 4180, with an apostrophe before every text that could be a formula.
 
-    Numbers are written by ``repr``, so that they read back to the same bits.
+    Numbers are written by ``repr``, so that they are read back bit for bit.
     """
     text = io.TextIOWrapper(file, encoding="utf-8", newline="")
-    # With both characters in the ends of lines, a cell that has either is quoted.
+    # With both characters in the line terminator, a cell with either is quoted.
     writer = csv.writer(text, lineterminator="\r\n")
     writer.writerow([_as_text(name) for name in frame.columns])
     columns = [_csv_cells(frame[name]) for name in frame.columns]
@@ -81,7 +80,7 @@ def _write_csv(frame: pd.DataFrame, file: IO[bytes]) -> None:
 
 
 def _csv_cells(column: pd.Series[Any]) -> list[object]:
-    """The cells of a column; what is missing is empty."""
+    """Cells of a column; missing values are empty."""
     values = column.astype(object).where(column.notna(), None).tolist()
     return [_as_text(value) for value in values] if column.dtype == "string" else values
 

@@ -1,13 +1,12 @@
 """Ledger of a store: the number of rows of each table and a checksum over all of them.
 
-Digests and seals show that a row is the one that was put; they cannot show that a row is missing.
-The ledger is updated in the transaction that changes the rows, so that rows which were deleted, added or renamed by
-other programs are found.
+Digests and seals verify a row, but do not detect missing rows. The ledger is updated in the transaction that changes
+the rows, so that rows deleted, added or renamed by other programs are detected.
 
 The checksum of a table is the sum of the SHA-256 of its rows modulo 2^256, an incremental multiset
-hash (Bellare and Micciancio, "A new paradigm for collision-free hashing", 1997): it depends on
-neither the order of the rows nor the order in which they came. It has no secret, so it finds damage
-and careless changes; it does not detect a forged ledger of forged rows.
+hash (Bellare and Micciancio, "A new paradigm for collision-free hashing", 1997): it depends neither on the order of the
+rows nor on that of their insertion. Without a secret it detects damage and accidental changes, but not a forged ledger
+of forged rows.
 """
 
 from __future__ import annotations
@@ -54,11 +53,11 @@ class LedgerChanges:
     """Changes of one transaction, collected and then written within it."""
 
     def __init__(self) -> None:
-        """Begin with none."""
+        """Start without changes."""
         self._changes: dict[str, Total] = {}
 
     def added(self, table: Table[Any], row: Row) -> None:
-        """Enter a row that was put.
+        """Add an inserted row.
 
         Args:
             table: Its table.
@@ -67,7 +66,7 @@ class LedgerChanges:
         self._enter(table, _of_row(table, row))
 
     def removed(self, table: Table[Any], row: Row) -> None:
-        """Enter a row that was deleted.
+        """Add a deleted row.
 
         Args:
             table: Its table.
@@ -92,7 +91,7 @@ class LedgerChanges:
 
 
 def write_ledger(connection: sqlite3.Connection) -> None:
-    """Write the ledger of the rows as they are, within the caller's transaction.
+    """Write the ledger of the present rows, within the caller's transaction.
 
     Raises:
         sqlite3.Error: The database cannot be read or written.
@@ -103,7 +102,7 @@ def write_ledger(connection: sqlite3.Connection) -> None:
 
 
 def counted(connection: sqlite3.Connection) -> Mapping[str, Total]:
-    """Totals of the rows as they are.
+    """Totals of the present rows.
 
     Raises:
         sqlite3.Error: The database cannot be read.
@@ -119,10 +118,10 @@ def counted(connection: sqlite3.Connection) -> Mapping[str, Total]:
 
 
 def recorded(connection: sqlite3.Connection) -> Mapping[str, Total]:
-    """Totals that the ledger has.
+    """Totals in the ledger.
 
     Raises:
-        EvidenceError: The ledger is not one that was written for these tables.
+        EvidenceError: The ledger is damaged, or does not match these tables.
         sqlite3.Error: The database cannot be read.
     """
     found = {}
@@ -134,15 +133,15 @@ def recorded(connection: sqlite3.Connection) -> Mapping[str, Total]:
             or not is_digest(checksum)
             or seal != digest([name, rows, checksum])
         ):
-            raise EvidenceError("the ledger is not the one that was written", hint=_HINT)
+            raise EvidenceError("the ledger is damaged", hint=_HINT)
         found[name] = Total(rows, int(checksum, 16))
     if found.keys() != {table.name for table in TABLES}:
-        raise EvidenceError("the ledger does not have one row for each table", hint=_HINT)
+        raise EvidenceError("the ledger must have one row for each table", hint=_HINT)
     return found
 
 
 def differences(connection: sqlite3.Connection) -> Iterator[tuple[str, str]]:
-    """Tables whose rows are not those of the ledger, each with what is wrong; within a transaction.
+    """Tables whose rows differ from the ledger, each with a message; within a transaction.
 
     Raises:
         sqlite3.Error: The database cannot be read.
@@ -154,13 +153,13 @@ def differences(connection: sqlite3.Connection) -> Iterator[tuple[str, str]]:
         return
     for name, total in counted(connection).items():
         if total.rows != expected[name].rows:
-            yield name, f"{expected[name].rows} rows were put, {total.rows} are there"
+            yield name, f"{expected[name].rows} rows were stored, {total.rows} are present"
         elif total != expected[name]:
-            yield name, f"the {total.rows} rows are not those that were put"
+            yield name, f"the {total.rows} rows are not those that were stored"
 
 
 def require_ledger(database: Database) -> None:
-    """Check that the rows of a store are those that were put.
+    """Require that the rows of a store match its ledger.
 
     Raises:
         EvidenceError: Rows are missing, were added or were renamed; or the file cannot be read.
@@ -171,7 +170,7 @@ def require_ledger(database: Database) -> None:
             raise EvidenceError(f"{database.name} was changed outside rgss: {where}{problem}", hint=_HINT)
 
 
-_HINT = "'rgss evidence verify' shows the damage, with --mend it keeps what is sound"
+_HINT = "run 'rgss evidence verify' to see the damage, and with --mend to keep the valid rows"
 
 
 def _of_row(table: Table[Any], row: Row) -> Total:

@@ -1,4 +1,4 @@
-"""Migration from schema 1, which had only trials as plain texts, to the present tables."""
+"""Migration from schema 1, with only trials as plain texts, to the present tables."""
 
 from __future__ import annotations
 
@@ -16,28 +16,27 @@ FIRST_TABLE = """CREATE TABLE trials (
     record TEXT NOT NULL,
     provenance TEXT NOT NULL
 )"""
-"""The one table of schema 1."""
+"""The table of schema 1."""
 
 _COPY = """INSERT INTO trials (key, variant, seed, fidelity, content_digest, seal, record, provenance)
     SELECT key, ?, ?, ?, content_digest, seal, ?, ? FROM trials_1 WHERE rowid = ?"""
 
 
 def migrate_from_first(connection: sqlite3.Connection, make_tables: Callable[[sqlite3.Connection], None]) -> None:
-    """Bring the trials of schema 1 into the present tables, within the caller's transaction.
+    """Migrate the trials of schema 1 to the present tables, within the caller's transaction.
 
-    Rows are carried over with their digests and seals, so that one that was damaged before is
-    found to be so after. Their texts are packed.
+    Rows keep their digests and seals, so that earlier damage is still detected. Their texts are packed.
 
     Args:
         connection: The database, in a transaction.
-        make_tables: Makes the present tables.
+        make_tables: Function that creates the present tables.
 
     Raises:
         sqlite3.Error: The database is damaged or cannot be written.
     """
     connection.execute("ALTER TABLE trials RENAME TO trials_1")
     make_tables(connection)
-    # As bytes, for a damaged text need not be Unicode; one at a time, for there may be many.
+    # As bytes, since a damaged text may not be Unicode; one at a time, since there may be many.
     texts = "SELECT CAST(record AS BLOB), CAST(provenance AS BLOB) FROM trials_1 WHERE rowid = ?"
     for (number,) in connection.execute("SELECT rowid FROM trials_1 ORDER BY rowid").fetchall():
         record, provenance = connection.execute(texts, (number,)).fetchone()
@@ -47,7 +46,7 @@ def migrate_from_first(connection: sqlite3.Connection, make_tables: Callable[[sq
 
 
 def _names(record: bytes) -> tuple[int, int, str]:
-    """Columns that trials are looked up by; a record without them is damaged, which its seal shows."""
+    """Lookup columns of a trial; a record without them is damaged, which its seal detects."""
     try:
         data = plain_json(record.decode("utf-8"), "record")
         variant, seed, fidelity = data["variant"], data["seed"], Fidelity(data["fidelity"]).value

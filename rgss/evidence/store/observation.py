@@ -1,4 +1,4 @@
-"""Observation of a store that another process may write: read-only, and read again if the file changed under it."""
+"""Observation of a store that another process may write: read-only, repeated if the file changed meanwhile."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _ATTEMPTS = 5
 
 @dataclass(frozen=True, slots=True)
 class StoreState:
-    """State of a store's files; it differs after every change that a reader could see.
+    """State of a store's files; it differs after every observable change.
 
     Attributes:
         files: Device, inode, size and time of change in ns of the file and of its log; None for one that is missing.
@@ -33,7 +33,7 @@ class StoreState:
 
 
 def state_of(path: Path) -> StoreState:
-    """State of a store's files as they are now; nothing is opened.
+    """Present state of a store's files, without opening them.
 
     Args:
         path: The file.
@@ -42,19 +42,19 @@ def state_of(path: Path) -> StoreState:
 
 
 def observed(path: Path, read: Callable[[EvidenceStore], Value], *, label: str) -> Value:
-    """Read a store without making or changing a file, while another process may write, replace or remove it.
+    """Read a store without creating or changing a file, while another process may write, replace or remove it.
 
-    Without a writer a file is read as if it were immutable. Where a writer comes meanwhile, what was read may be of
-    two states, so that it is read once more.
+    Without a writer a file is opened as immutable. If a writer appears meanwhile, the result may mix two states, and
+    reading is repeated.
 
     Args:
         path: The file.
-        read: Reads what is wanted; called again if the file changed under it.
+        read: Function that reads from the store; called again if the file changed meanwhile.
         label: The file's name in messages.
 
     Raises:
         EvidenceError: The file is missing, or is damaged, or cannot be read.
-        StorageError: It changes too often to be read.
+        StorageError: The file changes too often to be read.
     """
     problem: EvidenceError | None = None
     for _ in range(_ATTEMPTS):
@@ -67,7 +67,7 @@ def observed(path: Path, read: Callable[[EvidenceStore], Value], *, label: str) 
             if state_of(path) == before:
                 raise
             continue
-        # With an index SQLite keeps a reader and a writer apart.
+        # With an index SQLite isolates readers from a writer.
         if (had_index and _index(path).exists()) or state_of(path) == before:
             return value
     if problem is not None:

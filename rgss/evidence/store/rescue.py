@@ -19,10 +19,10 @@ _MOST_FILES = 100
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rescue:
-    """Summary of what was saved.
+    """Summary of a rescue.
 
     Attributes:
-        text: How much, and where.
+        text: Amount and place of the saved rows.
         hint: Advice.
         rows: Number of rows.
     """
@@ -33,18 +33,18 @@ class Rescue:
 
 
 def rescued(connection: sqlite3.Connection, path: Path, pending: Sequence[tuple[Table[Any], Row]]) -> Rescue:
-    """Save what an open store still holds in a new file beside its place.
+    """Save the readable rows of an open store in a new file beside it.
 
-    A file that was removed or replaced is still there as a whole for who has it open. Of one that was
-    cut, the rows are saved that are still in its log or in memory.
+    A removed or replaced file is still complete for a process that has it open. Of a truncated file the rows are saved
+    that are still in its log or in memory.
 
     Args:
         connection: The open store.
         path: Its path.
-        pending: Rows that were to be put.
+        pending: Rows that were to be inserted.
     """
     try:
-        # The folder may have been removed with the file; the one above it is not the store's.
+        # The folder may have been removed with the file; its parent does not belong to the store.
         path.parent.mkdir(exist_ok=True)
         target = _free_name(path)
         rows = copy_rows(_all(connection, pending), target)
@@ -56,8 +56,8 @@ def rescued(connection: sqlite3.Connection, path: Path, pending: Sequence[tuple[
             target.unlink()
         return Rescue(text="nothing of it could be read any more", hint="run the sweep again")
     return Rescue(
-        text=f"{rows} rows, with all that could be read, are saved in {target.name} beside it",
-        hint=f"remove what is left of {path.name}, rename {target.name} to {path.name} and run the sweep again",
+        text=f"{rows} readable rows are saved in {target.name} beside it",
+        hint=f"remove the rest of {path.name}, rename {target.name} to {path.name} and run the sweep again",
         rows=rows,
     )
 

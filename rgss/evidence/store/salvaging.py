@@ -1,4 +1,4 @@
-"""Reading of the sound rows of a damaged store, and copying into a new one."""
+"""Recovery of the valid rows of a damaged store into a new one."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rgss.errors import EvidenceError
-from rgss.evidence.store.connection import PROBLEMS, Database, Row, connect, in_our_words, problem_of
+from rgss.evidence.store.connection import PROBLEMS, Database, Row, connect, problem_of, translated_errors
 from rgss.evidence.store.creation import create_store
 from rgss.evidence.store.ledger import write_ledger
 from rgss.evidence.store.schema import prepare
@@ -16,20 +16,20 @@ from rgss.evidence.store.tables import Table
 
 
 def copy_rows(rows: Iterable[tuple[Table[Any], Row]], to: Path) -> int:
-    """Put rows into a new store, those with a key that is there already left out.
+    """Insert rows into a new store, without duplicate keys.
 
     Args:
         rows: Each row with its table.
         to: The new file.
 
     Returns:
-        How many were copied.
+        The number of copied rows.
 
     Raises:
         EvidenceError: The new file cannot be written.
     """
     create_store(to, label=str(to))
-    with in_our_words(str(to)):
+    with translated_errors(str(to)):
         new = Database(connect(to), str(to))
         try:
             prepare(new.connection, new.name)
@@ -42,7 +42,7 @@ def copy_rows(rows: Iterable[tuple[Table[Any], Row]], to: Path) -> int:
 
 
 def readable_rows(connection: sqlite3.Connection, table: Table[Any]) -> Iterator[tuple[int, Row]]:
-    """The rows of a table that are sound, each with its number.
+    """Valid rows of a table, each with its row number.
 
     Args:
         connection: The damaged store.
@@ -58,10 +58,10 @@ def readable_rows(connection: sqlite3.Connection, table: Table[Any]) -> Iterator
 
 
 def row_numbers(connection: sqlite3.Connection, table: Table[Any]) -> tuple[list[int], list[str]]:
-    """The numbers of a table's rows, and what is in the way of reading them.
+    """Row numbers of a table, and the error of reading them, if any.
 
-    They are in the table and once more in the index of its keys, so that where pages of one are
-    damaged the other still lists the rows on the sound pages.
+    They are stored both in the table and in the index of its keys, so that if pages of one are damaged the other still
+    lists the rows on the valid pages.
 
     Args:
         connection: The store.
@@ -80,7 +80,7 @@ def row_numbers(connection: sqlite3.Connection, table: Table[Any]) -> tuple[list
 
 
 def numbered_row(connection: sqlite3.Connection, table: Table[Any], number: int) -> Row:
-    """The whole row with a number.
+    """Row by number.
 
     Args:
         connection: The store.
@@ -88,10 +88,10 @@ def numbered_row(connection: sqlite3.Connection, table: Table[Any], number: int)
         number: The row's number.
 
     Raises:
-        EvidenceError: It cannot be found again.
+        EvidenceError: The row cannot be found.
         sqlite3.Error: It cannot be read.
     """
     row: Row | None = connection.execute(f"{table.select} WHERE rowid = ?", (number,)).fetchone()
     if row is None:
-        raise EvidenceError("it cannot be found again")
+        raise EvidenceError("it cannot be found")
     return row

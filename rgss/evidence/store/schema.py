@@ -70,13 +70,13 @@ _INDEX = ("trials_by_variant", "CREATE INDEX trials_by_variant ON trials (varian
 
 
 def make(connection: sqlite3.Connection) -> None:
-    """Make an empty database a store, in one transaction.
+    """Create the schema of a store in an empty database, in one transaction.
 
     Args:
         connection: An open database, in autocommit mode.
 
     Raises:
-        sqlite3.Error: It cannot be written.
+        sqlite3.Error: The database cannot be written.
     """
     with transaction(connection):
         connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
@@ -86,16 +86,15 @@ def make(connection: sqlite3.Connection) -> None:
 
 
 def prepare(connection: sqlite3.Connection, name: str) -> None:
-    """Check that a database is a store, and bring one of an older schema to this one.
+    """Require that a database is a store, and migrate an older schema.
 
     Args:
         connection: An open database, in autocommit mode.
         name: Its name in messages.
 
     Raises:
-        EvidenceError: It is the database of something else, of a newer version, or has been
-            given views, triggers or other tables.
-        sqlite3.Error: It is not a database, is damaged, or cannot be written.
+        EvidenceError: The database is not a store, has a newer schema, or has foreign views, triggers or tables.
+        sqlite3.Error: The file is not a database, is damaged, or cannot be written.
     """
     if _version(connection, name) != SCHEMA_VERSION:
         _migrate(connection, name)
@@ -104,37 +103,37 @@ def prepare(connection: sqlite3.Connection, name: str) -> None:
 
 
 def require_present(connection: sqlite3.Connection, name: str) -> None:
-    """Check that a database is a store of this schema, where it cannot be brought to it.
+    """Require that a database is a store of the present schema, without migration.
 
     Raises:
-        EvidenceError: It is none, or one of another schema.
-        sqlite3.Error: It is not a database, or damaged.
+        EvidenceError: The database is not a store, or has another schema.
+        sqlite3.Error: The file is not a database, or is damaged.
     """
     version = _version(connection, name)
     if version != SCHEMA_VERSION:
-        hint = "make the file and its folder writable, so that it can be brought to the present schema"
+        hint = "make the file and its folder writable, so that it can be migrated to the present schema"
         raise EvidenceError(f"{name} has the older schema {version} and cannot be written", hint=hint)
     require_own_schema(connection, name)
 
 
 def require_own_schema(connection: sqlite3.Connection, name: str) -> None:
-    """Check that a database has the tables of a store and nothing else.
+    """Require that a database has exactly the tables of a store.
 
     Raises:
-        EvidenceError: It has others, or views or triggers.
-        sqlite3.Error: It cannot be read.
+        EvidenceError: The database has other tables, views or triggers.
+        sqlite3.Error: The database cannot be read.
     """
     _check_schema(connection, name, (*_TABLES, _LEDGER), [_INDEX])
 
 
 def require_sound_pages(connection: sqlite3.Connection, name: str) -> None:
-    """Check that a file is whole before anything is written to it; some milliseconds for ten thousand trials.
+    """Require undamaged pages before writing to a file; takes some milliseconds for ten thousand trials.
 
     Raises:
-        EvidenceError: It is not.
-        sqlite3.Error: It cannot be read.
+        EvidenceError: The file is damaged.
+        sqlite3.Error: The file cannot be read.
     """
-    _require_sound(connection, name, "quick_check(1)", "'rgss evidence verify' shows what is left of it")
+    _require_sound(connection, name, "quick_check(1)", "run 'rgss evidence verify' to see what can be recovered")
 
 
 def _make_tables(connection: sqlite3.Connection) -> None:
@@ -144,7 +143,7 @@ def _make_tables(connection: sqlite3.Connection) -> None:
 
 
 def _migrate(connection: sqlite3.Connection, name: str) -> None:
-    """Bring a store of an older schema to this one, all in one transaction."""
+    """Migrate a store of an older schema, in one transaction."""
     with transaction(connection):
         version = _version(connection, name)
         if version == _BEFORE_LEDGER:
@@ -152,10 +151,10 @@ def _migrate(connection: sqlite3.Connection, name: str) -> None:
             connection.execute(LEDGER_TABLE)
             connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
             write_ledger(connection)
-        # Another process may have done it since this one looked.
+        # Another process may have migrated it meanwhile.
         elif version != SCHEMA_VERSION:
             _check_schema(connection, name, [("trials", FIRST_TABLE)], [])
-            # Completely, since rows left behind would be lost.
+            # A complete check, since rows that are not migrated would be lost.
             _require_sound(connection, name, "integrity_check(1)", "move the file away and run the sweep again")
             migrate_from_first(connection, _make_tables)
             write_ledger(connection)
@@ -163,7 +162,7 @@ def _migrate(connection: sqlite3.Connection, name: str) -> None:
 
 def _version(connection: sqlite3.Connection, name: str) -> int:
     if _pragma(connection, "application_id") != APPLICATION_ID:
-        raise EvidenceError(f"{name} is not an evidence store", hint="choose another file; this one is left as it is")
+        raise EvidenceError(f"{name} is not an evidence store", hint="use another file; this one is unchanged")
     version = _pragma(connection, "user_version")
     if version not in (1, _BEFORE_LEDGER, SCHEMA_VERSION):
         age = "newer" if isinstance(version, int) and version > SCHEMA_VERSION else "unknown"
@@ -183,9 +182,7 @@ def _check_schema(
     expected += [("index", index, "trials", text) for index, text in indices]
     found = connection.execute("SELECT type, name, tbl_name, sql FROM sqlite_master").fetchmany(len(expected) + 1)
     if sorted(found, key=repr) != sorted(expected, key=repr):
-        raise EvidenceError(
-            f"{name} has a schema that is not its own", hint="move the file away and run the sweep again"
-        )
+        raise EvidenceError(f"{name} has a foreign schema", hint="move the file away and run the sweep again")
 
 
 def _require_sound(connection: sqlite3.Connection, name: str, check: str, hint: str) -> None:
@@ -195,7 +192,7 @@ def _require_sound(connection: sqlite3.Connection, name: str, check: str, hint: 
 
 
 def _log_ahead(connection: sqlite3.Connection) -> None:
-    """Switch the file to write-ahead logging, which it then keeps."""
+    """Switch the file permanently to write-ahead logging."""
     attempts_left = int(connecting.BUSY_TIMEOUT_S / _PAUSE_S)
     while not _is_logging_ahead(connection, may_fail=attempts_left > 0):
         attempts_left -= 1
@@ -206,7 +203,7 @@ def _is_logging_ahead(connection: sqlite3.Connection, *, may_fail: bool) -> bool
     try:
         connection.execute("PRAGMA journal_mode = WAL")
     except sqlite3.OperationalError as error:
-        # SQLite does not wait here by itself when two processes switch at once.
+        # SQLite does not wait here if two processes switch at once.
         if may_fail and "locked" in str(error):
             return False
         raise

@@ -1,6 +1,6 @@
-"""Evidence store: one SQLite file with trials, the pieces that they share, and failures of runs."""
+"""Evidence store: one SQLite file with trials, shared pieces, and failures of runs."""
 
-# long file: one class with a short method for each question to a store; half of its lines are their docstrings.
+# long file: one class with a short method for each query of a store; half of its lines are docstrings.
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from rgss.evidence.records import (
     require_key,
     trial_row,
 )
-from rgss.evidence.store.connection import Database, Row, connect, in_our_words, is_writable
+from rgss.evidence.store.connection import Database, Row, connect, is_writable, translated_errors
 from rgss.evidence.store.creation import create_store, require_content
 from rgss.evidence.store.ledger import require_ledger
 from rgss.evidence.store.schema import prepare, require_present, require_sound_pages
@@ -35,15 +35,14 @@ from rgss.evidence.store.writing import EvidenceWriter, RowChanges
 Value = TypeVar("Value")
 
 _AT_ONCE = 16
-"""Rows of one step of an iteration: enough to be quick, few enough to be small."""
+"""Rows of one batch of an iteration."""
 
 
 class EvidenceStore:
     """Trials by the digest of their inputs, in a file that several processes may share.
 
-    Every write is a transaction: a process that is killed leaves what it has put and no part of
-    anything else. Every read checks the digests of the row. A store belongs to the process and
-    thread that opened it; workers hand their results to it.
+    Every write is a transaction: a killed process leaves complete entries only. Every read verifies the digests of the
+    row. A store belongs to the process and thread that opened it; workers send their results to it.
 
     Attributes:
         database: The file, for operations on it as a whole.
@@ -58,19 +57,18 @@ class EvidenceStore:
     def open(
         cls, path: Path, *, create: bool = True, read_only: bool = False, label: str | None = None
     ) -> EvidenceStore:
-        """Open a store; one of an older schema is brought to the present one.
+        """Open a store, migrating an older schema.
 
         Args:
             path: The file.
-            create: Make the file and its folder if they are not there. Without it, a file that cannot be
-                written is opened for reading alone.
-            read_only: Open it for reading alone in any case, so that no file is made or changed. While no other
-                process has it open it is read as if nobody would write it; see `observed`.
+            create: True to create a missing file and its folder. Otherwise a file that cannot be written is opened
+                read-only.
+            read_only: True to open it read-only in any case, so that no file is created or changed. While no other
+                process has it open it is treated as immutable; see `observed`.
             label: The file's name in messages; the path itself by default.
 
         Raises:
-            EvidenceError: The file is missing, is empty or no store, is one of a newer rgss, is
-                damaged, or cannot be written.
+            EvidenceError: The file is missing, empty, not a store, of a newer schema, damaged, or cannot be written.
         """
         name = label if label is not None else str(path)
         if not path.exists():
@@ -79,7 +77,7 @@ class EvidenceStore:
             create_store(path, label=name)
         require_content(path, label=name)
         read_only = read_only or (not create and not is_writable(path))
-        with in_our_words(name, folder=path.parent):
+        with translated_errors(name, folder=path.parent):
             connection = connect(path, read_only=read_only)
             try:
                 (require_present if read_only else prepare)(connection, name)
@@ -100,14 +98,14 @@ class EvidenceStore:
         self.close()
 
     def close(self) -> None:
-        """Close the file; a second time does nothing."""
+        """Close the file; calling twice is allowed."""
         self.database.close()
 
     def put(self, key: str, record: TrialRecord, provenance: Provenance) -> bool:
-        """Keep a trial, on disk when this returns; see `put_many`.
+        """Store a trial durably; see `put_many`.
 
         Returns:
-            Whether it is new; False if the same trial with the same result was there.
+            True if it is new; False if the same trial with the same result exists.
         """
         return self.put_many(trials=[(key, record, provenance)]) == 1
 
@@ -118,21 +116,21 @@ class EvidenceStore:
         pieces: Iterable[Piece] = (),
         inputs: Iterable[Mapping[str, Any]] = (),
     ) -> int:
-        """Keep trials, pieces and named inputs: all of them, on disk when this returns, or none.
+        """Store trials, pieces and named inputs durably, in one transaction.
 
-        What is kept of a trial or piece that could not be made before, its failure, is taken away.
+        Stored failures of these trials and pieces are removed.
 
         Args:
             trials: Key, record and provenance of each.
             pieces: The pieces.
-            inputs: Named inputs, which the trials may refer to.
+            inputs: Named inputs, which the trials may reference.
 
         Returns:
-            How many of the trials and pieces are new; the others were there with the same content.
+            The number of new trials and pieces; the others exist with the same content.
 
         Raises:
-            EvidenceError: A trial or piece is there with another content, a trial refers to named
-                inputs that are not there, something is malformed, or the file cannot be written.
+            EvidenceError: A trial or piece exists with another content, a trial references missing named inputs, an
+            entry is malformed, or the file cannot be written.
         """
         inputs_rows = [inputs_row(each) for each in inputs]
         piece_rows = [piece_row(piece) for piece in pieces]
@@ -151,18 +149,18 @@ class EvidenceStore:
             for row, needed in trial_rows:
                 what = f"trial {row[0][:12]} of variant {row[1]}, seed {row[2]}"
                 if needed and not self._is_there(INPUTS, needed):
-                    raise EvidenceError(f"{what} refers to inputs that are not kept", hint="put its inputs first")
+                    raise EvidenceError(f"{what} refers to inputs that are not stored", hint="store its inputs first")
                 new += self._put(changes, TRIALS, row, what)
         return new
 
     def put_failure(self, failure: RunFailure) -> bool:
-        """Keep a failure of the run, in place of an earlier one of the same trial or piece.
+        """Store a failure of the run, replacing an earlier one of the same trial or piece.
 
         Returns:
-            Whether it was kept; False if the trial or piece has been made meanwhile.
+            True if it was stored; False if the trial or piece exists meanwhile.
 
         Raises:
-            EvidenceError: It is malformed, or the file cannot be written.
+            EvidenceError: The failure is malformed, or the file cannot be written.
         """
         row = failure_row(failure)
         with self._writer.transaction([(FAILURES, row)]) as changes:
@@ -173,17 +171,17 @@ class EvidenceStore:
         return not made
 
     def confirm(self) -> None:
-        """Read back what was put since the last time, and check the file that has the store's name.
+        """Read back the entries stored since the last call, and check the identity of the file.
 
         Raises:
-            StorageError: The file was removed, replaced or damaged meanwhile; the message says where what
-                could be saved of it is.
+            StorageError: The file was removed, replaced or damaged meanwhile; the message names the file with the
+            rescued rows.
             EvidenceError: The file cannot be read.
         """
         self._writer.confirm()
 
     def get(self, key: str) -> StoredTrial | None:
-        """The trial with a key; None if there is none.
+        """Trial by key; None if there is none.
 
         Raises:
             EvidenceError: Its row is damaged, or the file cannot be read.
@@ -191,7 +189,7 @@ class EvidenceStore:
         return self._get(TRIALS, key)
 
     def piece(self, digest: str) -> Piece | None:
-        """The piece with a digest; None if there is none.
+        """Piece by digest; None if there is none.
 
         Raises:
             EvidenceError: Its row is damaged, or the file cannot be read.
@@ -199,7 +197,7 @@ class EvidenceStore:
         return self._get(PIECES, digest)
 
     def inputs(self, digest: str) -> Mapping[str, Any] | None:
-        """The named inputs with a digest; None if there are none.
+        """Named inputs by digest; None if there are none.
 
         Raises:
             EvidenceError: Their row is damaged, or the file cannot be read.
@@ -208,44 +206,44 @@ class EvidenceStore:
         return None if found is None else found.values
 
     def failures(self, keys: Iterable[str]) -> Mapping[str, RunFailure]:
-        """Those of the trials or pieces that could not be made, with what happened, in the order of the keys.
+        """Stored failures among trials or pieces, in the order of the keys.
 
         Raises:
             EvidenceError: A row is damaged, or the file cannot be read.
         """
-        return self._those(FAILURES, keys)
+        return self._selected(FAILURES, keys)
 
     def has(self, keys: Iterable[str]) -> set[str]:
-        """Those of the keys whose trials are in the store.
+        """Keys of stored trials among the given ones.
 
         Raises:
             EvidenceError: The file cannot be read.
         """
-        return self._those_there(TRIALS, keys)
+        return self._existing(TRIALS, keys)
 
     def has_pieces(self, digests: Iterable[str]) -> set[str]:
-        """Those of the digests whose pieces are in the store.
+        """Digests of stored pieces among the given ones.
 
         Raises:
             EvidenceError: The file cannot be read.
         """
-        return self._those_there(PIECES, digests)
+        return self._existing(PIECES, digests)
 
     def records(self, keys: Iterable[str]) -> Mapping[str, TrialRecord]:
-        """The records of those of the keys that are in the store, in the order of the keys.
+        """Records of the stored trials among the given keys, in the order of the keys.
 
         Raises:
             EvidenceError: A row is damaged, or the file cannot be read.
         """
         wanted = list(keys)
         with self.database.transaction("DEFERRED"):
-            # The rest of each trial is let go at once: of many, it is larger than the records.
+            # The rest of each trial is released at once: of many trials it is larger than the records.
             return {key: trial.record for key in wanted if (trial := self._get(TRIALS, key)) is not None}
 
     def trials_of(self, variant: int, seed: int, fidelity: Fidelity) -> tuple[StoredTrial, ...]:
-        """All trials of a variant with a seed, whatever else went into them.
+        """All trials of a variant with a seed, for any other inputs.
 
-        Those that say what their named inputs were come first, and among equals the key decides.
+        Trials with named inputs come first; otherwise in the order of the keys.
 
         Raises:
             EvidenceError: A row is damaged, or the file cannot be read.
@@ -256,7 +254,7 @@ class EvidenceStore:
         return tuple(sorted(found, key=lambda trial: (not trial.provenance.inputs_digest, trial.key)))
 
     def iterate(self) -> Iterator[StoredTrial]:
-        """Every trial in the order of keys, a few at a time; writing meanwhile does no harm.
+        """Iterate over all trials in the order of keys, in batches; concurrent writing is allowed.
 
         Raises:
             EvidenceError: A row is damaged, or the file cannot be read.
@@ -272,7 +270,7 @@ class EvidenceStore:
                 return
 
     def all(self) -> tuple[StoredTrial, ...]:
-        """Every trial, in the order of keys, whatever the order in which they came; see `iterate`."""
+        """All trials in the order of keys; see `iterate`."""
         return tuple(self.iterate())
 
     def __len__(self) -> int:
@@ -290,7 +288,7 @@ class EvidenceStore:
                 made, makes = read_trial(there).provenance, read_trial(row).provenance
                 require_alike(f"{what} in the store", made.numerics, makes.numerics)
             kept, other = brief(there[table.content or 0]), brief(row[table.content or 0])
-            hint = f"the same inputs must give the same content; {kept} is kept, {other} is not"
+            hint = f"the same inputs must give the same content; {kept} is stored, {other} is not"
             raise EvidenceError(f"non-determinism: {what} has another result than before", hint=hint)
         return False
 
@@ -299,12 +297,12 @@ class EvidenceStore:
         row = self.database.one(table.by_key, [key])
         return None if row is None else table.value(row, self.database.name)
 
-    def _those(self, table: Table[Value], keys: Iterable[str]) -> dict[str, Value]:
+    def _selected(self, table: Table[Value], keys: Iterable[str]) -> dict[str, Value]:
         wanted = list(keys)
         with self.database.transaction("DEFERRED"):
             return {key: value for key in wanted if (value := self._get(table, key)) is not None}
 
-    def _those_there(self, table: Table[Value], keys: Iterable[str]) -> set[str]:
+    def _existing(self, table: Table[Value], keys: Iterable[str]) -> set[str]:
         wanted = list(keys)
         for key in wanted:
             require_key(key)

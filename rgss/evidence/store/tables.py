@@ -1,4 +1,4 @@
-"""The four tables of evidence in a store, with the statements that find, insert and read rows."""
+"""The four tables of a store, with their SQL statements."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ Value = TypeVar("Value")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Table(Generic[Value]):
-    """A table, with the beginnings of the statements that are made of it.
+    """Table with the prefixes of its SQL statements.
 
     Attributes:
         name: Its name in the database.
-        what: What one of its rows is called in messages.
-        key: The column that its rows are known by, which is the first of them.
+        what: Name of one of its rows in messages.
+        key: The key column, which is the first.
         select: Selects whole rows.
-        present: Selects nothing of rows but that they are there.
-        put: Puts a whole row, unless its key is there.
+        present: Selects the existence of rows.
+        put: Inserts a whole row, unless its key exists.
         delete: Deletes rows.
-        content: Column with the digest of what was put; None if the key determines it.
-        seal: Column that binds the parts of a row to each other; None if the key determines it.
-        read: Makes the value of a whole row; raises what is wrong with it.
+        content: Column with the digest of the content; None if the key determines it.
+        seal: Column with the seal of a row; None if the key determines it.
+        read: Function that converts a whole row to its value; raises for a damaged row.
     """
 
     name: str
@@ -54,17 +54,17 @@ class Table(Generic[Value]):
 
     @property
     def by_key(self) -> str:
-        """Selects the whole row with a key."""
+        """Statement that selects a row by key."""
         return f"{self.select} WHERE {self.key} = ?"
 
     @property
     def is_there(self) -> str:
-        """Selects something if there is a row with a key."""
+        """Statement that selects the existence of a row by key."""
         return f"{self.present} WHERE {self.key} = ?"
 
     @property
     def identities(self) -> str:
-        """Selects key and seal of every row, for its ledger."""
+        """Statement that selects key and seal of every row, for the ledger."""
         return self.present.replace("SELECT 1", f"SELECT {self.key}, {self._seal_column}", 1)
 
     @property
@@ -79,13 +79,13 @@ class Table(Generic[Value]):
             store: The store's name in messages.
 
         Raises:
-            EvidenceError: It is damaged.
+            EvidenceError: The row is damaged.
         """
         try:
             return self.read(row)
         except EvidenceError as error:
             message = f"{store}: {self.what} {brief(row[0])} is damaged: {error.message}"
-            hint = "'rgss evidence verify --mend' takes it away, and the next sweep makes it anew"
+            hint = "run 'rgss evidence verify --mend' to remove it; the next sweep computes it again"
             raise EvidenceError(message, hint=hint) from error
 
 
@@ -145,5 +145,5 @@ TABLES: tuple[Table[Any], ...] = (TRIALS, PIECES, INPUTS, FAILURES)
 
 
 def brief(key: object) -> str:
-    """A key as messages show it: the beginning of a digest, or the damaged value itself."""
+    """Key for messages: the beginning of a digest, or the damaged value itself."""
     return key[:12] if isinstance(key, str) and is_digest(key) else shown(key)

@@ -1,4 +1,4 @@
-"""Transactions of SQLite that are always ended."""
+"""SQLite transactions that are always committed or rolled back."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def transaction(connection: sqlite3.Connection, kind: str = "IMMEDIATE") -> Iterator[None]:
-    """Transaction of a database: changes within it take effect as a whole or not at all.
+    """Atomic transaction of a database.
 
     Args:
         connection: An open database, in autocommit mode.
@@ -23,7 +23,7 @@ def transaction(connection: sqlite3.Connection, kind: str = "IMMEDIATE") -> Iter
         yield
         connection.execute("COMMIT")
     except BaseException:
-        # SQLite may have rolled back by itself, as it does when the disk is full.
+        # SQLite may have rolled back already, as on a full disk.
         if connection.in_transaction:
             connection.execute("ROLLBACK")
         raise

@@ -1,12 +1,12 @@
 """Trials as a table: one row per trial, one column per value, units in the names of the columns.
 
-The columns, in their order; NAME is that of a metric, with its unit at its end:
+The columns, in order; NAME is the name of a metric, with its unit as suffix:
 
-- ``key``, ``content_digest``: digests of what went in and of what came out.
-- ``variant``, ``seed``, ``fidelity``, ``success``, ``failure``, ``failed_phase``, ``failure_detail``.
-- ``workload``, ``drawn_QUANTITY``: case of the workload, and draws of uncertain quantities; only where there are any.
-- ``NAME``: a metric of the trial (but that of success, which has its own column). One
-  that is a row has a column for each entry: ``item_1_NAME``, ``item_2_NAME`` and so on; a row of
+- ``key``, ``content_digest``: digests of the inputs and of the record. - ``variant``, ``seed``, ``fidelity``,
+``success``, ``failure``, ``failed_phase``, ``failure_detail``. - ``workload``, ``drawn_QUANTITY``: case of the
+workload, and draws of uncertain quantities; only if there are any. - ``NAME``: a metric of the trial (except success,
+which has its own column). A row metric has a column for each entry: ``item_1_NAME``, ``item_2_NAME`` and so on; a row
+of
   planning or of paths has the planned moves in their order.
 - ``PHASE_outcome``, ``PHASE_duration_s``, ``PHASE_NAME``: each step of the task and its metrics.
 - ``planning_N_outcome``, ``_checks``, ``_simplification_checks``, ``_time_s``, ``_path_length_m``: the
@@ -14,7 +14,7 @@ The columns, in their order; NAME is that of a metric, with its unit at its end:
 - ``input_NAME``, ``version_NAME``, ``file_NAME``: digests of the pieces, versions of code and engines,
   digests of the input files; ``inputs_digest``, ``revision``, ``machine``.
 
-Metrics are floats, and what the trial cannot know is missing.
+Metrics are floats; values that are not observed are missing.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ if TYPE_CHECKING:
     import pandas as pd
 
 MOST_COLUMNS = 2000
-"""Columns of the widest table; a record has some hundred values."""
+"""Greatest number of columns of a table; a record has some hundred values."""
 
 _SAID = "success"
-"""The metric that equals the column of this name."""
+"""The metric equal to the column ``success``."""
 
 _HEAD, _DRAWN, _METRICS, _PHASES, _PLANNING, _ORIGIN = range(6)
 
@@ -62,13 +62,13 @@ class _Column:
 
 
 def trial_frame(trials: Iterable[StoredTrial]) -> pd.DataFrame:
-    """The trials as a data frame, in the order in which they come.
+    """Trials as a data frame, in their order.
 
     Args:
-        trials: The trials, which may stream: only the values of the table are held.
+        trials: The trials, which may be a stream: only the values of the table are kept in memory.
 
     Raises:
-        EvidenceError: A value does not fit a column, two columns have one name, or there are too many.
+        EvidenceError: A value does not fit a column, two columns have the same name, or there are too many columns.
     """
     import pandas as pd
 
@@ -82,7 +82,7 @@ def trial_frame(trials: Iterable[StoredTrial]) -> pd.DataFrame:
                 raise EvidenceError(f"two columns of the table would have the name {shown(name)}")
             column.cells.append(value)
         if len(columns) > MOST_COLUMNS:
-            raise EvidenceError(f"the trials have more than {MOST_COLUMNS} different values; no table is that wide")
+            raise EvidenceError(f"the number of columns must be at most {MOST_COLUMNS}")
         for column in columns.values():
             if len(column.cells) == rows:
                 column.cells.append(None)
@@ -124,7 +124,7 @@ def _cells(trial: StoredTrial) -> Iterator[_Cell]:
 
 
 def _head(trial: StoredTrial | None) -> Iterator[_Cell]:
-    """The columns that every table has; without a trial only they count."""
+    """Columns of every table, also of one without trials."""
     record = None if trial is None else trial.record
     cells: list[tuple[str, type, Any]] = [
         ("key", str, trial and trial.key),
@@ -151,7 +151,7 @@ def _metric(part: int, place: int, prefix: str, name: str, value: Metric) -> Ite
 
 
 def _number(value: float | None, name: str) -> float | None:
-    """A number as a float, if that is exact."""
+    """Number as a float, if exactly representable."""
     if value is None or type(value) is float:
         return value
     try:
@@ -170,5 +170,5 @@ def _count(value: int, name: str) -> int:
 
 
 def _text(text: str) -> str:
-    """A text without what no file can hold: halves of a character, as JSON can name them."""
+    """Text without unpaired surrogates, which JSON can contain but files cannot."""
     return text if text.isascii() else text.encode("utf-8", "replace").decode("utf-8")

@@ -1,4 +1,4 @@
-"""Check of a whole store: its pages, every row, its ledger, and the references of trials."""
+"""Verification of a whole store: pages, every row, ledger, and the references of trials."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 
 from rgss.errors import EvidenceError
 from rgss.evidence.records import StoredTrial
-from rgss.evidence.store.connection import PROBLEMS, Database, connect, in_our_words, is_writable, problem_of
+from rgss.evidence.store.connection import PROBLEMS, Database, connect, is_writable, problem_of, translated_errors
 from rgss.evidence.store.ledger import differences, write_ledger
 from rgss.evidence.store.salvaging import copy_rows, numbered_row, readable_rows, row_numbers
 from rgss.evidence.store.schema import prepare, require_own_schema, require_present
@@ -21,7 +21,7 @@ PAGES = "pages"
 """Kind of damage of the file itself."""
 
 LEDGER = "ledger"
-"""Kind of damage where rows are missing or were added, though each is sound."""
+"""Kind of damage if rows are missing or were added, although each is valid."""
 
 _MOST_PAGE_PROBLEMS = 20
 
@@ -31,8 +31,8 @@ class Damage:
     """One damage of a store.
 
     Attributes:
-        what: What kind of row it is, such as ``trial``; ``pages`` of the file; or its ``ledger``.
-        key: What the row is known by, as messages show it; the table, for the ledger; empty for pages.
+        what: Kind of the row, such as ``trial``; ``pages`` of the file; or its ``ledger``.
+        key: Key of the row for messages; the table, for the ledger; empty for pages.
         problem: The problem, in one line.
         row: The number of the row in its table; None for pages and the ledger.
     """
@@ -48,13 +48,13 @@ class Damage:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Verification:
-    """Result of the check of a store.
+    """Result of the verification of a store.
 
     Attributes:
-        damages: Damage: pages first, then row by row.
-        sound: The number of sound rows of each kind.
-        orphaned_pieces: Pieces that no trial refers to, such as those of a sweep that was interrupted.
-        orphaned_inputs: Named inputs that no trial refers to.
+        damages: Damages: pages first, then row by row.
+        sound: The number of valid rows of each kind.
+        orphaned_pieces: Number of pieces that no trial references, such as those of an interrupted sweep.
+        orphaned_inputs: Number of named inputs that no trial references.
     """
 
     damages: tuple[Damage, ...]
@@ -64,7 +64,7 @@ class Verification:
 
     @property
     def pages_are_damaged(self) -> bool:
-        """True if the file itself is damaged, so that a row cannot simply be taken out of it."""
+        """True if the file itself is damaged, so that rows cannot be removed individually."""
         return any(damage.what == PAGES for damage in self.damages)
 
 
@@ -76,11 +76,11 @@ def verify(path: Path, *, label: str) -> Verification:
         label: Its name in messages.
 
     Raises:
-        EvidenceError: It is not there, is not a store, or is one of a newer rgss.
+        EvidenceError: The file does not exist, is not a store, or has a newer schema.
     """
     if not path.exists():
         raise EvidenceError(f"there is no evidence in {label}", hint="run the sweep first")
-    with in_our_words(label), _opened(path, label) as (connection, problem):
+    with translated_errors(label), _opened(path, label) as (connection, problem):
         if connection is None:
             return Verification(damages=(_pages(problem),), sound={}, orphaned_pieces=0, orphaned_inputs=0)
         return _Check(Database(connection, label), problem).verification()
@@ -88,12 +88,12 @@ def verify(path: Path, *, label: str) -> Verification:
 
 @contextmanager
 def _opened(path: Path, label: str) -> Iterator[tuple[sqlite3.Connection | None, str]]:
-    """Open a store for reading, whatever its pages are like; None if nothing of it can be read.
+    """Open a store for reading despite damaged pages; None if nothing can be read.
 
-    With it comes what was in the way of opening it as others do; empty if nothing was.
+    Also returns the error of opening it normally; empty if there was none.
     """
     if path.stat().st_size == 0:
-        yield None, "the file is empty, which no evidence store is"
+        yield None, "the file is empty, but an evidence store never is"
         return
     connection, problem = _attempt(path, label, though_damaged=False)
     if connection is None:
@@ -130,7 +130,7 @@ def _attempt(path: Path, label: str, *, though_damaged: bool) -> tuple[sqlite3.C
 
 
 class _Check:
-    """A check of one store, table by table."""
+    """Verification of one store, table by table."""
 
     def __init__(self, database: Database, problem: str) -> None:
         self._database = database
@@ -141,7 +141,7 @@ class _Check:
 
     def verification(self) -> Verification:
         self._damages.extend(_page_damages(self._database.connection))
-        # Trials come first: what they refer to was put before them, even while a sweep goes on.
+        # Trials first: their references were stored before them, even during a sweep.
         for table in TABLES:
             self._sound[table.what] = set()
             numbers, problems = row_numbers(self._database.connection, table)
@@ -152,7 +152,7 @@ class _Check:
         inputs = self._sound[INPUTS.what]
         for name, key, number in self._used_inputs:
             if name not in inputs:
-                problem = f"its inputs {brief(name)} are not there"
+                problem = f"its inputs {brief(name)} are missing"
                 self._damages.append(Damage(what=TRIALS.what, key=brief(key), problem=problem, row=number))
         return Verification(
             damages=tuple(self._damages),
@@ -167,7 +167,7 @@ class _Check:
                 for table, problem in differences(self._database.connection):
                     self._damages.append(Damage(what=LEDGER, key=table, problem=problem, row=None))
         except EvidenceError as error:
-            # Where pages are damaged, they are the damage.
+            # Damaged pages are reported instead of the ledger.
             if not self._damages:
                 self._damages.append(_pages(error.message))
 
@@ -187,22 +187,22 @@ class _Check:
                 self._used_inputs.append((value.provenance.inputs_digest, value.key, number))
 
 
-def take_away(path: Path, verification: Verification, *, label: str) -> int:
-    """Remove the damaged rows and write the ledger anew, so that the next sweep makes what was in them.
+def remove_damaged_rows(path: Path, verification: Verification, *, label: str) -> int:
+    """Remove the damaged rows and rewrite the ledger, so that the next sweep computes their content again.
 
     Args:
-        path: The file, whose pages are sound.
+        path: The file, whose pages are valid.
         verification: Result of `verify`.
         label: Its name in messages.
 
     Returns:
-        How many rows were removed.
+        The number of removed rows.
 
     Raises:
         EvidenceError: The file cannot be written.
     """
     tables = {table.what: table for table in TABLES}
-    with in_our_words(label):
+    with translated_errors(label):
         database = Database(connect(path), label)
     try:
         with database.transaction():
@@ -218,27 +218,27 @@ def take_away(path: Path, verification: Verification, *, label: str) -> int:
 
 
 def salvage(path: Path, verification: Verification, to: Path, *, label: str) -> int:
-    """Copy the sound rows of a store whose pages are damaged into a new one.
+    """Copy the valid rows of a store with damaged pages to a new store.
 
     Args:
         path: The damaged file.
         verification: Result of `verify`.
-        to: The new file, which must not be there.
+        to: The new file, which must not exist.
         label: The damaged file's name in messages.
 
     Returns:
-        How many rows were copied.
+        The number of copied rows.
 
     Raises:
-        EvidenceError: Nothing of it can be read, or the new file is there already or cannot be written.
+        EvidenceError: Nothing can be read, or the new file exists or cannot be written.
     """
     if to.exists():
-        raise EvidenceError(f"{to} is there already", hint="move it away first")
+        raise EvidenceError(f"{to} already exists", hint="move it away first")
     damaged_rows = {(damage.what, damage.row) for damage in verification.damages}
-    with in_our_words(label), _opened(path, label) as (damaged, _):
+    with translated_errors(label), _opened(path, label) as (damaged, _):
         if damaged is None:
-            hint = "move it away with the files beside it that begin with its name, and run the sweep again"
-            raise EvidenceError(f"nothing of {label} can be read any more", hint=hint)
+            hint = "move it and the files beside it that begin with its name, and run the sweep again"
+            raise EvidenceError(f"nothing of {label} can be read", hint=hint)
         sound = (
             (table, row)
             for table in TABLES

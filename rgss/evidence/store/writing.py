@@ -1,4 +1,4 @@
-"""Writing to a store: rows with their ledger in one transaction, and proof that they reached the file of its name."""
+"""Writing to a store: rows with their ledger in one transaction, and verification that they reached the file."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from rgss.errors import EvidenceError, StorageError
-from rgss.evidence.store.connection import Database, Row, connect, in_our_words
-from rgss.evidence.store.custody import Custody
+from rgss.evidence.store.connection import Database, Row, connect, translated_errors
+from rgss.evidence.store.file_identity import FileIdentity
 from rgss.evidence.store.ledger import LedgerChanges, require_ledger
 from rgss.evidence.store.rescue import rescued
 from rgss.evidence.store.schema import require_own_schema, require_sound_pages
@@ -20,10 +20,10 @@ Rows = Sequence[tuple[Table[Any], Row]]
 
 
 class RowChanges:
-    """Changes of the rows within one transaction."""
+    """Row changes within one transaction."""
 
     def __init__(self, database: Database) -> None:
-        """Begin with none.
+        """Start without changes.
 
         Args:
             database: The file, in a transaction.
@@ -33,7 +33,7 @@ class RowChanges:
         self.written: dict[tuple[str, str], bytes] = {}
 
     def put(self, table: Table[Any], row: Row) -> bool:
-        """Put a row unless its key is there; returns whether it was put.
+        """Insert a row unless its key exists; returns True if it was inserted.
 
         Raises:
             EvidenceError: The file cannot be written.
@@ -41,13 +41,13 @@ class RowChanges:
         if self._database.change(table.put, row) != 1:
             return False
         self.ledger.added(table, row)
-        # A failure may be taken away again, by any process that makes what had failed.
+        # A failure may be removed by any process that succeeds later.
         if table is not FAILURES:
             self.written[table.name, row[0]] = _fingerprint(row)
         return True
 
     def remove(self, table: Table[Any], key: str) -> int:
-        """Delete the row with a key; returns the number of rows deleted.
+        """Delete a row by key; returns the number of deleted rows.
 
         Raises:
             EvidenceError: The file cannot be written.
@@ -60,7 +60,7 @@ class RowChanges:
 
 
 class EvidenceWriter:
-    """The writing side of an open store."""
+    """Writer of an open store."""
 
     def __init__(self, database: Database, path: Path) -> None:
         """Record the present state of the files.
@@ -76,20 +76,20 @@ class EvidenceWriter:
         self._written: dict[tuple[str, str], bytes] = {}
         self._lost: StorageError | None = None
         try:
-            self._custody = Custody(path)
+            self._identity = FileIdentity(path)
         except OSError as error:
             raise EvidenceError(f"the evidence store {database.name} cannot be used: {error.strerror}") from error
 
     @contextmanager
     def transaction(self, pending: Rows = ()) -> Iterator[RowChanges]:
-        """Transaction of changes, in the file that has the store's name.
+        """Transaction of changes, with an identity check of the file.
 
         Args:
-            pending: Rows to be put, which are saved elsewhere if the store was lost.
+            pending: Rows to be inserted, which are saved elsewhere if the store was lost.
 
         Raises:
-            StorageError: The disk is full or fails; or the store was lost, and the message names where
-                what is left of it was saved.
+            StorageError: The disk is full or fails; or the store was lost, and the message names the file with the
+            rescued rows.
             EvidenceError: The file cannot be written.
         """
         if self._lost is not None:
@@ -100,34 +100,34 @@ class EvidenceWriter:
                 yield changes
                 changes.ledger.write(self._database)
         except EvidenceError as error:
-            problem = self._custody.problem()
+            problem = self._identity.problem()
             if problem:
                 raise self._loss(problem, pending) from error
             raise
-        problem = self._custody.problem()
+        problem = self._identity.problem()
         if problem:
             raise self._loss(problem)
         self._written.update(changes.written)
 
     def confirm(self) -> None:
-        """Read back what was written since the last time, as another process would, and check the whole file.
+        """Read back the rows written since the last call through a new connection, and check the whole file.
 
         Raises:
-            StorageError: The store was lost; the message names where what is left of it was saved.
+            StorageError: The store was lost; the message names the file with the rescued rows.
         """
         if self._lost is not None:
             raise self._lost
-        problem = self._custody.problem() or (self._difference() if self._written else "")
+        problem = self._identity.problem() or (self._difference() if self._written else "")
         if problem:
             raise self._loss(problem)
         self._written.clear()
 
     def _difference(self) -> str:
-        """In what the file differs from what was written, read through a connection that has nothing in memory."""
+        """Difference of the file from the written rows, read through a connection without cached pages."""
         try:
             with (
-                in_our_words(self._database.name),
-                closing(connect(self._custody.path)) as connection,
+                translated_errors(self._database.name),
+                closing(connect(self._identity.path)) as connection,
             ):
                 require_own_schema(connection, "it")
                 require_sound_pages(connection, "it")
@@ -138,7 +138,7 @@ class EvidenceWriter:
             raise
         except EvidenceError as error:
             return f"cannot be read back: {error.message}"
-        return f"does not have {missing} of {len(self._written)} rows that were written" if missing else ""
+        return f"lacks {missing} of {len(self._written)} written rows" if missing else ""
 
     def _missing(self, again: Database) -> Iterable[str]:
         tables = {table.name: table for table in TABLES}
@@ -149,9 +149,9 @@ class EvidenceWriter:
 
     def _loss(self, problem: str, pending: Rows = ()) -> StorageError:
         """Error for a lost store, raised after the rescue of its rows."""
-        saved = rescued(self._database.connection, self._custody.path, pending)
+        saved = rescued(self._database.connection, self._identity.path, pending)
         if saved.rows:
-            self._custody.discard_orphaned_logs()
+            self._identity.discard_orphaned_logs()
         self._lost = StorageError(
             f"the evidence store {self._database.name} {problem} while it was in use; {saved.text}", hint=saved.hint
         )

@@ -1,4 +1,4 @@
-"""Grasp candidates of an object, from its shape or its file, with their contacts and quality."""
+"""Grasp candidates of an object, from its shape or its file, with contacts and quality."""
 
 from rgss.grasping.candidates.ranking import RankedGrasp, RankedGrasps, ranked_grasps
 from rgss.grasping.candidates.scoring import contact_points

@@ -1,4 +1,4 @@
-"""Grasps of a box: each pair of faces, from each direction along the two other axes, at several depths."""
+"""Grasp candidates of a box: each pair of faces, from each direction along the two other axes, at several depths."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ _NAMES = "xyz"
 
 
 def box_frames(shape: Box, centre_of_mass_m: Vector3, heights: int, geometry: GripperGeometry) -> Iterator[ToolFrame]:
-    """Tool frames at which the fingers meet faces of a box.
+    """Tool frames at which the fingers close on faces of a box.
 
     Args:
         shape: The box.
-        centre_of_mass_m: Its centre of mass, above which the hand is centred along the third axis.
-        heights: Depths tried from each direction.
+        centre_of_mass_m: Its centre of mass, on which the hand is centred along the third axis.
+        heights: Number of depths from each direction.
         geometry: The gripper's shape.
     """
     for closing in range(3):

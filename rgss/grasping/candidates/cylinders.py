@@ -1,4 +1,4 @@
-"""Grasps of a cylinder: along its axis, across it, and by its ends, at several turns about the axis."""
+"""Grasp candidates of a cylinder: along its axis, across it, and by its ends, at several yaw angles."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ _LYING = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (0.0, math.pi / 2, 0.0))
 def cylinder_frames(
     shape: Cylinder | LyingCylinder, centre_of_mass_m: Vector3, *, heights: int, yaws: int, geometry: GripperGeometry
 ) -> Iterator[ToolFrame]:
-    """Tool frames at which the fingers meet the wall or the ends of a cylinder.
+    """Tool frames at which the fingers close on the wall or the ends of a cylinder.
 
     Args:
         shape: The cylinder.
         centre_of_mass_m: Its centre of mass.
-        heights: Depths or places along the axis.
-        yaws: Turns about the axis.
+        heights: Number of depths or places along the axis.
+        yaws: Number of yaw angles about the axis.
         geometry: The gripper's shape.
     """
     if isinstance(shape, LyingCylinder):

@@ -1,4 +1,4 @@
-"""Frames of the tool at a grasp, in the frame of the object."""
+"""Tool frames of grasps, in the frame of the object."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _LEAST_GAP_M = 0.005
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ToolFrame:
-    """A place of the tool that may be a grasp.
+    """Candidate pose of the tool.
 
     Attributes:
         id: Its name.
@@ -28,13 +28,13 @@ class ToolFrame:
 
 
 def tool_frame(name: str, centre_m: Vector3, *, towards: Vector3, closing: Vector3, azimuth_rad: float) -> ToolFrame:
-    """The frame of a tool that comes from a direction and closes along another.
+    """Tool frame from an approach and a closing direction.
 
     Args:
         name: Its name.
         centre_m: The grasp centre in the object's frame.
         towards: Unit direction of the tool's axis, away from the flange.
-        closing: Unit direction in which the first finger lies from the centre, square to the axis.
+        closing: Unit direction in which the first finger lies from the centre, perpendicular to the axis.
         azimuth_rad: Direction of the first finger about the tool's axis.
     """
     z, x = np.array(towards), np.array(closing)
@@ -46,7 +46,7 @@ def tool_frame(name: str, centre_m: Vector3, *, towards: Vector3, closing: Vecto
 
 
 def approach_of(tool_in_object: Pose) -> Approach | None:
-    """The kind of approach of a tool to an object at rest; None from below."""
+    """Kind of approach of a tool to an object at rest; None from below."""
     down = -tool_in_object.rotate((0.0, 0.0, 1.0))[2]
     angle = math.acos(max(-1.0, min(1.0, down)))
     if angle <= _TOLERANCE_RAD:
@@ -57,14 +57,14 @@ def approach_of(tool_in_object: Pose) -> Approach | None:
 
 
 def depths_m(half_m: float, centre_m: float, heights: int, geometry: GripperGeometry) -> tuple[float, ...]:
-    """Places of the grasp centre along the approach, towards the hand positive from the object's centre.
+    """Positions of the grasp centre along the approach in m, from the object's centre, positive towards the hand.
 
-    The palm stays clear of the object, and the centre inside it. The place of the centre of mass comes first.
+    The palm stays clear of the object, and the centre inside it. The position of the centre of mass comes first.
 
     Args:
         half_m: Half the object's extent along the approach.
-        centre_m: Place of the centre of mass.
-        heights: How many places.
+        centre_m: Position of the centre of mass along the approach.
+        heights: Number of positions.
         geometry: The gripper's shape.
     """
     palm_m = geometry.grasp_depth_m - geometry.palm_height_m

@@ -1,4 +1,4 @@
-"""Grasps of a mesh: points of its surface that lie opposite each other within the friction cones."""
+"""Grasp candidates of a mesh: antipodal points of its surface."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ _INSIDE = 1e-9
 def antipodal_frames(
     shape: MeshShape, *, friction: float, samples: int, yaws: int, geometry: GripperGeometry
 ) -> Iterator[ToolFrame]:
-    """Tool frames round pairs of opposite surface points of a convex part.
+    """Tool frames at antipodal pairs of surface points of a convex part.
 
-    A point is drawn evenly over the surface; the line along its normal leaves the part at the other point. A pair is
-    antipodal if the line lies in the friction cone there as well (Nguyen, 1988).
+    A point is sampled uniformly on the surface; the line along its normal leaves the part at the other point. A pair is
+    antipodal if the line is in the friction cone there as well (Nguyen, 1988).
 
     Args:
         shape: The mesh.
         friction: Coefficient of the contact.
-        samples: Points drawn.
-        yaws: Turns of the tool about the line between the points.
+        samples: Number of sampled points.
+        yaws: Number of angles of the tool about the line between the points.
         geometry: The gripper's shape.
     """
     triangles = np.vstack(surface_of(shape))
@@ -61,7 +61,7 @@ def antipodal_frames(
 
 
 def _exit(point: Array, direction: Array, triangles: Array, normals: Array) -> tuple[Array, Array] | None:
-    """Where a line from the surface of a convex part leaves it, with the outward normal there."""
+    """Exit point of a line from the surface of a convex part, and the outward normal there."""
     slopes = normals @ direction
     leaving = slopes > _INSIDE
     if not np.any(leaving):
@@ -74,7 +74,7 @@ def _exit(point: Array, direction: Array, triangles: Array, normals: Array) -> t
 
 
 def _turns(axis: Array, yaws: int) -> list[Vector3]:
-    """Directions square to an axis, evenly round it from the one that points down the most."""
+    """Directions perpendicular to an axis, evenly spaced, from the one that points down the most."""
     down = np.array([0.0, 0.0, -1.0])
     first = down - (down @ axis) * axis
     if np.linalg.norm(first) < 1e-3:

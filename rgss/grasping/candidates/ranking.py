@@ -1,4 +1,4 @@
-"""Candidates of an object for a gripper, ordered by quality."""
+"""Grasp candidates of an object for a gripper, ordered by quality."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ _OPEN_GAP_M = 0.002
 _ORDER = tuple(Approach)
 
 
-class Unfit(str, Enum):
-    """Why a tool frame is not a grasp of the object with the gripper."""
+class FrameRejection(str, Enum):
+    """Reason why a tool frame is not a grasp candidate of the object with the gripper."""
 
     APPROACH = "approach"
     CONTACT = "contact"
@@ -50,9 +50,10 @@ class RankedGrasp:
         tool_in_object: Transform of the grasp-centre frame to the object's frame.
         opening_m: Distance of the pads from the gripper's axis.
         approach: Kind of its approach.
-        quality_1: Smallest maximum wrench for finger forces of 1 N; of a cup, the weight that it bears over its force.
-        com_distance_m: Distance of the centre of mass from the line or the middle of the contacts.
-        suction: The place of a suction cup; None for fingers.
+        quality_1: Smallest maximum wrench for finger forces of 1 N; for a cup, the weight that it holds divided by its
+        force.
+        com_distance_m: Distance of the centre of mass from the line or the centre of the contacts.
+        suction: Pose of a suction cup on the object; None for fingers.
     """
 
     id: str
@@ -66,34 +67,34 @@ class RankedGrasp:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RankedGrasps:
-    """The candidates of an object, best first.
+    """Grasp candidates of an object, best first.
 
     Attributes:
         grasps: The candidates.
-        unfit: How many tool frames are none, by the reason.
+        rejected_frames: Number of rejected tool frames by reason.
     """
 
     grasps: tuple[RankedGrasp, ...]
-    unfit: Mapping[Unfit, int]
+    rejected_frames: Mapping[FrameRejection, int]
 
 
 def ranked_grasps(
     workpiece: Workpiece, geometry: GripperGeometry, options: GraspCandidates, *, friction: float
 ) -> RankedGrasps:
-    """The grasp candidates of an object: by quality, then the distance of the centre of mass, then the approach.
+    """Grasp candidates of an object, ordered by quality, then distance of the centre of mass, then approach.
 
     Args:
         workpiece: The object.
         geometry: The gripper's shape.
-        options: Which grasps are tried.
+        options: Which grasps to try.
         friction: Coefficient of the contact.
     """
     found: list[RankedGrasp] = []
-    unfit: Counter[Unfit] = Counter()
+    rejected_frames: Counter[FrameRejection] = Counter()
     for frame in _frames(workpiece, geometry, options, friction):
         one = _ranked(frame, workpiece, geometry, options, friction)
-        if isinstance(one, Unfit):
-            unfit[one] += 1
+        if isinstance(one, FrameRejection):
+            rejected_frames[one] += 1
         else:
             found.append(one)
     found.sort(
@@ -104,7 +105,7 @@ def ranked_grasps(
             grasp.id,
         )
     )
-    return RankedGrasps(grasps=tuple(found), unfit=dict(unfit))
+    return RankedGrasps(grasps=tuple(found), rejected_frames=dict(rejected_frames))
 
 
 def _frames(
@@ -126,25 +127,25 @@ def _frames(
 
 def _ranked(
     frame: ToolFrame, workpiece: Workpiece, geometry: GripperGeometry, options: GraspCandidates, friction: float
-) -> RankedGrasp | Unfit:
+) -> RankedGrasp | FrameRejection:
     approach = approach_of(frame.tool_in_object)
     if approach is None or approach not in options.approaches:
-        return Unfit.APPROACH
+        return FrameRejection.APPROACH
     settled = settled_grasp(workpiece.shape, frame.tool_in_object, geometry)
     if settled is None:
-        return Unfit.CONTACT
+        return FrameRejection.CONTACT
     tool_in_object, patches = settled
     opening_m = max(patch.opening_m for patch in patches)
     if opening_m > geometry.largest_opening_m - _OPEN_GAP_M:
-        return Unfit.TOO_WIDE
+        return FrameRejection.TOO_WIDE
     if opening_m <= geometry.largest_opening_m - geometry.stroke_m:
-        return Unfit.TOO_NARROW
+        return FrameRejection.TOO_NARROW
     if any(patch.is_on_rim for patch in patches):
-        return Unfit.RIM
+        return FrameRejection.RIM
     points = contact_points(patches, tool_in_object, geometry, friction)
     quality = quality_1(points, workpiece)
     if quality <= 0.0:
-        return Unfit.NO_FORCE_CLOSURE
+        return FrameRejection.NO_FORCE_CLOSURE
     return RankedGrasp(
         id=frame.id,
         tool_in_object=tool_in_object,

@@ -18,12 +18,12 @@ _CONE_EDGES = 6
 def contact_points(
     patches: Sequence[PadPatch], tool_in_object: Pose, geometry: GripperGeometry, friction: float
 ) -> tuple[ContactPoint, ...]:
-    """The corners of the patches as hard points with friction, in the object's frame.
+    """Corners of the contact patches as point contacts with friction, in the object's frame.
 
     A flat pad presses along its own normal, on a face as on an edge.
 
     Args:
-        patches: What each pad touches.
+        patches: Contact patch of each pad.
         tool_in_object: Transform of the grasp-centre frame to the object's frame.
         geometry: The gripper's shape.
         friction: Coefficient of the contact.
@@ -39,7 +39,7 @@ def contact_points(
 
 
 def quality_1(points: Sequence[ContactPoint], workpiece: Workpiece) -> float:
-    """Smallest maximum wrench for finger forces of 1 N (Ferrari and Canny, 1992); 0 without force closure.
+    """Smallest maximum wrench in N for finger forces of 1 N (Ferrari and Canny, 1992); 0 without force closure.
 
     Args:
         points: The contacts.
@@ -50,7 +50,7 @@ def quality_1(points: Sequence[ContactPoint], workpiece: Workpiece) -> float:
 
 
 def com_distance_m(points: Sequence[ContactPoint], centre: Vector3) -> float:
-    """Distance of the centre of mass from the line between two fingers' contacts, or from the middle of more.
+    """Distance in m of the centre of mass from the line between two fingers' contacts, or the centre of more contacts.
 
     Args:
         points: The contacts.

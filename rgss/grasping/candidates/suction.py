@@ -1,4 +1,4 @@
-"""Points at which a suction cup holds an object: on flat faces that bear its whole lip."""
+"""Suction points of an object, on flat faces that support the whole lip of a cup."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ _GRID_STEPS = 24
 
 
 def suction_points(shape: ObjectShape, cup_radius_m: float, centre_of_mass_m: Vector3) -> tuple[SuctionPoint, ...]:
-    """The suction points of an object, one for each flat face that bears the lip, nearest to the centre of mass first.
+    """Suction points of an object, one on each flat face that supports the lip.
 
-    Ordered by the distance of the cup's axis from the centre of mass, which bends the cup, then by the normal from the
-    top down. A face that another part of the object covers under the lip bears no cup.
+    Ordered by the distance of the cup's axis from the centre of mass, the lever arm of the bending moment, then by the
+    normal from the top down. A face that another part of the object covers under the lip has no suction point.
 
     Args:
-        shape: The object's shape; the wall of a cylinder bears no cup.
+        shape: The object's shape; the wall of a cylinder has no suction point.
         cup_radius_m: Radius of the cup's lip.
         centre_of_mass_m: The object's centre of mass.
     """
@@ -44,12 +44,12 @@ def suction_points(shape: ObjectShape, cup_radius_m: float, centre_of_mass_m: Ve
 
 
 def given_suction_point(shape: ObjectShape, cup_radius_m: float, tool_in_object: Pose) -> SuctionPoint | None:
-    """The point at which the axis of a given tool frame enters a face that bears the lip; None where none does.
+    """Point at which the axis of a tool frame enters a face that supports the lip; None if there is no such face.
 
     Args:
         shape: The object's shape.
         cup_radius_m: Radius of the cup's lip.
-        tool_in_object: Transform of the given frame to the object's, its z axis towards the object.
+        tool_in_object: Transform of the tool frame to the object's frame, its z axis towards the object.
     """
     towards, origin = np.array(tool_in_object.rotate((0.0, 0.0, 1.0))), np.array(tool_in_object.position_m)
     parts, found = _half_spaces(shape), []
@@ -65,13 +65,13 @@ def given_suction_point(shape: ObjectShape, cup_radius_m: float, tool_in_object:
 
 
 def _half_spaces(shape: ObjectShape) -> list[Array]:
-    """The half-spaces (n, 4) of each convex part of a mesh of several: inside where a·x + d <= 0."""
+    """Half-spaces (n, 4) of each convex part of a mesh of several: inside where a·x + d <= 0."""
     parts = surface_of(shape) if isinstance(shape, MeshShape) and len(shape.parts_m) > 1 else ()
     return [np.array([rows[-1] for _, rows in _polygons(part)]) for part in parts]
 
 
 def _is_covered(point: Array, normal: Array, radius_m: float, parts: list[Array]) -> bool:
-    """True if a part of the object is where the cup would be: under its lip, or beside it within its margin."""
+    """True if a part of the object collides with the cup: under its lip, or beside it within its margin."""
     if not parts:
         return False
     first, second = _tangents(normal)
@@ -86,7 +86,7 @@ def _is_covered(point: Array, normal: Array, radius_m: float, parts: list[Array]
 def _uncovered(
     normal: Array, rows: Array, point: Array, radius_m: float, parts: list[Array]
 ) -> tuple[Array, float] | None:
-    """The place of a grid on a face nearest to a covered one at which the cup has room and is not covered."""
+    """Grid point of a face, nearest to a covered point, at which the cup has room and is not covered."""
     first, second = _tangents(normal)
     steps = range(-_GRID_STEPS, _GRID_STEPS + 1)
     offsets = sorted((u * u + v * v, u, v) for u in steps for v in steps)
@@ -99,7 +99,7 @@ def _uncovered(
 
 
 def _tangents(normal: Array) -> tuple[Array, Array]:
-    """Two unit vectors square to a normal and to one another."""
+    """Two unit tangents of a normal, perpendicular to each other."""
     first = np.cross(normal, [1.0, 0.0, 0.0] if abs(normal[0]) < 0.9 else [0.0, 1.0, 0.0])
     first /= np.linalg.norm(first)
     return first, np.cross(normal, first)
@@ -112,7 +112,7 @@ def _point(point: Array, normal: Array, room_m: float) -> SuctionPoint:
 
 
 def _faces(shape: ObjectShape) -> list[tuple[Array, Array]]:
-    """Each flat face as its outward normal and its edges' half-planes (n, 4): inside where a·x + d <= 0."""
+    """Flat faces, each as its outward normal and its edges' half-planes (n, 4): inside where a·x + d <= 0."""
     if isinstance(shape, (Box, MeshShape)):
         return [face for part in surface_of(shape) for face in _polygons(part)]
     axis = np.array([1.0, 0.0, 0.0] if isinstance(shape, LyingCylinder) else [0.0, 0.0, 1.0])
@@ -121,7 +121,7 @@ def _faces(shape: ObjectShape) -> list[tuple[Array, Array]]:
 
 
 def _disc(shape: Cylinder, normal: Array) -> Array:
-    """The half-planes of a face of 64 sides in the end of a cylinder, and the plane of the end itself last."""
+    """Half-planes of a 64-sided polygon in the end face of a cylinder, and the plane of the face last."""
     first = np.cross(normal, [0.0, 1.0, 0.0])
     second = np.cross(normal, first)
     turns = np.arange(64) * np.pi / 32
@@ -158,7 +158,7 @@ def _polygons(triangles: Array) -> list[tuple[Array, Array]]:
 
 
 def _place(normal: Array, rows: Array, centre: Array, radius_m: float) -> tuple[Array, float] | None:
-    """The point of a face at which the cup has room, nearest to the foot of the centre of mass; with its room."""
+    """Point of a face with room for the cup, nearest to the projection of the centre of mass, and the room in m."""
     from scipy.optimize import minimize
 
     edges, plane = rows[:-1], rows[-1]

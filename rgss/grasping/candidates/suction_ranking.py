@@ -1,4 +1,4 @@
-"""Candidates of an object for a suction cup, ordered by the weight that the seal bears."""
+"""Grasp candidates of an object for a suction cup, ordered by the weight that the seal holds."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.grasping.candidates.frames import approach_of, tool_frame
-from rgss.grasping.candidates.ranking import RankedGrasp, RankedGrasps, Unfit
+from rgss.grasping.candidates.ranking import FrameRejection, RankedGrasp, RankedGrasps
 from rgss.grasping.candidates.suction import given_suction_point, suction_points
 from rgss.scenes import (
     Approach,
@@ -30,16 +30,16 @@ _ORDER = tuple(Approach)
 def ranked_suction(
     workpiece: Workpiece, geometry: GripperGeometry, options: GraspCandidates, *, tangential_1: float
 ) -> RankedGrasps:
-    """The suction candidates of an object: by the weight that they bear, then the centre of mass, then the approach.
+    """Suction candidates of an object, ordered by holding weight, then distance of the centre of mass, then approach.
 
-    Of each flat face that bears the lip the point nearest to the centre of mass, and each given grasp whose axis
-    enters such a face, at several turns about the cup's axis.
+    On each flat face that supports the lip the point nearest to the centre of mass, and each given grasp whose axis
+    enters such a face, at several angles about the cup's axis.
 
     Args:
         workpiece: The object.
-        geometry: The gripper's shape, with a cup; its grasp centre lies the object's half height below the face.
-        options: Which grasps are tried.
-        tangential_1: Greatest force along the surface over the greatest force along the cup's axis.
+        geometry: The gripper's shape, with a cup; its grasp centre is half the object's height below the face.
+        options: Which grasps to try.
+        tangential_1: Greatest tangential force divided by the greatest axial force of the cup.
 
     Raises:
         AssertionError: The gripper has no cup.
@@ -47,17 +47,17 @@ def ranked_suction(
     if geometry.cup is None:
         raise AssertionError("asked before: the gripper has a cup")
     found: list[RankedGrasp] = []
-    unfit = {Unfit.SEAL: 0, Unfit.APPROACH: 0}
+    rejected_frames = {FrameRejection.SEAL: 0, FrameRejection.APPROACH: 0}
     centre, radius_m = centre_of_mass(workpiece), geometry.cup.radius_m
     for name, point in _points(workpiece, radius_m):
         if point is None:
-            unfit[Unfit.SEAL] += 1
+            rejected_frames[FrameRejection.SEAL] += 1
             continue
         for turn in range(options.yaws):
             frame = _tool(point, math.tau * turn / options.yaws, workpiece.shape.half_height_m)
             approach = approach_of(frame)
             if approach is None or approach not in options.approaches:
-                unfit[Unfit.APPROACH] += 1
+                rejected_frames[FrameRejection.APPROACH] += 1
                 continue
             found.append(
                 RankedGrasp(
@@ -78,21 +78,23 @@ def ranked_suction(
             grasp.id,
         )
     )
-    return RankedGrasps(grasps=tuple(found), unfit={why: count for why, count in unfit.items() if count})
+    return RankedGrasps(
+        grasps=tuple(found), rejected_frames={why: count for why, count in rejected_frames.items() if count}
+    )
 
 
 def weight_share(point: SuctionPoint, centre_of_mass_m: Vector3, cup_radius_m: float, tangential_1: float) -> float:
-    """Greatest weight of an object at rest that a seal bears, over the force F of its vacuum.
+    """Greatest weight of an object at rest that a seal holds, divided by the force F of its vacuum.
 
-    With the weight W straight down the object's frame, n the face's normal and r the lip's radius, the seal bears
-    W n_z <= F along its axis, W sqrt(1 - n_z^2) <= tangential_1 F along the face, and a bending moment about the lip's
-    centre of (F - W n_z) r, at which the lip lifts off on one side.
+    With the weight W along -z of the object's frame, n the face's normal and r the lip's radius, the seal holds W n_z
+    <= F along its axis, W sqrt(1 - n_z^2) <= tangential_1 F along the face, and a bending moment about the lip's centre
+    of (F - W n_z) r, at which the lip lifts off on one side.
 
     Args:
-        point: The place of the cup.
+        point: The suction point.
         centre_of_mass_m: The object's centre of mass.
         cup_radius_m: Radius of the lip.
-        tangential_1: Greatest force along the surface over the greatest force along the cup's axis.
+        tangential_1: Greatest tangential force divided by the greatest axial force of the cup.
     """
     normal = np.array(point.normal)
     pull, along = float(normal[2]), math.hypot(*point.normal[:2])
@@ -103,12 +105,12 @@ def weight_share(point: SuctionPoint, centre_of_mass_m: Vector3, cup_radius_m: f
 
 
 def _arm(point: SuctionPoint, centre: Vector3, along: Vector3) -> Array:
-    """Moment about the middle of the cup of a unit force at the centre of mass."""
+    """Moment about the centre of the cup of a unit force at the centre of mass."""
     return np.asarray(np.cross(np.array(centre) - np.array(point.position_m), along))
 
 
 def _points(workpiece: Workpiece, radius_m: float) -> Iterator[tuple[str, SuctionPoint | None]]:
-    """Each suction point with its name; None for a given grasp that has no seal, and for a shape that has no point."""
+    """Suction points by name; None for a given grasp without a seal, and for a shape without a point."""
     for given in workpiece.grasps:
         yield given.id, given_suction_point(workpiece.shape, radius_m, given.tool_in_object)
     points = suction_points(workpiece.shape, radius_m, centre_of_mass(workpiece))
@@ -119,7 +121,7 @@ def _points(workpiece: Workpiece, radius_m: float) -> Iterator[tuple[str, Suctio
 
 
 def _tool(point: SuctionPoint, turn_rad: float, depth_m: float) -> Pose:
-    """The grasp-centre frame of a cup on a point, the tool's axis against the normal."""
+    """Grasp-centre frame of a cup at a suction point, the tool's axis opposed to the normal."""
     normal = np.array(point.normal)
     across = np.array([1.0, 0.0, 0.0]) if abs(normal[0]) < 0.9 else np.array([0.0, 0.0, -1.0])
     first = across - (across @ normal) * normal

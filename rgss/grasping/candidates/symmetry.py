@@ -1,4 +1,4 @@
-"""Turns of an object about the vertical after which it is where it was."""
+"""Rotational symmetry of an object about the vertical."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ _EQUAL_M = 1e-6
 
 
 def symmetric_turns(shape: ObjectShape, yaws: int) -> tuple[float, ...]:
-    """Turns in rad under which the shape is the same, 0 first; of a cylinder as many as are tried.
+    """Rotations in rad about the vertical that leave the shape unchanged, 0 first.
 
     Args:
         shape: The object's shape.
-        yaws: Turns of an upright cylinder.
+        yaws: Number of rotations returned for an upright cylinder.
     """
     if isinstance(shape, Cylinder):
         return tuple(math.tau * turn / yaws for turn in range(yaws))

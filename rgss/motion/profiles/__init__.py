@@ -1,4 +1,4 @@
-"""Velocity profiles with a rest at each waypoint, in closed form."""
+"""Closed-form velocity profiles with a stop at each waypoint."""
 
 from rgss.motion.profiles.joint_waypoints import time_move_by_joint_waypoints
 from rgss.motion.profiles.trapezoid import time_move_by_trapezoids, trapezoidal_trajectory

@@ -1,12 +1,12 @@
-"""Timing by joint waypoints: each joint moves from waypoint to waypoint by a trapezoid of its own.
+"""Timing by joint waypoints: each joint moves from waypoint to waypoint by its own trapezoidal profile.
 
-A joint that has to go the distance d with the speed limit v and the acceleration limit a takes
+A joint that moves the distance d with the speed limit v and the acceleration limit a takes
 
     T = d/v + v/a  where d ≥ v²/a,  else  T = 2 √(d/a)
 
-and waits at the waypoint for the slowest (B. Siciliano et al., "Robotics: Modelling, Planning and Control", 2009,
-section 4.2.1). The joints do not keep to the straight line between two waypoints: what runs is checked, and where it
-would touch something the joints share one profile, which leads along the straight line that was planned.
+and waits at the waypoint for the slowest joint (B. Siciliano et al., "Robotics: Modelling, Planning and Control", 2009,
+section 4.2.1). The joints then deviate from the straight line between two waypoints: the executed motion is checked,
+and where it would collide all joints share one profile, which follows the planned straight line.
 """
 
 from __future__ import annotations
@@ -30,21 +30,21 @@ from rgss.motion.validity import StateValidity, ToolKinematics, first_invalid_be
 Vector = NDArray[np.float64]
 
 _SAMPLES_OF_PIECE = 33
-# Times nearer than this differ by rounding: the end of a triangle's rise and the beginning of its fall, for one.
+# Times nearer than this are equal but for rounding, such as the two sides of a triangle's apex.
 _SAME_TIME_S = 1e-12
 
 
 def time_move_by_joint_waypoints(
     path: JointPath, validity: StateValidity, tool: ToolKinematics, limits: MotionLimits, *, resolution_rad: float
 ) -> TimedMove:
-    """Time a path by a trapezoid of each joint from waypoint to waypoint, at rest at each of them.
+    """Time a path by one trapezoidal profile a joint between waypoints, with a stop at each of them.
 
     Args:
         path: A valid polyline, whose points are the waypoints.
         validity: State-validity checker.
         tool: Kinematics of the tool centre.
-        limits: Limits of the motion; where the tool exceeds its own, the whole way between two waypoints is slowed
-            down evenly.
+        limits: Limits of the motion; if the tool exceeds its own, the whole segment between two waypoints is slowed
+            uniformly.
         resolution_rad: Greatest distance in joint space between two checked states.
 
     Raises:
@@ -68,7 +68,7 @@ def time_move_by_joint_waypoints(
 
 
 def _segment(start: Vector, end: Vector, limits: MotionLimits, *, is_shared: bool) -> SmoothPath:
-    """The way between two waypoints over time; the parameter of the path is the time in s."""
+    """Motion between two waypoints; the path parameter is the time in s."""
     way = np.abs(end - start)
     speeds, accelerations = np.array(limits.speed_rad_s), np.array(limits.acceleration_rad_s2)
     if is_shared:
@@ -112,10 +112,10 @@ def _piece(begin: float, middle: float, start: Vector, end: Vector, profiles: tu
 def _within_tool_limits(
     segment: SmoothPath, tool: ToolKinematics, limits: MotionLimits
 ) -> tuple[SmoothPath, tuple[float, float]]:
-    """A segment that is slowed down until the tool keeps its limits, and the tool's peak speed and acceleration."""
+    """Segment slowed to the tool's limits, and the tool's peak speed and acceleration."""
     speed, acceleration = 0.0, 0.0
     for begin, end in pairwise(segment.breaks):
-        # At its end itself a piece has the derivatives of the next one.
+        # Exactly at its end a piece evaluates to the derivatives of the next one.
         times = np.minimum(np.linspace(begin, end, _SAMPLES_OF_PIECE), np.nextafter(end, begin))
         at = path_derivatives(segment, times, tool)
         speed = max(speed, float(sampled_peaks(np.linalg.norm(at.tool_first, axis=1))))
@@ -132,14 +132,14 @@ def _within_tool_limits(
 
 
 def _states(segment: SmoothPath, resolution_rad: float) -> Vector:
-    """States of a segment, both ends included, of which neighbours are within the resolution."""
+    """States of a segment including both ends, at most the resolution apart."""
     fastest = np.max(np.abs(segment(segment.breaks, 1)), axis=0)
     count = max(1, math.ceil(float(segment.breaks[-1] * np.linalg.norm(fastest)) / resolution_rad))
     return segment(np.linspace(0.0, segment.breaks[-1], count + 1))
 
 
 def _joined(start: Vector, segments: list[SmoothPath], speed_m_s: float, acceleration_m_s2: float) -> Trajectory:
-    """The trajectory through all segments; its parameter is the time, and its rate is one."""
+    """Trajectory through all segments; its parameter is the time, so that its rate is 1."""
     if not segments:
         piece = np.zeros((1, 6, len(start)))
         piece[0, 0] = start

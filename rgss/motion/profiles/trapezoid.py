@@ -39,7 +39,7 @@ def time_move_by_trapezoids(
     resolution_rad: float,
     is_curve: bool = False,
 ) -> TimedMove:
-    """Check a path and time it by trapezoids, from rest to rest between its waypoints.
+    """Check a path and time it by trapezoidal profiles, from rest to rest between its waypoints.
 
     Args:
         path: A valid polyline.
@@ -47,8 +47,8 @@ def time_move_by_trapezoids(
         tool: Kinematics of the tool centre.
         limits: Limits of the motion.
         resolution_rad: Greatest distance in joint space between two checked states.
-        is_curve: True if the points sample a curve, such as a straight line of the tool: then its corners are rounded
-            and only its ends, and corners that cannot be rounded, are waypoints.
+        is_curve: True if the points sample a curve, such as a straight line of the tool: its corners are then blended,
+            and only its ends and the corners that cannot be blended are waypoints.
     """
     prepare = blend if is_curve else unblended
     prepared: BlendedPath = prepare(path, validity, resolution_rad=resolution_rad)
@@ -65,11 +65,11 @@ def time_move_by_trapezoids(
 
 
 def trapezoidal_trajectory(path: SmoothPath, tool: ToolKinematics, limits: MotionLimits) -> Trajectory:
-    """Time a smooth path by one trapezoid for each run between two of its stops.
+    """Time a smooth path by one trapezoidal profile for each run between two of its stops.
 
     On a straight run in joint space the profile has the greatest speed and acceleration that the joints and the tool's
-    speed allow. Where the acceleration of the tool, or of the joints on a curve, would exceed its limit, the run is
-    slowed down evenly, so that it stays a trapezoid.
+    speed allow. If the acceleration of the tool, or of the joints on a curve, would exceed its limit, the run is slowed
+    uniformly, which keeps the profile a trapezoid.
 
     Args:
         path: The path.
@@ -91,7 +91,7 @@ def trapezoidal_trajectory(path: SmoothPath, tool: ToolKinematics, limits: Motio
 def _run(path: SmoothPath, first: int, last: int, tool: ToolKinematics, limits: MotionLimits) -> Run:
     start, end = float(path.breaks[first]), float(path.breaks[last])
     grid = run_grid(path, first, last, _REFINEMENT)
-    # At its end itself the path has the direction in which it goes on.
+    # Exactly at a stop the path evaluates to the direction of the next run.
     grid[-1] = np.nextafter(end, start)
     at = path_derivatives(path, grid, tool)
     steepest, tool_steepest_m = (
@@ -123,7 +123,7 @@ def _run(path: SmoothPath, first: int, last: int, tool: ToolKinematics, limits: 
 def _accelerations(
     path: SmoothPath, grid: Vector, ends: Vector, rates: Vector, tool: ToolKinematics, limits: MotionLimits
 ) -> tuple[float, float]:
-    """Greatest share of a joint's acceleration limit over a piece of a profile, and that of the tool in m/s²."""
+    """Greatest use of a joint acceleration limit over a piece of a profile (1 = limit), and of the tool in m/s²."""
     s = np.concatenate([ends[:1], grid[(grid > ends[0]) & (grid < ends[1])], [min(ends[1], grid[-1])]])
     at = path_derivatives(path, s, tool)
     # Under constant acceleration the square of the rate is linear in the parameter.
@@ -135,7 +135,7 @@ def _accelerations(
 
 
 def sampled_peaks(samples: Vector) -> Vector:
-    """Greatest value of a smooth function of which samples are given, along the first axis.
+    """Upper estimate of a smooth function's maximum from its samples along the first axis.
 
     A parabola through three samples has its vertex at most an eighth of their second difference above the middle one.
     """

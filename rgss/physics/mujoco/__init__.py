@@ -1,4 +1,4 @@
-"""Contact worlds of a second engine, MuJoCo."""
+"""Contact worlds in a second engine, MuJoCo."""
 
 from typing import TYPE_CHECKING
 

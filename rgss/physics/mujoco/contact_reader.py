@@ -1,4 +1,4 @@
-"""Reading MuJoCo's contacts of the last step."""
+"""Reader of MuJoCo's contacts of the last step."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _NO_FORCE = 0.0
 
 
 class PointContacts(Contacts):
-    """Contacts whose finger points are given with their friction forces (N) on the workpiece, in the world."""
+    """Contacts whose finger points carry their friction forces (N) on the workpiece, in the world."""
 
     __slots__ = ()
 
@@ -35,10 +35,10 @@ class _Point:
     """One contact of the workpiece.
 
     Attributes:
-        index: Its place among the engine's contacts.
+        index: Its index among the engine's contacts.
         partner: The other shape.
         sign: 1 if the engine's normal points into the workpiece, -1 otherwise.
-        row: Its first row among the constraint forces; negative where it is not part of the problem.
+        row: Its first row among the constraint forces; negative if it is not part of the constraint problem.
     """
 
     index: int
@@ -48,10 +48,10 @@ class _Point:
 
 
 class MujocoContactReader:
-    """Reader of the engine's contacts of one world, sorted by the touching bodies."""
+    """Reader of the engine's contacts of one world, grouped by the bodies in contact."""
 
     def __init__(self, compiled: Any, data: Any, model: WorldModel) -> None:
-        """Find the shapes of the model.
+        """Look up the shapes of the model.
 
         Args:
             compiled: The engine's model.
@@ -94,10 +94,10 @@ class MujocoContactReader:
         return math.fsum(self._normal_n(one) for one in points if one.partner in self._body_of)
 
     def finger_contacts(self, transform_workpiece_to_world: Pose) -> tuple[FingerContact, ...]:
-        """The points at which fingers press on the workpiece, by finger and from low to high.
+        """Contact points of the fingers on the workpiece, by finger and ascending height.
 
         Args:
-            transform_workpiece_to_world: The workpiece at the start of the step, where the engine found them.
+            transform_workpiece_to_world: Pose at the start of the step, at which the engine detected the contacts.
         """
         inverse = transform_workpiece_to_world.inverse()
         found = []
@@ -124,7 +124,7 @@ class MujocoContactReader:
         return tuple(sorted(found, key=lambda contact: (contact.finger, contact.position_m[2])))
 
     def _sorted(self) -> tuple[dict[tuple[str, str], None], Sequence[_Point]]:
-        """Pairs (link, body) of the robot touching the scene, and the contacts of the workpiece."""
+        """Pairs (link, body) of the robot in contact with the scene, and the contacts of the workpiece."""
         contact = self._data.contact
         robot_bodies: dict[tuple[str, str], None] = {}
         points = []

@@ -1,4 +1,4 @@
-"""The one place where MuJoCo is imported and where a model is compiled."""
+"""Lazy import of MuJoCo and compilation of models; no other module imports it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def mujoco() -> Any:
     """The engine's module, imported on first use so that start-up stays light."""
     import mujoco as module
 
-    # By default a warning is appended to a file MUJOCO_LOG.TXT in the current folder; worlds read the counters.
+    # By default a warning is appended to a file MUJOCO_LOG.TXT in the current folder; worlds read the warning counters.
     module.set_mju_user_warning(_ignore)
     return module
 
@@ -25,21 +25,21 @@ def engine_version() -> str:
 
 
 def compiled(description: str) -> Any:
-    """The engine's model of a description in its own format.
+    """Compiled model of an MJCF description.
 
     Args:
         description: The model as MJCF.
 
     Raises:
-        SimulationError: The engine refused it.
+        SimulationError: The engine rejected it.
     """
     try:
         return mujoco().MjModel.from_xml_string(description)
     except ValueError as error:
         raise SimulationError(
-            f"the physics engine refused the world: {' '.join(str(error).split())}", hint="check the scene"
+            f"the physics engine rejected the world: {' '.join(str(error).split())}", hint="check the scene"
         ) from error
 
 
 def _ignore(_: str) -> None:
-    """A warning is read from the counters of the world that it is about."""
+    """Discard a warning; worlds read the warning counters."""

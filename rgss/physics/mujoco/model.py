@@ -1,14 +1,14 @@
-"""Scene, arm, hand and workpiece as a model of MuJoCo.
+"""MuJoCo model of scene, arm, hand and workpiece.
 
-Built from the scene, the gripper and the robot's description. Nothing of what PyBullet is given is used but the
-ribs of the pads, so that a mistake in how those become its world would show.
+Built from the scene, the gripper and the robot's URDF. Except for the ribs of the pads it shares nothing with the
+PyBullet world, so that an error in the construction of either shows as a difference.
 
-Contacts of this engine are soft, and what is held creeps. Against that its documentation recommends elliptic
-friction cones, the Newton solver, and friction much stiffer than the normal direction (`impratio`): at 100 an object
-near the limit sinks by 1 µm/s, at 10 by 12 µm/s. The second solver that it offers for what is left
-(`noslip_iterations`) is not needed, and neither changes the limit by as much as 1 %. A face needs its corners:
-`multiccd`. Bodies that press with 10 N sink in by 10 µm, so that the contacts are computed to nanometres
-(`ccd_tolerance`): to the default of a micrometre, a contact now and then has a wrong normal for a step.
+Contacts of this engine are soft, and a held object creeps. As a remedy its documentation recommends elliptic friction
+cones, the Newton solver, and friction much stiffer than the normal direction (`impratio`): at 100 an object near the
+limit sinks by 1 µm/s, at 10 by 12 µm/s. Its second solver for the residual slip (`noslip_iterations`) is not needed,
+and neither changes the limit by as much as 1 %. Contact of a face needs several points: `multiccd`. A force of 10 N
+penetrates by 10 µm, so contacts are computed to nanometres (`ccd_tolerance`): with the default of a micrometre a
+contact occasionally has a wrong normal for one step.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from rgss.scenes import Box, Cylinder, Gripper, Pose, Scene, centre_of_mass, ine
 
 WORKPIECE = "workpiece"
 
-# What may touch without a pair of its own: machine and scene, and neither itself.
+# Collision filter for contacts without an explicit pair: machine with scene, neither with itself.
 _MACHINE, _SCENE, _ALONE = (1, 2), (2, 1), (0, 0)
 _IMPEDANCE = "0.95 0.99 0.0001"
 # A finger's motor gives all its force once the finger lags by this share of its speed. With less than F dt / (2 M v),
@@ -40,14 +40,14 @@ _SATURATING_SHARE = 0.5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorldModel:
-    """A model with the names by which its parts are found again.
+    """MuJoCo model with the names of its parts.
 
     Attributes:
         text: The model as MJCF.
-        fingers: Names of the fingers' joints, which are also those of their bodies and motors.
+        fingers: Names of the fingers' joints, shared by their bodies and motors.
         finger_shapes: Index of the finger by the name of a shape of it.
         scene_bodies: Id of the scene's body by the name of its shape.
-        links: Name of the robot's link by the name of a shape, the fingers' left out.
+        links: Name of the robot's link by the name of a shape, without the fingers.
         workpiece_shapes: Names of the workpiece's shapes.
     """
 
@@ -62,16 +62,17 @@ class WorldModel:
 def world_model(
     scene: Scene, gripper: Gripper, settings: PhysicsSettings, *, contact_time_constant_s: float
 ) -> WorldModel:
-    """The model of a scene with its robot, a gripper on its flange, and the workpiece.
+    """MuJoCo model of a scene with its robot, a gripper on the flange, and the workpiece.
 
     Args:
         scene: Fixed bodies, workpiece and robot.
         gripper: The gripper.
         settings: Step and solver.
-        contact_time_constant_s: Time constant with which contacts and stops yield.
+        contact_time_constant_s: Time constant of contacts and joint limits.
 
     Raises:
-        SimulationError: The robot has a shape that the engine does not have, or the workpiece an impossible mass.
+        SimulationError: The robot has a shape that the engine does not support, or the workpiece a mass that is not
+        positive.
     """
     builder = _Builder(scene, gripper, settings, contact_time_constant_s)
     builder.add_scene()
@@ -88,7 +89,7 @@ def world_model(
 
 
 class _Builder:
-    """Adds the parts of a world to an empty model."""
+    """Builder that adds the parts of a world to an empty model."""
 
     def __init__(
         self, scene: Scene, gripper: Gripper, settings: PhysicsSettings, contact_time_constant_s: float
@@ -130,7 +131,7 @@ class _Builder:
             _add_geom(self._world, name, body.primitive, body.pose, touches=_SCENE)
 
     def add_robot(self) -> None:
-        """Add the arm with a motor of rated torque on each joint, and the hand on its flange."""
+        """Add the arm with a motor of its rated torque at each joint, and the hand on its flange."""
         robot = self._scene.robot
         parents: dict[str, ET.Element] = {}
         for link in read_links(robot.urdf):
@@ -143,15 +144,16 @@ class _Builder:
         self._add_hand(parents[robot.flange])
 
     def add_workpiece(self) -> None:
-        """Add the workpiece, a solid that is free to move, with a contact pair for each shape.
+        """Add the workpiece as a free body, with a contact pair for each shape.
 
-        The engine would take the greater one of both bodies' coefficients, where the trials take the product; a pair
-        has a coefficient of its own.
+        By default the engine uses the greater of both bodies' friction coefficients, the trials use their product; a
+        pair has its own coefficient.
         """
         workpiece = self._scene.workpiece
         if not 0.0 < workpiece.mass_kg < math.inf:
             raise SimulationError(
-                f"the workpiece cannot have the mass {workpiece.mass_kg} kg", hint="give a mass greater than zero"
+                f"the mass of the workpiece must be positive, got {workpiece.mass_kg} kg",
+                hint="give a mass greater than zero",
             )
         body = _add_body(self._world, WORKPIECE, workpiece.pose)
         ET.SubElement(body, "freejoint")
@@ -165,7 +167,7 @@ class _Builder:
             _add_geom(body, names[-1], shape, at, touches=_ALONE)
         self.workpiece_shapes = tuple(names)
         frictions = {f"scene:{one.id}": one.friction * workpiece.friction for one in self._scene.bodies}
-        # What else of the machine touches the workpiece ends the trial, so that its friction does not matter.
+        # Contact of the workpiece with any other part of the machine ends the trial, so its friction is irrelevant.
         frictions.update(dict.fromkeys(self.links, 0.0))
         frictions.update(dict.fromkeys(self.finger_shapes, self._gripper.friction * workpiece.friction))
         for own, (name, friction) in itertools.product(names, frictions.items()):
@@ -175,12 +177,12 @@ class _Builder:
             pair = {
                 "geom1": name,
                 "geom2": own,
-                # Sliding friction alone: nothing in a scene has coefficients of spinning and rolling. A twist is
-                # withstood by the two ends of each line of contact.
+                # Sliding friction only: nothing in a scene has coefficients of spinning and rolling friction. A torque
+                # about the normal is resisted by the two ends of each line of contact.
                 "condim": "6" if rolls else "3",
                 "friction": f"{sliding} {sliding} 0 {rolling} {rolling}",
                 **self._stiffness,
-                # The fastest that the engine allows.
+                # The shortest time constant that the engine allows.
                 "solreffriction": f"{_number(2 * self._settings.step_s)} 1",
             }
             ET.SubElement(self._contact, "pair", pair)
@@ -193,7 +195,7 @@ class _Builder:
             name = f"link:{link.name}:{index}"
             self.links[name] = link.name
             if isinstance(shape, tuple):
-                # The engine keeps a mesh about its centre of mass and places a geom of it as its file has it.
+                # The engine re-centres a mesh at its centre of mass and compensates that in the geom's placement.
                 corners = " ".join(_numbers(corner) for corner in shape)
                 ET.SubElement(self._asset, "mesh", {"name": name, "vertex": corners})
             _add_geom(body, name, shape, at, touches=_MACHINE)
@@ -203,10 +205,10 @@ class _Builder:
         return body
 
     def _add_hand(self, flange: ET.Element) -> None:
-        """Add a solid base and solid fingers on slides, each with a motor.
+        """Add a rigid base and rigid fingers on prismatic joints, each with a motor.
 
-        A motor drives towards a speed with at most a force. Two fingers are coupled to close by the same travel; each
-        alone would give way to any force along their common axis.
+        A motor controls speed within a force limit. Two fingers are coupled to equal travel; uncoupled, each would
+        yield to any force along their common axis.
         """
         gripper = self._gripper
         geometry = gripper.geometry

@@ -1,4 +1,4 @@
-"""Links of a robot's description, each after the one that it is mounted on."""
+"""Links of a robot's URDF in topological order, each after its parent."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ _ROUND = frozenset({"cylinder", "sphere"})
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotLink:
-    """One link of an arm and how it is mounted.
+    """One link of an arm with its joint to the parent.
 
     Attributes:
         name: Its name.
-        parent: The link that it is mounted on; empty for the base.
+        parent: Name of the parent link; empty for the base.
         pose: Transform of the link to its parent where the joint is at zero.
         joint: Name of the joint that moves it; empty if it is fixed.
         axis: The joint's axis in the link's frame.
-        is_prismatic: Whether the joint slides; it turns otherwise.
-        mass_kg: Its mass; 0 if the description has none.
+        is_prismatic: True if the joint is prismatic, False if revolute.
+        mass_kg: Its mass; 0 if the URDF has none.
         centre_m: Its centre of mass in its frame.
         inertia_kg_m2: Its inertia (3, 3) about the centre of mass, in the axes of its frame.
         shapes: Its collision shapes with the transform of each to its frame; a number is the radius (m) of a sphere,
@@ -49,13 +49,13 @@ class RobotLink:
 
 
 def read_links(urdf: str) -> tuple[RobotLink, ...]:
-    """The links of a description that was checked when it was read.
+    """Links of a URDF that has been validated.
 
     Args:
-        urdf: The description.
+        urdf: The robot's URDF.
 
     Raises:
-        SimulationError: It has a collision shape that is not a box, cylinder, sphere or convex shape.
+        SimulationError: A collision shape is not a box, cylinder, sphere or convex mesh.
     """
     root = ET.fromstring(urdf)  # noqa: S314 - entities and document types are refused on reading
     links = {link.get("name", ""): link for link in root.findall("link")}
@@ -67,7 +67,7 @@ def read_links(urdf: str) -> tuple[RobotLink, ...]:
     found: list[RobotLink] = []
     while waiting:
         mount = waiting.pop(0)
-        found.append(_with_matter(mount, links[mount.name]))
+        found.append(_with_inertia(mount, links[mount.name]))
         waiting += [_mounted(joint) for joint in below.get(mount.name, ())]
     return tuple(found)
 
@@ -85,7 +85,7 @@ def _mounted(joint: ET.Element) -> RobotLink:
     )
 
 
-def _with_matter(mount: RobotLink, link: ET.Element) -> RobotLink:
+def _with_inertia(mount: RobotLink, link: ET.Element) -> RobotLink:
     mass_kg, centre_m, inertia = 0.0, (0.0, 0.0, 0.0), np.zeros((3, 3))
     inertial = link.find("inertial")
     if inertial is not None:
@@ -118,7 +118,7 @@ def _shape(collision: ET.Element) -> Shape | float | Corners:
         return vertices_of(form)
     if form.tag not in _ROUND:
         raise SimulationError(
-            f"the robot has a collision shape <{form.tag}>, which the second engine is not given",
+            f"the second engine does not support the robot's collision shape <{form.tag}>",
             hint="use boxes, cylinders and spheres",
         )
     radius_m = float(form.get("radius", ""))

@@ -17,11 +17,11 @@ class MujocoSettings(OtherEngineSettings):
 
     Attributes:
         rate_hz: Steps a second.
-        solver_iterations: Most iterations of Newton's method in a step; it ends at a tolerance of 1e-10, mostly after
-            a few.
-        contact_time_constant_s: Contacts and stops yield like critically damped springs with this time constant.
-            The impact of a closing finger depends on it (12 N at 4 ms and 15 N at 2 ms where 7 N are commanded), what
-            a hand holds does not.
+        solver_iterations: Greatest number of Newton iterations in a step; they end at a tolerance of 1e-10, mostly
+        after a few.
+        contact_time_constant_s: Time constant of contacts and joint limits, which yield like critically damped springs.
+        The impact of a closing finger depends on it (12 N at 4 ms and 15 N at 2 ms for a command of 7 N), the holding
+        force does not.
     """
 
     engine: str = "mujoco"
@@ -38,5 +38,5 @@ class MujocoSettings(OtherEngineSettings):
         )
 
     def lightest_body_kg(self, *, force_n: float, speed_m_s: float, iterations: int | None = None) -> float:  # noqa: ARG002
-        """Mass of a body through which a finger's whole force passes: any, for Newton's method solves a step."""
+        """Least mass of a body that transmits a finger's force: 0, since Newton's method solves a step exactly."""
         return 0.0

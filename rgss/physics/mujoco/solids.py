@@ -1,4 +1,4 @@
-"""Solids of the engine, and those that a finger consists of."""
+"""Solids of a finger and of the object for MuJoCo."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rgss.scenes import Box, GripperGeometry, LyingCylinder, MeshShape, ObjectSh
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Capsule:
-    """A cylinder with a hemisphere on each end, centred in its frame, its axis along z.
+    """Capsule centred in its frame, with its axis along z.
 
     Attributes:
         radius_m: Radius of cylinder and hemispheres.
@@ -27,11 +27,11 @@ Solid = Shape | Capsule | float
 
 
 def finger_solids(geometry: GripperGeometry, pad: PadLayout) -> tuple[tuple[Solid, Pose], ...]:
-    """The solids of a finger in its frame: the elements of its pad, and the rest.
+    """Solids of a finger in its frame: the elements of its pad, and the rest.
 
-    A flat box touches a round wall along a line, of which the engine finds both ends. Where the box's edge touches
-    the wall, because the object stands off the hand's plane by more than half of the finger's width, it finds one
-    point for a whole finger: the object turns about it and is lost. Two ribs are found each by itself.
+    A flat box touches a round wall along a line, of which the engine detects both ends. If the box's edge touches the
+    wall, because the object is off the hand's plane by more than half of the finger's width, the engine detects one
+    point for the whole finger: the object rotates about it and is lost. Two ribs give one contact each.
 
     Args:
         geometry: The gripper's shape.
@@ -52,7 +52,7 @@ def finger_solids(geometry: GripperGeometry, pad: PadLayout) -> tuple[tuple[Soli
 
 
 def object_solids(shape: ObjectShape) -> tuple[tuple[Solid | Corners, Pose], ...]:
-    """The solids of the object in its frame.
+    """Solids of the object in its frame.
 
     Args:
         shape: Its shape.

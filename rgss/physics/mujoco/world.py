@@ -1,4 +1,4 @@
-"""A world of MuJoCo: joints that follow targets, fingers that press, contacts that are read."""
+"""Contact world in MuJoCo: joint control, finger motors, contacts."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from rgss.physics.settings import PhysicsSettings
 from rgss.scenes import Gripper, Pose, Scene
 
 LEAST_MUJOCO_RATE_HZ = 500.0
-"""Contacts are stable with a time constant of two steps or more; theirs is 4 ms."""
+"""Contacts, with a time constant of 4 ms, are stable if it is two steps or more."""
 
 _FREQUENCY_RAD_S = 300.0
 
 
 class MujocoWorld:
-    """One world of MuJoCo, as the task program and its monitors see it (`rgss.physics.ContactWorld`).
+    """Implementation of `rgss.physics.ContactWorld` in MuJoCo.
 
-    The arm's joints follow their targets by computed torque: inverse dynamics of the target acceleration, by the
-    engine's own mass matrix and bias forces, and a critically damped correction. So the machine is dynamic and its
-    torques are bounded. With positions written into the state instead, the contact solver would see a hand that is
-    elsewhere in every step without having moved, and friction would not carry the object along.
+    The arm's joints are controlled by computed torque: inverse dynamics of the target acceleration, from the engine's
+    mass matrix and bias forces, and a critically damped correction. The machine is thus dynamic, with bounded torques.
+    If positions were written into the state instead, the hand would jump in every step without a velocity, and friction
+    would not carry the object along.
     """
 
     def __init__(
@@ -47,8 +47,8 @@ class MujocoWorld:
             scene: Fixed bodies, workpiece and robot.
             gripper: The gripper on the robot's flange.
             settings: Step and solver.
-            contact_time_constant_s: Time constant with which contacts and stops yield.
-            joint_offsets_rad: True less reported angle of each joint of the arm; empty where they are the same.
+            contact_time_constant_s: Time constant of contacts and joint limits.
+            joint_offsets_rad: True minus reported angle of each joint of the arm; empty if they are equal.
 
         Raises:
             DefinitionError: The rate is below the one at which contacts are stable, or the gripper has a suction cup.
@@ -56,17 +56,17 @@ class MujocoWorld:
         """
         if settings.rate_hz < LEAST_MUJOCO_RATE_HZ:
             raise DefinitionError(
-                f"a rate of {settings.rate_hz:g} Hz is too low for contacts in MuJoCo",
-                hint=f"give {LEAST_MUJOCO_RATE_HZ:g} Hz or more",
+                f"the rate must be at least {LEAST_MUJOCO_RATE_HZ:g} Hz in MuJoCo, got {settings.rate_hz:g} Hz",
+                hint="contacts are unstable below it",
             )
         if gripper.geometry.linkage is not None:
             raise DefinitionError(
-                f"MuJoCo's world has fingers that slide alone, gripper {gripper.geometry.id!r} has a linkage",
-                hint="leave the other engine out for this gripper",
+                f"MuJoCo's world supports only sliding fingers, gripper {gripper.geometry.id!r} has a linkage",
+                hint="use PyBullet only for this gripper",
             )
         if gripper.suction is not None:
             raise DefinitionError(
-                f"MuJoCo's world has fingers alone, gripper {gripper.geometry.id!r} has a suction cup",
+                f"MuJoCo's world supports only fingers, gripper {gripper.geometry.id!r} has a suction cup",
                 hint="run the trial in PyBullet",
             )
         self.scene, self.gripper, self.settings = scene, gripper, settings
@@ -104,7 +104,7 @@ class MujocoWorld:
         """Do nothing: model and state are freed with this world."""
 
     def reset_arm(self, configuration_rad: Sequence[float]) -> None:
-        """Put the arm at rest at a configuration, fingers open and the workpiece where it stands, without stepping."""
+        """Put the arm at rest at a configuration, fingers open and the workpiece unchanged, without stepping."""
         self._engine.mj_resetData(self._model, self._data)
         self._target = np.array(configuration_rad, dtype=float) + self._offsets
         self._data.qpos[self._positions] = self._target
@@ -119,7 +119,7 @@ class MujocoWorld:
 
     @property
     def grip_fault(self) -> str:
-        """Always empty: the world has fingers alone."""
+        """Always empty: the world supports only fingers."""
         return ""
 
     def hold_open(self) -> None:
@@ -135,7 +135,7 @@ class MujocoWorld:
         """Advance by one step.
 
         Raises:
-            SimulationError: The engine warned, of an instability for instance.
+            SimulationError: The engine warned, for instance of an instability.
         """
         model, data, engine = self._model, self._data, self._engine
         engine.mj_step1(model, data)
@@ -153,19 +153,19 @@ class MujocoWorld:
         engine.mj_kinematics(model, data)
         if data.warning.number.any():
             names = [str(engine.mjtWarning(index).name) for index in np.flatnonzero(data.warning.number).tolist()]
-            raise SimulationError(f"MuJoCo warned: {', '.join(names)}", hint="take a higher rate")
+            raise SimulationError(f"MuJoCo warned: {', '.join(names)}", hint="use a higher rate")
 
     def bend(self, arc_m: Sequence[float]) -> None:
         """Second-order correction of a carried workpiece's position; see `ContactWorld.bend`.
 
-        This engine integrates like PyBullet, by the speed at the end of the step, and loses as much by it.
+        Like PyBullet, this engine integrates with the velocity at the end of the step, with the same error.
         """
         at = self._workpiece_at
         self._data.qpos[at : at + 3] += arc_m
         self._data.xpos[self._workpiece] += arc_m
 
-    def solve_freely(self, *, free: bool) -> None:
-        """Do nothing: Newton's method ends by itself where there is little to solve."""
+    def reduce_solver_effort(self, *, free: bool) -> None:
+        """Do nothing: Newton's method converges early if there is little to solve."""
 
     def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
         """Reported joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step."""
@@ -181,15 +181,15 @@ class MujocoWorld:
         return self._pose_of(self._workpiece)
 
     def object_pose(self, name: str) -> Pose:
-        """Transform of the workpiece to the world; this engine has no other object."""
+        """Transform of the workpiece to the world; this engine supports no other object."""
         if name != self.scene.workpiece.id:
-            raise SimulationError("this engine knows one object", hint="run several objects in PyBullet")
+            raise SimulationError("this engine supports only one object", hint="use PyBullet for several objects")
         return self.workpiece_pose()
 
-    def concern(self, scene: Scene) -> None:
-        """Let the workpiece be released at another place, or be gripped again where it stands."""
+    def set_workpiece(self, scene: Scene) -> None:
+        """Change the place where the workpiece is released, or allow it to be gripped again."""
         if scene.workpiece.id != self.scene.workpiece.id:
-            raise SimulationError("this engine knows one object", hint="run several objects in PyBullet")
+            raise SimulationError("this engine supports only one object", hint="use PyBullet for several objects")
         self.scene = scene
 
     def tool_pose(self) -> Pose:
@@ -217,11 +217,11 @@ class MujocoWorld:
         return self._reader.scene_force_n()
 
     def finger_contacts(self) -> tuple[FingerContact, ...]:
-        """The points at which fingers press on the workpiece, by finger and from low to high."""
+        """Contact points of the fingers on the workpiece, by finger and ascending height."""
         return self._reader.finger_contacts(_pose(self._stood_m, self._stood_wxyz))
 
     def _note_workpiece(self) -> None:
-        """Store the pose of the workpiece at the start of a step, at which the engine finds its contacts."""
+        """Store the pose of the workpiece at the start of a step, at which the engine detects contacts."""
         self._stood_m = self._data.xpos[self._workpiece].copy()
         self._stood_wxyz = self._data.xquat[self._workpiece].copy()
 

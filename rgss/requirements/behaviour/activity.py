@@ -1,4 +1,4 @@
-"""Activities: actions and the order in which control passes through them."""
+"""Activities: actions and their control flow."""
 
 from __future__ import annotations
 

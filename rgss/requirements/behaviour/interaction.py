@@ -1,4 +1,4 @@
-"""Sequences: messages between blocks, and the time that may pass between them."""
+"""Sequences: messages between blocks, and timing constraints."""
 
 from __future__ import annotations
 

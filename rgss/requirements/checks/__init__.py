@@ -1,4 +1,4 @@
-"""Consistency checks of behaviours and of what they refer to."""
+"""Consistency checks of behaviours and of references."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""The details of behaviours: actors, flows, interactions, machines."""
+"""Checks of the details of behaviours: actors, flows, interactions, state machines."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from rgss.requirements.requirement import Requirement
 def check_behaviours(
     documents: Sequence[LoadedDocument[ArchitectureFile]], requirements: Mapping[str, Requirement], hints: Hints
 ) -> Iterator[Finding]:
-    """Findings inside of behaviours.
+    """Findings about the details of behaviours.
 
     Args:
         documents: The files of the architecture.
-        requirements: The system requirements that could be read, by their ids.
-        hints: Suggests the id that was probably meant.
+        requirements: The readable system requirements, by id.
+        hints: Finder of the nearest known id.
     """
     blocks = {block.id: block for loaded in documents for block in loaded.value.blocks}
     for loaded in documents:

@@ -59,7 +59,7 @@ def _connector_references(block: Block) -> Iterator[Reference]:
 def _behaviour_references(behaviour: Behaviour) -> Iterator[Reference]:
     yield from _many("allocated_to", behaviour.allocated_to, _BLOCK)
     yield from _many("refines", behaviour.refines, _REFINED)
-    # Inclusion and calls are not an order: what a retry includes may include the retry.
+    # Inclusion and calls are not an order: a behaviour included by a retry may include the retry.
     yield from _many("includes", behaviour.includes, _BEHAVIOUR, ordering=False)
     yield from _many("actors", behaviour.actors, _BLOCK, ordering=False)
     if behaviour.flow is not None:

@@ -24,7 +24,7 @@ def check_flow(declaration: Declaration, flow: Flow, hints: Hints) -> Iterator[F
     Args:
         declaration: The activity.
         flow: Its flow.
-        hints: Suggests the id that was probably meant.
+        hints: Finder of the nearest known id.
     """
     yield from repeated(declaration, _NODES, [node.id for node in flow.nodes])
     ids = {node.id: None for node in flow.nodes}

@@ -12,7 +12,7 @@ At = tuple["str | int", ...]
 
 
 def repeated(declaration: Declaration, at: At, ids: Sequence[str]) -> Iterator[Finding]:
-    """Find ids that two entries of a list have.
+    """Findings about duplicate ids in a list.
 
     Args:
         declaration: The behaviour.
@@ -29,15 +29,15 @@ def repeated(declaration: Declaration, at: At, ids: Sequence[str]) -> Iterator[F
 def unknown(
     declaration: Declaration, at: At, named: str, known: Collection[str], what: str, hints: Hints
 ) -> Iterator[Finding]:
-    """Find an id that names nothing in the same behaviour.
+    """Finding about an id that is unknown in the same behaviour.
 
     Args:
         declaration: The behaviour.
         at: Location of the id within it.
         named: The id.
-        known: What it may name.
+        known: The known ids.
         what: Name of its kind in messages.
-        hints: Suggests the id that was probably meant.
+        hints: Finder of the nearest known id.
     """
     if named not in known:
         message = f"{at[-1]}: {named!r} is not a {what}"
@@ -45,11 +45,11 @@ def unknown(
 
 
 def reached_from(starts: Iterable[str], ways: Iterable[tuple[str, str]]) -> frozenset[str]:
-    """The ids that are reached from some others over any number of ways, with these others.
+    """Ids reachable from start ids over any number of edges, including the start ids.
 
     Args:
         starts: Start ids.
-        ways: Source and target of each way.
+        ways: Source and target of each edge.
     """
     onward: dict[str, list[str]] = {}
     for source, target in ways:

@@ -27,8 +27,8 @@ def check_interaction(
     Args:
         declaration: The sequence.
         interaction: Its messages.
-        requirements: The system requirements that could be read, by their ids.
-        hints: Suggests the id that was probably meant.
+        requirements: The readable system requirements, by id.
+        hints: Finder of the nearest known id.
     """
     yield from repeated(declaration, _MESSAGES, [message.id for message in interaction.messages])
     order = {message.id: index for index, message in enumerate(interaction.messages)}
@@ -65,7 +65,7 @@ def _check_criterion(
     declaration: Declaration, timing: TimingConstraint, requirements: Mapping[str, Requirement], at: At
 ) -> Iterator[Finding]:
     requirement = requirements.get(timing.criterion_of)
-    # That the criterion is in a unit of time is left to the check of its unit: one mistake, one line.
+    # The unit of the criterion is checked elsewhere, so that one error gives one finding.
     if requirement is not None and requirement.criterion is None:
         message = f"criterion_of: {requirement.id!r} has no criterion that could bound a time"
         yield _broken(declaration, message, at)

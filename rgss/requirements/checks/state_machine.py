@@ -21,7 +21,7 @@ def check_machine(declaration: Declaration, machine: StateMachine, hints: Hints)
     Args:
         declaration: The behaviour.
         machine: Its states.
-        hints: Suggests the id that was probably meant.
+        hints: Finder of the nearest known id.
     """
     yield from repeated(declaration, _STATES, [state.id for state in machine.states])
     initial = [state.id for state in machine.states if state.kind is StateKind.INITIAL]

@@ -1,11 +1,11 @@
-"""Grasps of objects: what may be chosen, where pads touch, and what the pads consist of."""
+"""Grasps of objects: choice among candidates, contact patches and contact elements of pads."""
 
 from typing import TYPE_CHECKING
 
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.scenes.grasps.grasp_choice import Approach, GivenGrasp, GraspCandidates, SuctionPoint, TakenGrasp
+    from rgss.scenes.grasps.grasp_choice import Approach, ChosenGrasp, GivenGrasp, GraspCandidates, SuctionPoint
     from rgss.scenes.grasps.pad_contact import PadPatch, pad_patches, rotation_of, settled_grasp, surface_of
     from rgss.scenes.grasps.pad_layout import PadLayout, most_elements, pad_layouts
 else:

@@ -1,4 +1,4 @@
-"""How the grasp of an object is stated, and the grasp that is taken."""
+"""Specification of an object's grasp candidates, and the chosen grasp."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from rgss.scenes.pose import Pose
 
 
 class Approach(str, Enum):
-    """Direction of the tool on the way to the object, by its angle with straight down."""
+    """Approach direction of the tool, by its angle to straight down."""
 
     ABOVE = "above"
     OBLIQUE = "oblique"
@@ -18,7 +18,7 @@ class Approach(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GivenGrasp:
-    """A grasp that the file of an object gives.
+    """Grasp given in the file of an object.
 
     Attributes:
         id: Its name.
@@ -33,13 +33,13 @@ class GivenGrasp:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GraspCandidates:
-    """Which grasps are tried.
+    """Specification of the grasp candidates.
 
     Attributes:
-        approaches: Directions of the tool.
-        heights: Places along the approach.
-        yaws: Turns about the axis of a cylinder, or about the line between the pads on a mesh.
-        samples: Points of a mesh's surface from which opposite points are looked for; 0 for the given grasps alone.
+        approaches: Approach directions of the tool.
+        heights: Number of positions along the approach.
+        yaws: Number of angles about the axis of a cylinder, or about the line between the pads on a mesh.
+        samples: Number of sampled surface points of a mesh for antipodal pairs; 0 for the given grasps only.
     """
 
     approaches: tuple[Approach, ...] = (Approach.ABOVE, Approach.SIDE)
@@ -50,10 +50,10 @@ class GraspCandidates:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SuctionPoint:
-    """A place of a suction cup on a flat face of an object.
+    """Position of a suction cup on a flat face of an object.
 
     Attributes:
-        position_m: Middle of the cup on the object, in the object's frame.
+        position_m: Centre of the cup on the object, in the object's frame.
         normal: Unit normal of the face, out of the object.
         room_m: Distance to the nearest edge of the face.
     """
@@ -64,20 +64,20 @@ class SuctionPoint:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TakenGrasp:
-    """The grasp that is taken.
+class ChosenGrasp:
+    """The chosen grasp.
 
     Attributes:
         id: Its name.
         tool_in_object: Transform of the grasp-centre frame to the object's frame.
         opening_m: Distance of the pads from the gripper's axis when they touch.
-        place_yaw_rad: Turn of the object about the vertical at its place, in the world.
-        quality_1: Smallest maximum wrench for finger forces of 1 N; of a suction cup, the weight that it bears over the
-            force of its vacuum.
-        com_distance_m: Distance of the centre of mass from the middle of the contacts, or from the cup's axis.
-        candidates: How many candidates there were.
-        rejected: How many of them were rejected before it.
-        suction: The place of the cup; None for fingers.
+        place_yaw_rad: Yaw of the object at its place, in the world.
+        quality_1: Smallest maximum wrench for finger forces of 1 N; for a suction cup, the weight that it holds divided
+        by the force of its vacuum.
+        com_distance_m: Distance of the centre of mass from the centre of the contacts, or from the cup's axis.
+        candidates: Number of candidates.
+        rejected: Number of candidates rejected before it.
+        suction: Position of the cup; None for fingers.
     """
 
     id: str

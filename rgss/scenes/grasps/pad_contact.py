@@ -1,8 +1,8 @@
-"""Contact of flat pads with an object: openings, and the patch that each pad touches.
+"""Contact of flat pads with an object: opening and contact patch of each pad.
 
-The pad of a finger is a rectangle across the finger's direction of travel. It stops where the part of the object
-inside the column that it sweeps reaches farthest out. The surface of each convex part is clipped to the column; what
-of it lies at the greatest reach is the patch: a face, an edge or a point.
+The pad of a finger is a rectangle perpendicular to the finger's direction of travel, and sweeps a column. It stops at
+the outermost point of the object inside the column. The surface of each convex part is clipped to the column; the part
+of it at that distance is the patch: a face, an edge or a point.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ _EVEN_M = 1.0e-5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PadPatch:
-    """What the pad of one finger touches, in the frame of the pad.
+    """Contact patch of a finger's pad, in the frame of the pad.
 
     Attributes:
         opening_m: Distance of the pad from the gripper's axis.
         across_m: Least and greatest coordinate along the finger's width.
-        along_m: The same along the gripper's axis, from the grasp centre, away from the flange positive.
-        slope: Greatest cosine of an angle of the touched surface with the pad; 1 where they lie on each other.
+        along_m: The same along the gripper's axis, from the grasp centre, positive away from the flange.
+        slope: Greatest cosine of the angle between the touched surface and the pad; 1 if they are parallel.
         is_on_rim: Whether only the rim of the pad touches.
     """
 
@@ -46,13 +46,13 @@ class PadPatch:
 
     @property
     def corners_m(self) -> tuple[tuple[float, float], ...]:
-        """The corners of the patch, across and along, each once."""
+        """Distinct corners of the patch, as coordinates across and along."""
         found = {(across, along) for across in self.across_m for along in self.along_m}
         return tuple(sorted(found))
 
 
 def pad_patches(shape: ObjectShape, tool_in_object: Pose, geometry: GripperGeometry) -> tuple[PadPatch, ...] | None:
-    """What each finger's pad touches when it closes on an object.
+    """Contact patches of the fingers' pads closed on an object.
 
     Args:
         shape: The object's solid.
@@ -60,7 +60,7 @@ def pad_patches(shape: ObjectShape, tool_in_object: Pose, geometry: GripperGeome
         geometry: The gripper's shape.
 
     Returns:
-        One patch for each finger; None where a finger would close without touching.
+        One patch for each finger; None if a finger would close without contact.
     """
     return _patches(shape, tool_in_object, geometry)
 
@@ -79,10 +79,10 @@ def _patches(shape: ObjectShape, tool_in_object: Pose, geometry: GripperGeometry
 
 
 def even_shift_m(patches: Sequence[PadPatch], geometry: GripperGeometry) -> tuple[float, float]:
-    """Shift of the grasp centre across the gripper's axis after which all pads would touch at one opening.
+    """Displacement of the grasp centre perpendicular to the gripper's axis that equalises the pads' openings, in m.
 
     Args:
-        patches: What each pad touches now.
+        patches: Present contact patch of each pad.
         geometry: The gripper's shape.
     """
     directions = np.array([(math.cos(azimuth), math.sin(azimuth), 1.0) for azimuth in geometry.azimuths_rad])
@@ -93,7 +93,7 @@ def even_shift_m(patches: Sequence[PadPatch], geometry: GripperGeometry) -> tupl
 def settled_grasp(
     shape: ObjectShape, tool_in_object: Pose, geometry: GripperGeometry
 ) -> tuple[Pose, tuple[PadPatch, ...]] | None:
-    """A grasp moved across the gripper's axis until every pad touches at the same opening.
+    """Grasp shifted perpendicular to the gripper's axis until all pads touch at the same opening.
 
     Args:
         shape: The object's solid.
@@ -101,7 +101,7 @@ def settled_grasp(
         geometry: The gripper's shape.
 
     Returns:
-        The grasp and what the pads touch; None where there is none such.
+        The grasp and the contact patches; None if there is no such grasp.
     """
     for _ in range(_LOOKS):
         patches = pad_patches(shape, tool_in_object, geometry)
@@ -116,14 +116,14 @@ def settled_grasp(
 
 
 def _window(geometry: GripperGeometry) -> tuple[float, float, float, float]:
-    """Edges of a pad: least and greatest across, then along from the grasp centre."""
+    """Bounds of a pad: least and greatest coordinate across, then along from the grasp centre."""
     _, width_m, length_m = geometry.finger.size_m
     start = geometry.base.height_m - geometry.grasp_depth_m
     return -width_m / 2, width_m / 2, start, start + length_m
 
 
 def _round_patch(shape: ObjectShape, to_pad: Pose, geometry: GripperGeometry) -> PadPatch | None:
-    """The line on the wall of a cylinder whose axis lies along the pad or across it."""
+    """Line patch on the wall of a cylinder whose axis is along the pad or across it."""
     if isinstance(shape, Cylinder):
         axis, half_m = (0.0, 0.0, 1.0), shape.half_height_m
     elif isinstance(shape, LyingCylinder):
@@ -179,7 +179,7 @@ def _flat_patch(shape: ObjectShape, to_pad: Pose, geometry: GripperGeometry) -> 
 def _is_on_rim(
     across: tuple[float, float], along: tuple[float, float], window: tuple[float, float, float, float]
 ) -> bool:
-    """True if a patch that is thin in a direction lies at the end of the pad in it."""
+    """True if a patch is thin in a direction and lies at the end of the pad in that direction."""
     thin = 2.0 * _FLAT_M
     return any(
         high - low <= thin and min(abs(low - first), abs(high - last)) <= thin

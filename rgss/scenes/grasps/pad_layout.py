@@ -1,8 +1,8 @@
-"""Elements of a finger's pad for contact engines, by what the pad touches.
+"""Contact elements of a finger's pad for physics engines, depending on the contact patch.
 
-An engine finds one point of a pair of shapes in a step. So a pad is given to it as round elements, each of which
-meets the object in one point that is found at once: where it touches a line, two ribs across the line at its ends;
-where it touches a face, four knobs at the corners of the patch; where it touches a point, one knob.
+An engine detects one contact point of a pair of shapes in a step. A pad therefore consists of round elements, each with
+one contact point that is detected at once: two ribs across the ends of a line patch, four knobs at the corners of a
+face patch, or one knob at a point patch.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ _LINE_M = 1.0e-3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PadElement:
-    """A capsule of a pad, its front where the flat pad would be; without a length, a sphere.
+    """Capsule of a pad, tangent to the plane of the flat pad; of length 0, a sphere.
 
     Attributes:
-        across_m: Place along the finger's width.
-        height_m: Place along the finger, from its centre.
-        is_across: Whether its axis lies across the finger, and not along it.
+        across_m: Position along the finger's width.
+        height_m: Position along the finger, from its centre.
+        is_across: True if its axis is across the finger, False if along it.
         length_m: Length of its cylinder.
     """
 
@@ -46,7 +46,7 @@ class PadLayout:
 
     Attributes:
         radius_m: Radius of each element.
-        proud_m: How far the elements stand out of the rest of the finger.
+        proud_m: Height of the elements above the rest of the finger.
         elements: The elements.
     """
 
@@ -56,7 +56,7 @@ class PadLayout:
 
 
 def ribbed_layout(ribs: PadRibs, finger: Box) -> PadLayout:
-    """The layout of a pad of two ribs across the finger.
+    """Layout of a pad of two ribs across the finger.
 
     Args:
         ribs: The ribs.
@@ -74,17 +74,17 @@ def ribbed_layout(ribs: PadRibs, finger: Box) -> PadLayout:
 
 
 def pad_layouts(geometry: GripperGeometry, shape: ObjectShape, tool_in_object: Pose | None) -> tuple[PadLayout, ...]:
-    """The elements of the pad of each finger.
+    """Contact elements of the pad of each finger.
 
     Args:
         geometry: The gripper's shape.
         shape: The object's solid.
-        tool_in_object: Transform of the grasp-centre frame to the object's frame; None for a cylinder that is held
-            at its centre with the gripper along its axis.
+        tool_in_object: Transform of the grasp-centre frame to the object's frame; None for a cylinder held at its
+            centre with the gripper along its axis.
     """
     if tool_in_object is None:
         if not isinstance(shape, Cylinder):
-            raise AssertionError("only a cylinder is held without a stated grasp")
+            raise AssertionError("only a cylinder can be held without a stated grasp")
         return (ribbed_layout(pad_ribs(geometry, shape), geometry.finger),) * geometry.fingers
     patches = pad_patches(shape, tool_in_object, geometry)
     if patches is None:
@@ -93,12 +93,12 @@ def pad_layouts(geometry: GripperGeometry, shape: ObjectShape, tool_in_object: P
 
 
 def most_elements(layouts: Sequence[PadLayout]) -> int:
-    """Greatest number of elements of a pad, by which its stiffness is divided; at least that of a ribbed pad."""
+    """Greatest number of elements of a pad, the divisor of its stiffness; at least that of a ribbed pad."""
     return max([RIBS, *(len(layout.elements) for layout in layouts)])
 
 
 def _plain(geometry: GripperGeometry) -> PadLayout:
-    """The layout of a hand that touches nothing as planned: four knobs at the corners of the pad."""
+    """Layout for a grasp without a contact patch: four knobs at the corners of the pad."""
     _, width_m, length_m = geometry.finger.size_m
     start = geometry.base.height_m - geometry.grasp_depth_m
     whole = PadPatch(
@@ -138,7 +138,7 @@ def _layout(patch: PadPatch, geometry: GripperGeometry) -> PadLayout:
 
 
 def _inset(ends: tuple[float, float], radius_m: float, limit_m: float) -> tuple[float, float]:
-    """Ends of a patch, drawn in by the radius of an element; its middle where it is a line."""
+    """Ends of a patch, inset by the radius of an element; its middle if it is narrower."""
     low, high = ends
     if high - low <= _LINE_M:
         middle = min(max((low + high) / 2, radius_m - limit_m), limit_m - radius_m)

@@ -1,4 +1,4 @@
-"""Kinds of grippers as their files describe them, one module a kind."""
+"""Kinds of grippers by their files, one module for each kind."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""What the files of grippers with fingers have in common."""
+"""Common parts of the files of grippers with fingers."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def body_findings(
 
 
 def drive_of(finger: FingerEntry, firm_grasp: FirmGraspEntry | None) -> GripperDrive:
-    """The drive that a file states.
+    """Drive of the fingers from a file.
 
     Args:
         finger: A finger.
@@ -58,7 +58,7 @@ def drive_of(finger: FingerEntry, firm_grasp: FirmGraspEntry | None) -> GripperD
 
 
 def settings_of(base: BaseEntry, finger: FingerEntry) -> dict[str, float | str]:
-    """The values in SI that the file gives where no design sets them, by the quantity.
+    """Values in SI, by quantity, that apply if no design sets them.
 
     Args:
         base: The base.
@@ -69,7 +69,7 @@ def settings_of(base: BaseEntry, finger: FingerEntry) -> dict[str, float | str]:
 
 
 def grasp_depth_findings(depth_m: float, base: BaseEntry, finger: FingerEntry, document: Document) -> Iterable[Finding]:
-    """A finding for a grasp centre that lies outside the fingers.
+    """A finding for a grasp centre outside the fingers.
 
     Args:
         depth_m: Distance of the grasp centre from the flange.

@@ -19,7 +19,7 @@ class FingerGripper:
     model: type[DocumentModel] = GripperDocument
 
     def findings(self, entry: GripperDocument, document: Document) -> Iterable[Finding]:
-        """Problems of sizes and of a stroke with which fingers would cross."""
+        """Findings about sizes, and about a stroke at which fingers would cross."""
         others = [(("stroke",), entry.stroke), (("grasp_depth",), entry.grasp_depth)]
         yield from body_findings(entry.base, entry.finger, entry.firm_grasp, document, others)
         if entry.stroke >= entry.largest_opening:
@@ -32,7 +32,7 @@ class FingerGripper:
         yield from grasp_depth_findings(entry.grasp_depth, entry.base, entry.finger, document)
 
     def gripper_file(self, entry: GripperDocument) -> GripperFile:
-        """The gripper with its only mounting."""
+        """Gripper with its only mounting."""
         geometry = GripperGeometry(
             id=entry.gripper,
             azimuths_rad=entry.azimuths,

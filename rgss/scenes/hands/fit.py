@@ -1,4 +1,4 @@
-"""Fit of a gripper and an object: whether its fingers can enter round it and touch it, or its cup seals on it."""
+"""Fit of gripper and object: fingers can enclose and touch it, or the cup can seal on it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rgss.scenes.shapes import Box, Cylinder, ObjectShape
 
 
 def too_wide(geometry: GripperGeometry, scene: Scene) -> str:
-    """Why open fingers cannot enter round the object; empty where they can.
+    """Reason why open fingers cannot enclose the object; empty if they can.
 
     Args:
         geometry: The gripper's shape.
@@ -25,7 +25,7 @@ def too_wide(geometry: GripperGeometry, scene: Scene) -> str:
 
 
 def too_narrow(geometry: GripperGeometry, scene: Scene) -> str:
-    """Why closed fingers do not touch the object; empty where they do.
+    """Reason why closed fingers do not touch the object; empty if they do.
 
     Args:
         geometry: The gripper's shape.
@@ -40,7 +40,7 @@ def too_narrow(geometry: GripperGeometry, scene: Scene) -> str:
 
 
 def misfit(geometry: GripperGeometry, scene: Scene) -> str:
-    """Why a gripper cannot hold the object by its size; empty where it can.
+    """Reason why the object's size does not fit a gripper; empty if it does.
 
     Args:
         geometry: The gripper's shape.
@@ -50,7 +50,7 @@ def misfit(geometry: GripperGeometry, scene: Scene) -> str:
 
 
 def unsealed(geometry: GripperGeometry, scene: Scene) -> str:
-    """Why a cup does not seal on an object; empty where it does, and for fingers.
+    """Reason why a cup does not seal on an object; empty if it does, and for fingers.
 
     Args:
         geometry: The gripper's shape.
@@ -66,7 +66,7 @@ def unsealed(geometry: GripperGeometry, scene: Scene) -> str:
 
 
 def suction_point_of(scene: Scene) -> SuctionPoint:
-    """The place of a suction cup on the object: the one that is taken of candidates, or the middle of its top.
+    """Position of a suction cup on the object: that of the chosen candidate, or the middle of its top.
 
     Args:
         scene: The scene, with the object as its workpiece.
@@ -79,7 +79,7 @@ def suction_point_of(scene: Scene) -> SuctionPoint:
 
 
 def flat_top_radius_m(shape: ObjectShape) -> float:
-    """Radius of the largest circle about the middle of an object's top that is flat; 0 where the top is not.
+    """Radius in m of the largest flat circle about the middle of an object's top; 0 if the top is not flat.
 
     Args:
         shape: The object.

@@ -1,4 +1,4 @@
-"""Interface of a kind of gripper: its document, what is wrong with one, and the gripper that it describes."""
+"""Interface of a kind of gripper: document model, findings, and the gripper of a document."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class GripperKind(Protocol):
         """Model of its files."""
 
     def findings(self, entry: Any, document: Document) -> Iterable[Finding]:
-        """Problems of a file that the model accepts.
+        """Findings about a file that satisfies the model.
 
         Args:
             entry: The content of the file, of this kind's model.
@@ -30,7 +30,7 @@ class GripperKind(Protocol):
         """
 
     def gripper_file(self, entry: Any) -> GripperFile:
-        """The gripper that a file without problems describes.
+        """Gripper described by a valid file.
 
         Args:
             entry: The content of the file, of this kind's model.

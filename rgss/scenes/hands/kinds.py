@@ -20,11 +20,11 @@ _FINGERS = FingerGripper()
 GRIPPER_KINDS: Mapping[str, GripperKind | LinkageGripper] = MappingProxyType(
     {kind.name: kind for kind in (_FINGERS, ParallelGripper(), VacuumGripper(), LinkageGripper())}
 )
-"""The kinds by their names in files."""
+"""The kinds of grippers by name in files."""
 
 
 def kind_of_gripper(document: Document) -> GripperKind | LinkageGripper:
-    """The kind of a gripper file; that of prismatic fingers where the file names none.
+    """Kind of a gripper file; prismatic fingers by default.
 
     Args:
         document: The file.

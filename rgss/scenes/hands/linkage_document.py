@@ -1,4 +1,4 @@
-"""The YAML form of grippers whose mechanism is a URDF."""
+"""Document model of grippers whose mechanism is a URDF."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from rgss.scenes.document import AssumptionEntry, CollisionShapes, FirmGraspEntr
 
 
 class MountEntry(DocumentModel):
-    """Place of the palm's frame at the flange, turned about x, y and z of the flange in this order."""
+    """Pose of the palm's frame at the flange, with rotations about x, y and z of the flange in this order."""
 
     at: tuple[Metres, Metres, Metres] = (0.0, 0.0, 0.0)
     roll: Radians = 0.0
@@ -18,7 +18,7 @@ class MountEntry(DocumentModel):
 
 
 class LinkageGripperDocument(DocumentModel):
-    """A gripper file of a mechanism in a URDF with one driven joint."""
+    """Gripper file of a mechanism in a URDF with one driven joint."""
 
     gripper: Identifier
     kind: Literal["linkage"]

@@ -1,4 +1,4 @@
-"""Gripper at the object: the grasp centre depends on the object's top for a cup, and on its width for a linkage."""
+"""Grasp centre at the object, which depends on the object's top for a cup, and on its width for a linkage."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ _ROUNDS = 3
 
 
 def at_object(geometry: GripperGeometry, scene: Scene) -> GripperGeometry:
-    """A gripper whose grasp centre is where its pads or its cup hold the object; sliding fingers as they are.
+    """Gripper with its grasp centre at the pads or cup in contact with the object; sliding fingers unchanged.
 
-    The pads of a linkage may move along the tool axis while they close. Where grasps are chosen among candidates, the
-    width is the object's least.
+    The pads of a linkage may move along the tool axis while they close. If grasps are chosen among candidates, the
+    object's least width is used.
 
     Args:
         geometry: The gripper's shape.
@@ -35,7 +35,7 @@ def at_object(geometry: GripperGeometry, scene: Scene) -> GripperGeometry:
 
 
 def at_opening(geometry: GripperGeometry, opening_m: float) -> GripperGeometry:
-    """A gripper whose grasp centre is where its pads are at an opening; sliding fingers as they are.
+    """Gripper with its grasp centre at the pads' position at an opening; sliding fingers unchanged.
 
     Args:
         geometry: The gripper's shape.

@@ -1,4 +1,4 @@
-"""Grippers whose mechanism is a URDF: one driven joint, joints that follow it, and two pads."""
+"""Grippers whose mechanism is a URDF: one driven joint, mimic joints, and two pads."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ class LinkageGripper:
     model = LinkageGripperDocument
 
     def read(self, entry: LinkageGripperDocument, document: Document, *, path: Path, project: Path) -> GripperFile:
-        """The gripper that a file and its URDF describe.
+        """Gripper described by a file and its URDF.
 
         Args:
             entry: The content of the file.
             document: The file, for positions.
-            path: The file, relative to whose folder the URDF is named.
-            project: The folder that no named file may lie outside of.
+            path: The file; the URDF is relative to its folder.
+            project: The folder that must contain all referenced files.
 
         Raises:
-            DocumentError: The file or its URDF is wrong; with every problem in it.
+            DocumentError: The file or its URDF is invalid; with every problem in it.
         """
         findings = list(_own_findings(entry, document))
         findings += named_file_findings(
@@ -58,7 +58,7 @@ class LinkageGripper:
 
 
 def linkage_geometry(geometry: GripperGeometry, linkage: Linkage, driven: float) -> GripperGeometry:
-    """The shape of a gripper with its pads where they are at a position of the driven joint.
+    """Shape of a gripper with its pads at a position of the driven joint.
 
     Args:
         geometry: The gripper's shape at any position.
@@ -107,17 +107,17 @@ def _limit_findings(entry: LinkageGripperDocument, document: Document, motion: L
 
 
 def pad_limits(motion: LinkageMotion) -> tuple[float, float]:
-    """Force in N and speed in m/s that each pad has all over the stroke.
+    """Force in N and speed in m/s of each pad that are available over the whole stroke.
 
-    By virtual work the effort τ of the driven joint balances the force F of both pads, whose travel per travel of the
-    joint is J: τ = 2 J F. The least force is where J is greatest, the least speed where it is least.
+    By virtual work the effort τ of the driven joint balances the force F of both pads, with the pad travel J per travel
+    of the joint: τ = 2 J F. The force is least where J is greatest, the speed where J is least.
 
     Args:
         motion: The mechanism over its stroke.
     """
     linkage = motion.linkage
     values = linkage.effort / (2 * motion.greatest_transmission), linkage.speed * motion.least_transmission
-    # The noise of the tabulated kinematics is rounded off.
+    # Rounding removes the noise of the tabulated kinematics.
     force_n, speed_m_s = (float(f"{value:.9g}") for value in values)
     return force_n, speed_m_s
 
@@ -222,5 +222,5 @@ def _palm_radius_m(linkage: Linkage, least_m: float) -> float:
 
 
 def _azimuth(x: float, y: float) -> float:
-    """Direction in the plane of the flange; the noise of a chain of transforms is rounded off."""
+    """Azimuth in the plane of the flange, rounded to remove the noise of a chain of transforms."""
     return round(math.atan2(y, x), 9) + 0.0

@@ -1,4 +1,4 @@
-"""Pads of a linkage: which face of each named link touches an object, and whether the two close on one."""
+"""Pads of a linkage: contact face of each named link, and check that the two close on an object."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _HALVINGS = 60
 
 
 class PadError(Exception):
-    """The pads of a mechanism hold nothing; the message follows the name of the URDF.
+    """The pads of a mechanism cannot hold an object; the message follows the name of the URDF.
 
     Attributes:
         problem: Message, place in the gripper file and hint.
@@ -38,12 +38,12 @@ class PadError(Exception):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DrivenRange:
-    """What a URDF says of the driven joint.
+    """Driven joint of a URDF.
 
     Attributes:
-        link: Index of the link that it carries.
+        link: Index of its child link.
         lower: Its least position in rad or m.
-        upper: Its greatest position.
+        upper: Its greatest position in rad or m.
         effort: Its greatest torque in N·m or force in N.
         speed: Its greatest speed.
     """
@@ -56,11 +56,11 @@ class DrivenRange:
 
 
 def linkage_of(links: tuple[LinkageLink, ...], pads: tuple[int, int], driven: DrivenRange) -> Linkage:
-    """The mechanism, with its open and closed ends and the faces of its pads.
+    """Mechanism with its open and closed ends and the faces of its pads.
 
     Args:
-        links: The links, each after the one that carries it.
-        pads: Indices of the links that have the pads.
+        links: The links in topological order.
+        pads: Indices of the links with the pads.
         driven: The driven joint.
 
     Raises:
@@ -95,7 +95,7 @@ def _require_metres(linkage: Linkage) -> None:
         places = [pose.position_m, *(_moved(pose, corner) for hull in link.hulls_m for corner in hull)]
         far_m = max(max(map(abs, place)) for place in places)
         if far_m > _LARGEST_M:
-            message = f"puts a part of the link {link.name!r} {far_m:.4g} m from the flange"
+            message = f"places a part of the link {link.name!r} {far_m:.4g} m from the flange"
             hint = "lengths of a URDF are metres; write millimetres as metres, and scale meshes by 0.001"
             raise PadError(message, ("description",), hint)
         if link.mass_kg > _LARGEST_KG:
@@ -104,7 +104,7 @@ def _require_metres(linkage: Linkage) -> None:
 
 
 def _outward(linkage: Linkage, pads: tuple[int, int]) -> tuple[tuple[float, float], bool]:
-    """Direction from the second pad to the first, across the tool axis, and whether the lower end is open."""
+    """Direction from the second pad to the first, perpendicular to the tool axis, and True if the lower end is open."""
     low, high = linkage.link_poses(linkage.opened), linkage.link_poses(linkage.closed)
     names = [linkage.links[index].name for index in pads]
     ends = []
@@ -113,7 +113,11 @@ def _outward(linkage: Linkage, pads: tuple[int, int]) -> tuple[tuple[float, floa
         angle = 2 * math.acos(min(1.0, abs(turn.quaternion_xyzw[3])))
         if angle > _LARGEST_TURN_RAD:
             message = f"turns the pad {name!r} by {math.degrees(angle):.3g} deg over the stroke"
-            raise PadError(message, ("pads", names.index(name)), "pads must stay parallel; let a joint turn them back")
+            raise PadError(
+                message,
+                ("pads", names.index(name)),
+                "pads must stay parallel; add a joint that compensates the rotation",
+            )
         middle = _middle(linkage.links[index])
         ends.append((_moved(low[index], middle), _moved(high[index], middle)))
     (one_low, one_high), (other_low, other_high) = ends
@@ -134,7 +138,7 @@ def _outward(linkage: Linkage, pads: tuple[int, int]) -> tuple[tuple[float, floa
 
 
 def _face(linkage: Linkage, index: int, azimuth: float) -> LinkagePad:
-    """The innermost face of a link, seen from the tool axis."""
+    """Innermost face of a link, towards the tool axis."""
     link, pose = linkage.links[index], linkage.link_poses(linkage.opened)[index]
     x, y = math.cos(azimuth), math.sin(azimuth)
     corners = [_moved(pose, corner) for hull in link.hulls_m for corner in hull]
@@ -154,9 +158,9 @@ def _face(linkage: Linkage, index: int, azimuth: float) -> LinkagePad:
 
 
 def _closing(linkage: Linkage) -> Linkage:
-    """The linkage with its stroke ended where the pads meet, after a check that both close alike on the tool axis."""
+    """Linkage with its stroke ended where the pads meet; both must close symmetrically on the tool axis."""
     names = " and ".join(repr(linkage.links[pad.link].name) for pad in linkage.pads)
-    hint = "put the palm where it belongs under 'mount', with z out of the arm and the pads on both sides of the axis"
+    hint = "correct the pose of the palm under 'mount': z out of the arm, and the pads on both sides of the axis"
     span = linkage.closed - linkage.opened
     opened = [linkage.opened + span * index / _SAMPLES for index in range(_SAMPLES + 1)]
     openings = [linkage.opening_m(driven) for driven in opened]
@@ -176,8 +180,8 @@ def _closing(linkage: Linkage) -> Linkage:
         linkage = replace(linkage, closed=_meeting(linkage, opened[end - 1], opened[end]))
         openings = openings[: end + 1]
     if any(later >= before for before, later in pairwise(openings)):
-        message = f"lets the pads {names} approach and part again"
-        raise PadError(message, ("description",), "limit the driven joint to the way on which they approach")
+        message = f"makes the pads {names} approach and separate again"
+        raise PadError(message, ("description",), "limit the driven joint to the range in which they approach")
     if linkage.opening_m(linkage.opened) - linkage.opening_m(linkage.closed) < _LEAST_STROKE_M:
         raise PadError(f"moves the pads {names} by less than 1 mm", ("pads",), "name the links that close on an object")
     return linkage

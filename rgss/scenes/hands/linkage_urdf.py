@@ -1,4 +1,4 @@
-"""The mechanism of a gripper within a URDF: the palm, what it carries, the driven joint and those that follow it."""
+"""Mechanism of a gripper within a URDF: the palm with its descendants, the driven joint and its mimic joints."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
 
 def palm_of(root: ET.Element, entry: LinkageGripperDocument) -> str:
-    """The link that the flange carries: the named one, else the base of the URDF.
+    """Link at the flange: the named one, else the base of the URDF.
 
     Args:
         root: The URDF.
@@ -34,10 +34,10 @@ def palm_of(root: ET.Element, entry: LinkageGripperDocument) -> str:
 
 
 def prune(root: ET.Element, palm: str) -> None:
-    """Leave the palm and all that it carries.
+    """Reduce a URDF to the palm and its descendants.
 
     Args:
-        root: The URDF, which has the palm; it is changed.
+        root: The URDF, which has the palm; modified in place.
         palm: The link.
     """
     kept = {palm}
@@ -56,7 +56,7 @@ def prune(root: ET.Element, palm: str) -> None:
 
 
 def driven_joints(root: ET.Element) -> tuple[str, ...]:
-    """The joints of a gripper that move and follow none.
+    """Movable joints of a gripper without ``<mimic>``.
 
     Args:
         root: The gripper's part of a URDF.
@@ -69,7 +69,7 @@ def driven_joints(root: ET.Element) -> tuple[str, ...]:
 
 
 def mechanism_problems(root: ET.Element, entry: LinkageGripperDocument) -> Iterable[Problem]:
-    """What prevents a URDF from being the mechanism of a gripper: message, place in the gripper file, hint.
+    """Problems of a URDF as the mechanism of a gripper: message, location in the gripper file, hint.
 
     Args:
         root: The gripper's part of a URDF.
@@ -117,11 +117,11 @@ def mechanism_problems(root: ET.Element, entry: LinkageGripperDocument) -> Itera
 
 
 def links_of(root: ET.Element, palm: str, mount: Pose) -> tuple[LinkageLink, ...]:
-    """The links of a gripper, each after the one that carries it.
+    """Links of a gripper in topological order.
 
     Args:
         root: The gripper's part of a URDF, without problems; collision meshes are convex shapes.
-        palm: The link that the flange carries.
+        palm: The link at the flange.
         mount: Transform of the palm to the flange.
     """
     elements = {link.get("name", ""): link for link in root.findall("link")}
@@ -139,11 +139,11 @@ def links_of(root: ET.Element, palm: str, mount: Pose) -> tuple[LinkageLink, ...
 
 
 def follows(name: str, joints: Mapping[str, ET.Element]) -> tuple[float, float]:
-    """Multiplier and offset with which a joint follows the driven one, through others too.
+    """Multiplier and offset of a joint relative to the driven one, also through chains of ``<mimic>``.
 
     Args:
         name: The joint.
-        joints: All joints by their names; none follows itself.
+        joints: All joints by name, without cycles of ``<mimic>``.
     """
     mimic = joints[name].find("mimic")
     if mimic is None:
@@ -230,7 +230,7 @@ def _axis(joint: ET.Element | None) -> Triple:
 
 
 def _hulls(shape: ET.Element) -> Iterable[tuple[Triple, ...]]:
-    """Corners of a collision shape in the link's frame; a round shape is enclosed by flat faces."""
+    """Corners of a collision shape in the link's frame; a round shape is circumscribed by a polyhedron."""
     pose, geometry = origin_of(shape), shape.find("geometry")
     for solid in () if geometry is None else geometry:
         corners: Iterable[Triple] = ()

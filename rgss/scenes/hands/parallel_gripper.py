@@ -1,4 +1,4 @@
-"""Grippers of two parallel fingers whose mounting gives the widths that they can hold."""
+"""Grippers of two parallel fingers, whose mounting determines the range of widths."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class MountingEntry(DocumentModel):
 
 
 class ParallelGripperDocument(DocumentModel):
-    """A gripper file of two parallel fingers."""
+    """Gripper file of two parallel fingers."""
 
     gripper: Identifier
     kind: Literal["parallel"]
@@ -47,7 +47,7 @@ class ParallelGripper:
     model: type[DocumentModel] = ParallelGripperDocument
 
     def findings(self, entry: ParallelGripperDocument, document: Document) -> Iterable[Finding]:
-        """Problems of sizes, of mountings without travel, and of a default that is not a mounting."""
+        """Findings about sizes, mountings without travel, and a default that is not a mounting."""
         others: list[tuple[Location, float]] = [(("grasp_depth",), entry.grasp_depth)]
         if entry.command is not None:
             others.append((("command", "travel_time"), entry.command.travel_time))
@@ -55,7 +55,7 @@ class ParallelGripper:
             if len(travels) > 1:
                 yield document.finding(
                     "scene.command",
-                    "the mountings of a gripper with a command must have the same travel, as it takes one time",
+                    "the mountings of a gripper with a command must have the same travel",
                     ("mountings",),
                     hint="write a file for each mounting",
                 )
@@ -80,7 +80,7 @@ class ParallelGripper:
         if entry.mounting is None and len(entry.mountings) > 1:
             yield document.finding(
                 "scene.mounting",
-                "a gripper with several mountings must name the one that it has where no design sets it",
+                "a gripper with several mountings must name its default mounting",
                 ("mountings",),
                 hint=f"add 'mounting:' with one of {', '.join(entry.mountings)}",
             )
@@ -94,13 +94,13 @@ class ParallelGripper:
         yield from grasp_depth_findings(entry.grasp_depth, entry.base, entry.finger, document)
 
     def gripper_file(self, entry: ParallelGripperDocument) -> GripperFile:
-        """The gripper in each of its mountings."""
+        """Gripper with each of its mountings."""
         mountings = {name: _geometry(entry, name, one) for name, one in entry.mountings.items()}
         mounting = entry.mounting or next(iter(mountings))
         settings = {**settings_of(entry.base, entry.finger), "gripper.mounting": mounting}
         drive = drive_of(entry.finger, entry.firm_grasp)
         if entry.command is not None:
-            # The fingers of each mounting cross their own travel in the time of the command.
+            # The fingers of each mounting cover their own travel in the duration of the command.
             drive = replace(drive, command_s=entry.command.travel_time)
             settings["gripper.finger.speed"] = mountings[mounting].stroke_m / entry.command.travel_time
         return GripperFile(mountings=mountings, mounting=mounting, drive=drive, settings=settings)

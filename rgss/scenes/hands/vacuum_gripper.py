@@ -19,7 +19,7 @@ _APPROACH_SHARE = 0.5
 
 
 class CupEntry(DocumentModel):
-    """A suction cup: its size, the surface that it seals on, and what it holds."""
+    """A suction cup: size, sealing conditions and holding force."""
 
     radius: Metres
     length: Metres
@@ -33,7 +33,7 @@ class CupEntry(DocumentModel):
 
 
 class VacuumGripperDocument(DocumentModel):
-    """A gripper file of one suction cup."""
+    """Gripper file of one suction cup."""
 
     gripper: Identifier
     kind: Literal["vacuum"]
@@ -50,7 +50,7 @@ class VacuumGripper:
     model: type[DocumentModel] = VacuumGripperDocument
 
     def findings(self, entry: VacuumGripperDocument, document: Document) -> Iterable[Finding]:
-        """Problems of sizes, forces and times, and of a leak that leaves no force."""
+        """Findings about sizes, forces and times, and about a leak that leaves no force."""
         cup, base = entry.cup, entry.base
         names = ("radius", "length", "normal_force", "tangential_force", "largest_gap", "largest_angle")
         values: list[tuple[Location, float]] = [
@@ -71,7 +71,7 @@ class VacuumGripper:
             )
 
     def gripper_file(self, entry: VacuumGripperDocument) -> GripperFile:
-        """The gripper; the least that a finger has stands for the fingers that it lacks."""
+        """Gripper with one cup; placeholders with the least admissible values replace the missing fingers."""
         cup = entry.cup
         base = Cylinder(radius_m=entry.base.radius, height_m=entry.base.height)
         geometry = GripperGeometry(
@@ -100,7 +100,7 @@ class VacuumGripper:
         }
         if entry.base.mass is not None:
             settings["gripper.base.mass"] = entry.base.mass
-        # A name lets a design space that sets mountings compare a cup with fingers.
+        # The name allows a design space that sets mountings to compare a cup with fingers.
         name = entry.mounting or ""
         return GripperFile(
             mountings={name: geometry}, mounting=name, drive=GripperDrive(), suction=suction, settings=settings
@@ -108,9 +108,9 @@ class VacuumGripper:
 
 
 def at_top(geometry: GripperGeometry, shape: ObjectShape) -> GripperGeometry:
-    """A gripper whose grasp centre is the centre of the object that its cup is over; one with fingers as it is.
+    """Gripper with its grasp centre at the centre of the object below its cup; a gripper with fingers unchanged.
 
-    The task's grasp is at the centre of the object, a cup's on the top of it.
+    The task's grasp is at the centre of the object, a cup's on its top.
 
     Args:
         geometry: The gripper's shape; the grasp centre of a cup is a gap below its lip.

@@ -1,4 +1,4 @@
-"""Objects of a scene: their entries in the file, several of them, and the opening of a gripper round one."""
+"""Objects of a scene: their entries in the file, scenes of several objects, and a gripper's opening at an object."""
 
 from typing import TYPE_CHECKING
 
@@ -18,6 +18,6 @@ if TYPE_CHECKING:
     from rgss.scenes.objects.object_entry import candidates_of, object_lengths
     from rgss.scenes.objects.object_file import object_solid, workpiece_of
     from rgss.scenes.objects.opening import grasp_opening_m
-    from rgss.scenes.objects.several_objects import Standing, initial_standings, scene_about
+    from rgss.scenes.objects.several_objects import ObjectPlacement, initial_placements, scene_about
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

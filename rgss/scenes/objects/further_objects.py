@@ -1,4 +1,4 @@
-"""Objects beside the workpiece, and places that belong to no object: their entries and what is wrong with them."""
+"""Further objects, and places without an object: their entries and findings."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _FORM = ("radius", "height", "box", "cylinder", "mesh", "scale", "collision", "r
 
 
 def region_of(entry: PlaceRegionEntry, tops_m: Mapping[str, float]) -> PlaceRegion:
-    """The place region of an entry.
+    """Place region of an entry.
 
     Args:
         entry: The entry.
@@ -35,14 +35,14 @@ def region_of(entry: PlaceRegionEntry, tops_m: Mapping[str, float]) -> PlaceRegi
 def other_solids(
     path: Path, entry: SceneDocument, document: Document, findings: list[Finding], project: Path
 ) -> tuple[ObjectSolid, ...]:
-    """The solids of the objects beside the workpiece; those that are wrong are missing, with findings.
+    """Solids of the further objects, without invalid ones, for which findings are added.
 
     Args:
         path: The scene's file.
         entry: The scene file.
         document: The file, for positions.
-        findings: What is wrong so far.
-        project: The folder that no file may lie outside of.
+        findings: List to which findings are added.
+        project: The folder that must contain all referenced files.
     """
     solids = (
         object_solid(path, one, document, findings, project, at=("workpieces", index))
@@ -54,7 +54,7 @@ def other_solids(
 def other_objects(
     entry: SceneDocument, solids: Sequence[ObjectSolid], tops_m: Mapping[str, float]
 ) -> tuple[SceneObject, ...]:
-    """The objects beside the workpiece.
+    """The further objects of a scene.
 
     Args:
         entry: The scene file.
@@ -73,7 +73,7 @@ def other_objects(
 
 
 def named_places(entry: SceneDocument, tops_m: Mapping[str, float]) -> tuple[NamedPlace, ...]:
-    """The places that belong to no object.
+    """The places without an object.
 
     Args:
         entry: The scene file.
@@ -83,7 +83,7 @@ def named_places(entry: SceneDocument, tops_m: Mapping[str, float]) -> tuple[Nam
 
 
 def name_findings(entry: SceneDocument, document: Document) -> Iterator[Finding]:
-    """Names that are taken, and bodies that are not there.
+    """Findings about duplicate names and unknown bodies.
 
     Args:
         entry: The scene file.
@@ -109,7 +109,7 @@ def name_findings(entry: SceneDocument, document: Document) -> Iterator[Finding]
 
 
 def shared_grasp_findings(entry: SceneDocument, document: Document) -> Iterator[Finding]:
-    """Objects of another form than the first where the grasp is chosen: it is chosen on the first one for all.
+    """Findings about objects of another form than the first, if the grasp is chosen on the first one for all.
 
     Args:
         entry: The scene file.
@@ -123,12 +123,12 @@ def shared_grasp_findings(entry: SceneDocument, document: Document) -> Iterator[
                 "scene.shared-grasp",
                 f"the grasp is chosen on {entry.workpiece.id!r} for all objects, and {one.id!r} has another form",
                 ("workpieces", index, "id"),
-                hint="let them have the same shape and centre of mass, or let grasp be as_stated",
+                hint="give them the same shape and centre of mass, or set grasp to as_stated",
             )
 
 
 def positive_values(entry: SceneDocument) -> Iterator[tuple[Location, float]]:
-    """The values of these entries that must be greater than zero, with their locations.
+    """Values of these entries that must be greater than zero, with their locations.
 
     Args:
         entry: The scene file.
@@ -145,7 +145,7 @@ def positive_values(entry: SceneDocument) -> Iterator[tuple[Location, float]]:
 
 
 def colour_of(text: str) -> ColourRgba:
-    """A colour that is written as ``#rrggbb``.
+    """Colour from its text ``#rrggbb``.
 
     Args:
         text: The text.

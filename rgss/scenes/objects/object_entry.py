@@ -1,4 +1,4 @@
-"""Entry of an object in a scene file: its form, its lengths, and the grasps that are tried."""
+"""Entry of an object in a scene file: form, lengths and grasp candidates."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from rgss.scenes.findings import Location
 from rgss.scenes.grasps import GraspCandidates
 
 OWN: Location = ("workpiece",)
-"""Place of the entry of the first object."""
+"""Location of the entry of the first object."""
 
 _SHAPES = ("box", "cylinder", "mesh")
 
 
 def candidates_of(rule: GraspRule | GraspCandidatesEntry) -> GraspCandidates | None:
-    """Which grasps are tried; None for the stated one.
+    """Grasp candidates; None for the stated grasp.
 
     Args:
-        rule: What the task says.
+        rule: The rule of the task.
     """
     if isinstance(rule, GraspRule):
         return None if rule is GraspRule.AS_STATED else GraspCandidates()
@@ -31,11 +31,11 @@ def candidates_of(rule: GraspRule | GraspCandidatesEntry) -> GraspCandidates | N
 
 
 def object_lengths(entry: WorkpieceEntry, *, at: Location = OWN) -> Iterator[tuple[Location, float]]:
-    """Location and value of what must be above zero.
+    """Locations and values of the lengths, which must be above zero.
 
     Args:
         entry: The object.
-        at: Where the entry stands.
+        at: Location of the entry.
     """
     values: dict[Location, float | None] = {
         (*at, "radius"): entry.radius,
@@ -55,12 +55,12 @@ def object_lengths(entry: WorkpieceEntry, *, at: Location = OWN) -> Iterator[tup
 
 
 def form_findings(entry: WorkpieceEntry, document: Document, at: Location) -> Iterable[Finding]:
-    """Find an object without exactly one shape, or one of mass and density, or with keys that its shape does not know.
+    """Findings about an object without exactly one shape and one of mass and density, or with keys of another shape.
 
     Args:
         entry: The object.
         document: The scene's document.
-        at: Where the entry stands.
+        at: Location of the entry.
     """
     stated = [key for key in _SHAPES if getattr(entry, key) is not None]
     if entry.radius is not None or entry.height is not None:
@@ -75,12 +75,12 @@ def form_findings(entry: WorkpieceEntry, document: Document, at: Location) -> It
         yield document.finding("scene.mass", f"object {entry.id!r} needs exactly one of 'mass' and 'density'", at)
     if entry.mesh is None and (entry.scale != 1.0 or entry.collision is not None):
         key = "scale" if entry.scale != 1.0 else "collision"
-        yield document.finding("scene.shape", f"{key!r} is of a mesh alone", (*at, key), hint="take it out")
+        yield document.finding("scene.shape", f"{key!r} is allowed only for a mesh", (*at, key), hint="remove it")
     is_round = entry.cylinder is not None or entry.radius is not None
     if is_round and entry.rests is Rest.LYING and entry.rolling_resistance is None:
         yield document.finding(
             "scene.rolling",
-            f"object {entry.id!r} lies and would roll away",
+            f"object {entry.id!r} is a lying cylinder and would roll away",
             (*at, "rests"),
             hint="give 'rolling_resistance', a length: 0.5 mm on wood or laminate",
         )

@@ -1,4 +1,4 @@
-"""The object of a scene file: its solid, mass properties and pose."""
+"""Object of a scene file: solid, mass properties and pose."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from rgss.scenes.scene import ColourRgba, Workpiece
 from rgss.scenes.shapes import Box, Cylinder, LyingCylinder, MeshShape, ObjectShape, Point, corners_of
 
 MOST_PARTS = 16
-"""Most convex parts of an object: each is tried against each body and pad in every step."""
+"""Greatest number of convex parts of an object; each is checked with each body and pad in every step."""
 
 _LARGEST_M, _SMALLEST_M = 3.0, 1.0e-3
 _CONVEX = 1.02
@@ -38,14 +38,14 @@ _TIPPED = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (0.0, math.pi / 2, 0.0))
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ObjectSolid:
-    """The solid of an object as it rests, before it is put anywhere.
+    """Solid of an object in its resting orientation, without its position in the scene.
 
     Attributes:
         shape: The solid.
-        from_file: Transform of the frame in which the file describes it to the frame of the shape.
+        from_file: Transform of the frame of its file to the frame of the shape.
         mass_kg: Its mass.
         centre_m: Its centre of mass, in the frame of the shape.
-        gyration_m2: Inertia about it over the mass; None for that of the homogeneous shape.
+        gyration_m2: Inertia about it divided by the mass; None for that of the homogeneous shape.
     """
 
     shape: ObjectShape
@@ -64,15 +64,15 @@ def object_solid(
     *,
     at: Location = OWN,
 ) -> ObjectSolid | None:
-    """The solid of an object, or None with what is wrong added to the findings.
+    """Solid of an object; None if it is invalid, with findings added.
 
     Args:
-        path: The scene's file, relative to which the mesh is named.
+        path: The scene's file; the mesh is relative to its folder.
         entry: The object.
         document: The scene's document.
-        findings: What is wrong so far.
-        project: The folder that no file may lie outside of.
-        at: Where the entry stands.
+        findings: List to which findings are added.
+        project: The folder that must contain all referenced files.
+        at: Location of the entry.
     """
     before = len(findings)
     findings.extend(form_findings(entry, document, at))
@@ -98,7 +98,7 @@ def object_solid(
 
 
 def workpiece_of(entry: WorkpieceEntry, solid: ObjectSolid, *, top_m: float, colour: ColourRgba) -> Workpiece:
-    """The object at its start.
+    """Object at its start pose.
 
     Args:
         entry: The object's entry.
@@ -130,7 +130,7 @@ def workpiece_of(entry: WorkpieceEntry, solid: ObjectSolid, *, top_m: float, col
 
 
 def _primitive(entry: WorkpieceEntry) -> tuple[Box | Cylinder | LyingCylinder, Pose]:
-    """The shape of a box or a cylinder as it rests, and the turn to its frame."""
+    """Shape of a box or a cylinder in its resting orientation, and the rotation to its frame."""
     lying = entry.rests is Rest.LYING
     if entry.box is not None:
         x, y, z = entry.box
@@ -161,7 +161,7 @@ def _mesh_solid(
         findings.append(
             document.finding(
                 "scene.mesh-open",
-                "the mesh is not closed, so that it has no mass properties",
+                "the mesh must be closed for mass properties",
                 location,
                 hint="close it, or give mass, centre_of_mass and inertia",
             )
@@ -172,7 +172,7 @@ def _mesh_solid(
                 "scene.mesh-concave",
                 f"the mesh is concave: its hull has {summary.hull_ratio:.2f} times its volume",
                 location,
-                hint="say 'collision: decompose' (package coacd), or 'hull' to take the hull",
+                hint="write 'collision: decompose' (package coacd), or 'hull' for the hull",
             )
         )
     if len(findings) > before:
@@ -213,7 +213,7 @@ def _assembled(
     centre: Point,
     gyration: Gyration | None,
 ) -> ObjectSolid:
-    """The solid with what is stated of its mass in the place of what follows from its shape."""
+    """Solid with the stated mass properties in place of those of its shape."""
     stated_centre = centre if entry.centre_of_mass is None else entry.centre_of_mass
     if entry.inertia is not None:
         xx, yy, zz, xy, xz, yz = (value / mass_kg for value in entry.inertia)
@@ -239,7 +239,7 @@ def _turned(gyration: Gyration, turn: Pose) -> Gyration:
 
 
 def _mass_findings(entry: WorkpieceEntry, solid: ObjectSolid, document: Document, at: Location) -> Iterable[Finding]:
-    """Whether the centre of mass lies in the hull, and the inertia is one that a body can have."""
+    """Findings about a centre of mass outside the hull, and about an inertia that no rigid body has."""
     corners = np.array([corner for part in corners_of(solid.shape) for corner in part])
     if entry.centre_of_mass is not None and not _is_in_hull(np.array(solid.centre_m), corners):
         yield document.finding(
@@ -254,7 +254,7 @@ def _mass_findings(entry: WorkpieceEntry, solid: ObjectSolid, document: Document
         if moments[0] <= 0.0 or moments[0] + moments[1] < moments[2] * (1.0 - 1e-6):
             yield document.finding(
                 "scene.inertia",
-                "no body has this inertia: its principal moments must be positive, each at most the sum of the others",
+                "the principal moments of inertia must be positive, each at most the sum of the others",
                 (*at, "inertia"),
                 hint="give xx, yy, zz, xy, xz, yz about the centre of mass",
             )
@@ -280,7 +280,7 @@ def _volume_m3(shape: Box | Cylinder | LyingCylinder) -> float:
 
 
 def _rounded(point: Point) -> Point:
-    """A point without the rounding of a turn, to a tenth of a nanometre."""
+    """Point rounded to 0.1 nm, without the rounding noise of a rotation."""
     x, y, z = (round(value, 10) for value in point)
     return x, y, z
 

@@ -1,4 +1,4 @@
-"""Opening of a gripper round the object."""
+"""Opening of a gripper at the object."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from rgss.scenes.shapes import Cylinder
 
 
 def grasp_opening_m(scene: Scene, geometry: GripperGeometry) -> float:
-    """Distance of the pads from the gripper's axis where they hold the object.
+    """Distance in m of the pads from the gripper's axis in contact with the object.
 
     Args:
-        scene: The scene, with the grasp that is taken where one is chosen.
+        scene: The scene, with the chosen grasp if there are candidates.
         geometry: The gripper's shape.
 
     Returns:
-        The largest opening where a finger would close without touching; 0 for a suction cup.
+        The largest opening if a finger would close without contact; 0 for a suction cup.
     """
     if geometry.cup is not None:
         return 0.0
@@ -26,7 +26,7 @@ def grasp_opening_m(scene: Scene, geometry: GripperGeometry) -> float:
     shape = scene.workpiece.shape
     if in_object is None:
         if not isinstance(shape, Cylinder):
-            raise AssertionError("only a cylinder is held without a stated grasp")
+            raise AssertionError("only a cylinder can be held without a stated grasp")
         return shape.radius_m
     patches = pad_patches(shape, in_object, geometry)
     return geometry.largest_opening_m if patches is None else max(patch.opening_m for patch in patches)

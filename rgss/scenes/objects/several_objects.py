@@ -1,4 +1,4 @@
-"""Scene seen from one of several objects: it is the workpiece, the others are bodies."""
+"""Scene of several objects with one as the workpiece and the others as fixed bodies."""
 
 from __future__ import annotations
 
@@ -10,47 +10,47 @@ from rgss.scenes.scene import Scene, SceneBody
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Standing:
-    """Where an object stands.
+class ObjectPlacement:
+    """Pose and support of an object.
 
     Attributes:
         pose: Transform of its shape's frame to the world.
-        support: Id of the body that bears it.
+        support: Id of its supporting body.
     """
 
     pose: Pose
     support: str
 
 
-def initial_standings(scene: Scene) -> dict[str, Standing]:
-    """Where each object of a scene stands at the start.
+def initial_placements(scene: Scene) -> dict[str, ObjectPlacement]:
+    """Pose and support of each object of a scene at the start.
 
     Args:
         scene: The scene.
     """
-    return {one.workpiece.id: Standing(pose=one.workpiece.pose, support=one.support) for one in scene.objects}
+    return {one.workpiece.id: ObjectPlacement(pose=one.workpiece.pose, support=one.support) for one in scene.objects}
 
 
-def scene_about(scene: Scene, name: str, *, place: str, standings: Mapping[str, Standing]) -> Scene:
-    """The scene with an object as its workpiece, and those that stand around it as fixed bodies.
+def scene_about(scene: Scene, name: str, *, place: str, placements: Mapping[str, ObjectPlacement]) -> Scene:
+    """Scene with an object as its workpiece, and the other objects as fixed bodies.
 
     Args:
-        scene: The scene as its file says.
+        scene: The scene of the file.
         name: The object.
         place: The place at which it is released; empty for its own.
-        standings: Where the objects stand; the object itself may be held, and then stands where it last did.
+        placements: Poses and supports of the objects; of a held object, those before it was gripped.
     """
     about = next(one for one in scene.objects if one.workpiece.id == name)
     region, bearing = about.place, about.place_support
     if place:
         named = next(one for one in scene.places if one.id == place)
         region, bearing = named.region, named.support
-    own = standings[name]
+    own = placements[name]
     around = tuple(
         SceneBody(
             id=one.workpiece.id,
             shape=one.workpiece.shape,
-            pose=standings[one.workpiece.id].pose,
+            pose=placements[one.workpiece.id].pose,
             friction=one.workpiece.friction,
             colour=one.workpiece.colour,
         )

@@ -1,4 +1,4 @@
-"""Servos of a robot's joints, and the calibration file that has them."""
+"""Servo models of a robot's joints, and calibration files."""
 
 from rgss.scenes.servos.calibration import Calibration
 from rgss.scenes.servos.calibration_file import CalibrationDocument, load_calibration

@@ -1,4 +1,4 @@
-"""Calibration of a robot: its joints' servos as they were fitted, and the recording that they were fitted to."""
+"""Calibration of a robot: fitted servo models of its joints, and the provenance of the fit."""
 
 from __future__ import annotations
 
@@ -9,17 +9,16 @@ from rgss.scenes.servos.servo import JointServo, ServoControl
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Calibration:
-    """The servos of a robot as they were fitted.
+    """Fitted servo models of a robot.
 
     Attributes:
-        robot: The robot that was recorded.
-        control: The command under which they were fitted. Of a file without a recording, positions if a servo has
-            a position gain.
+        robot: The recorded robot.
+        control: The command interface of the fit. Without a recording, position control if a servo has a position gain.
         servos: Joint and its servo, in the order of the file.
         recording: Name of the recording; empty if the file names none.
         sha256: SHA-256 of the recording's content.
-        recorded: The recording's origin, in its own words.
-        misfits: The joints of which the model misses part of the motion.
+        recorded: Origin of the recording, as stated in it.
+        misfits: The joints whose motion the model reproduces only in part.
     """
 
     robot: str
@@ -32,7 +31,7 @@ class Calibration:
 
     @property
     def origin(self) -> str:
-        """What the servos were calibrated on, in a phrase."""
+        """Provenance of the calibration, as a phrase."""
         if not self.recording:
             return "a file that names no recording"
         return f"{self.recording} ({self.recorded}; SHA-256 {self.sha256[:12]})"

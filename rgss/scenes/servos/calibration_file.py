@@ -1,4 +1,4 @@
-"""Reading calibration files."""
+"""Reader of calibration files."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class CalibratedOnEntry(DocumentModel):
 
 
 class ServoEntry(DocumentModel):
-    """A calibrated servo; what is missing was not determined and is zero."""
+    """A calibrated servo; missing parameters were not identified and are zero."""
 
     velocity_gain: Hertz
     position_gain: QuantityText | None = None
@@ -67,7 +67,7 @@ def load_calibration(path: Path, *, label: str | None = None) -> Calibration:
         label: The file's name in messages; the path by default.
 
     Raises:
-        DocumentError: The file is wrong; with every problem in it.
+        DocumentError: The file is invalid; with every problem in it.
     """
     loaded = load_document(path, CalibrationDocument, label=label)
     entry = loaded.value
@@ -97,7 +97,7 @@ def _range_findings(found: Mapping[str, JointServo | RgssError], document: Docum
 
 
 def _gain_findings(servos: Mapping[str, JointServo], control: ServoControl, document: Document) -> Iterator[Finding]:
-    """Findings for servos under position control that nothing pulls to the position."""
+    """Findings for servos under position control without a position gain."""
     if control is ServoControl.VELOCITY:
         return
     for joint, servo in servos.items():
@@ -108,7 +108,7 @@ def _gain_findings(servos: Mapping[str, JointServo], control: ServoControl, docu
 
 
 def _servo(entry: ServoEntry) -> JointServo | RgssError:
-    """The servo of an entry, or what is wrong with it."""
+    """Servo of an entry, or the error of its parameters."""
     try:
         gain = 0.0 if entry.position_gain is None else parse_quantity(entry.position_gain, _GAIN_UNIT)
         return JointServo(

@@ -4,8 +4,8 @@ With T the delay, q and v the joint's position and speed, and q_c, v_c the comma
 
     dv/dt = k_p (q_c(t - T) - q) + k_v (v_c(t - T) - v) - b v - c sgn(v).
 
-The servo's own model compensates weight and inertia, so gains and friction are those of a joint of unit inertia:
-a friction torque is b or c times the inertia that the joint drives. Under velocity control k_p is zero.
+The servo compensates weight and inertia by its own model, so gains and friction are those of a joint of unit inertia: a
+friction torque is b or c times the inertia that the joint drives. Under velocity control k_p is zero.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from rgss.errors import DefinitionError
 
 
 class ServoControl(str, Enum):
-    """Command that servos follow."""
+    """Command interface of servos."""
 
     POSITION = "position"
-    """Positions, with their speeds fed forward."""
+    """Position commands with velocity feed-forward."""
     VELOCITY = "velocity"
     """Speeds."""
 
@@ -34,7 +34,7 @@ class JointServo:
         position_gain_hz2: k_p in 1/s²; without effect under velocity control.
         delay_s: T.
         viscous_hz: b in 1/s: viscous friction per inertia.
-        coulomb_rad_s2: c: Coulomb friction per inertia; of a joint that slides per mass, in m/s².
+        coulomb_rad_s2: c: Coulomb friction per inertia; of a prismatic joint per mass, in m/s².
     """
 
     velocity_gain_hz: float
@@ -44,7 +44,7 @@ class JointServo:
     coulomb_rad_s2: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse a gain that is not positive and what is negative.
+        """Require a positive velocity gain and no negative parameters.
 
         Raises:
             DefinitionError: A parameter is out of range.

@@ -1,4 +1,4 @@
-"""Uncertainty: what differs from trial to trial, by which distribution, and the draws of a seed."""
+"""Uncertainty: distributions of the quantities that vary from trial to trial, and the draws of a seed."""
 
 from typing import TYPE_CHECKING
 

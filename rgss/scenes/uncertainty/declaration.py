@@ -1,4 +1,4 @@
-"""Declaration of uncertainty: which quantities have which distribution, and which of them go together."""
+"""Declaration of uncertainty: distributions and correlations of quantities."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class UncertainValue:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Correlation:
-    """Quantities whose draws go together: a Gaussian copula.
+    """Gaussian copula of correlated quantities.
 
     Attributes:
         quantities: Their names.
@@ -39,7 +39,7 @@ class Uncertainty:
 
     Attributes:
         values: The uncertain quantities; the order has no effect.
-        correlations: Groups of them; a quantity is in at most one.
+        correlations: Groups of correlated quantities; a quantity is in at most one.
     """
 
     values: tuple[UncertainValue, ...] = ()
@@ -51,10 +51,10 @@ class Uncertainty:
         return tuple(one.quantity for one in self.values)
 
     def overridden_by(self, other: Uncertainty) -> Uncertainty:
-        """This uncertainty, overridden by the quantities of another.
+        """Merge with another uncertainty, which takes precedence.
 
         Args:
-            other: What comes first. Each of its groups replaces those that share a quantity with it.
+            other: The uncertainty with precedence. Each of its groups replaces those that share a quantity with it.
         """
         theirs = set(other.names)
         grouped = {name for group in other.correlations for name in group.quantities}

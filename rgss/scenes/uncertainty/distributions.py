@@ -1,7 +1,7 @@
-"""Probability distributions by their inverse cumulative distribution functions.
+"""Probability distributions with their inverse cumulative distribution functions (quantile functions).
 
-They are formed from SciPy's special functions and not from `scipy.stats`, whose checks of a single number take
-fifty times as long as the number.
+They use SciPy's special functions instead of `scipy.stats`, whose argument checks take fifty times as long as the
+evaluation of a single number.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class Normal:
     sd: float
 
     def quantile(self, share: float) -> float:
-        """The value that a share of the draws lies below."""
+        """Quantile function: the value below which a share of the draws lies."""
         from scipy.special import ndtri
 
         return float(ndtri(share) * self.sd + self.mean)
@@ -37,11 +37,11 @@ class Normal:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TruncatedNormal:
-    """A normal distribution without what lies beyond two ends.
+    """A normal distribution truncated to an interval.
 
     Attributes:
-        mean: Mean of the normal distribution, not of what is left of it.
-        sd: Standard deviation of the normal distribution.
+        mean: Mean of the normal distribution before truncation.
+        sd: Standard deviation of the normal distribution before truncation.
         low: Least value.
         high: Greatest value.
     """
@@ -52,9 +52,9 @@ class TruncatedNormal:
     high: float
 
     def quantile(self, share: float) -> float:
-        """The value that a share of the draws lies below."""
+        """Quantile function: the value below which a share of the draws lies."""
         low, high = (self.low - self.mean) / self.sd, (self.high - self.mean) / self.sd
-        # The upper tail is the lower one mirrored, where probabilities near 0 keep their digits.
+        # The upper tail is evaluated as the mirrored lower one, where probabilities near 0 keep their precision.
         value = _between(share, low, high) if low < 0.0 else -_between(1.0 - share, -high, -low)
         return min(self.high, max(self.low, value * self.sd + self.mean))
 
@@ -77,7 +77,7 @@ class Uniform:
     high: float
 
     def quantile(self, share: float) -> float:
-        """The value that a share of the draws lies below."""
+        """Quantile function: the value below which a share of the draws lies."""
         return share * (self.high - self.low) + self.low
 
     @property
@@ -91,22 +91,22 @@ class LogNormal:
     """A log-normal distribution: its logarithm is normal.
 
     Attributes:
-        median: Half of the draws lie below it.
-        geometric_sd: Factor by which a standard deviation of the logarithm multiplies; greater than 1.
+        median: The median.
+        geometric_sd: Geometric standard deviation, exp of that of the logarithm; greater than 1.
     """
 
     median: float
     geometric_sd: float
 
     def quantile(self, share: float) -> float:
-        """The value that a share of the draws lies below."""
+        """Quantile function: the value below which a share of the draws lies."""
         from scipy.special import ndtri
 
         return float(math.exp(math.log(self.geometric_sd) * ndtri(share)) * self.median)
 
     @property
     def support(self) -> tuple[float, float]:
-        """Least and greatest value; draws near the least are above it by as little as one wants."""
+        """Infimum and greatest value; the infimum is not attained."""
         return math.nextafter(0.0, 1.0), math.inf
 
 
@@ -116,17 +116,17 @@ class Discrete:
 
     Attributes:
         values: The values, in ascending order.
-        weights: How often each is drawn, in any unit.
+        weights: Relative frequency of each value, not normalised.
     """
 
     values: tuple[float, ...]
     weights: tuple[float, ...]
 
     def quantile(self, share: float) -> float:
-        """The least value up to which at least a share of the draws lies."""
+        """Quantile function: the least value up to which at least a share of the draws lies."""
         whole = math.fsum(self.weights)
         reached = accumulate(weight / whole for weight in self.weights)
-        # Rounding may leave the last sum below 1.
+        # By rounding the last cumulative sum may be below 1.
         return next((value for value, most in zip(self.values, reached, strict=True) if most >= share), self.values[-1])
 
     @property
@@ -137,7 +137,7 @@ class Discrete:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Constant:
-    """A value that is known, and differs from the one of the files.
+    """A known value in place of that of the files.
 
     Attributes:
         value: The value.
@@ -159,9 +159,9 @@ Distribution = Normal | TruncatedNormal | Uniform | LogNormal | Discrete | Const
 
 
 def _between(share: float, low: float, high: float) -> float:
-    """The value of a standard normal distribution between two ends that a share lies below; the lower end is negative.
+    """Quantile function of the standard normal distribution truncated to an interval; the lower end is negative.
 
-    In logarithms, so that ends far out in a tail have a share of it: ``Φ⁻¹(Φ(low) + share (Φ(high) - Φ(low)))``.
+    Computed with logarithms, for precision with ends far out in a tail: ``Φ⁻¹(Φ(low) + share (Φ(high) - Φ(low)))``.
     """
     from scipy.special import log_ndtr, ndtri_exp
 

@@ -1,4 +1,4 @@
-"""The YAML form of uncertainty and workload."""
+"""Document models of uncertainty and workload."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _PATTERNS = tuple(
 
 
 def _as_text(value: Any) -> Any:
-    """A pure number may be unquoted; its unit decides later whether it is valid."""
+    """Accept an unquoted number; its unit is validated later."""
     return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
 
@@ -62,11 +62,11 @@ ValueText = Annotated[
             "type": ["string", "number"],
             "minLength": 1,
             "maxLength": 60,
-            "description": "A value in the quantity's unit; factors and coefficients have none.",
+            "description": "A value in the quantity's unit; factors and coefficients are dimensionless.",
         }
     ),
 ]
-"""A value whose unit the uncertain quantity decides, such as ``"3 mm"`` or ``"5 %"``."""
+"""A value in the unit of the uncertain quantity, such as ``"3 mm"`` or ``"5 %"``."""
 
 QuantityName = Annotated[
     str,
@@ -80,7 +80,7 @@ QuantityName = Annotated[
         }
     ),
 ]
-"""The name of a quantity that may be uncertain."""
+"""The name of an uncertain quantity."""
 
 
 class NormalEntry(DocumentModel):
@@ -91,7 +91,7 @@ class NormalEntry(DocumentModel):
 
 
 class TruncatedNormalEntry(DocumentModel):
-    """A normal distribution between two ends."""
+    """A truncated normal distribution."""
 
     mean: ValueText
     sd: ValueText
@@ -121,7 +121,7 @@ class DiscreteEntry(DocumentModel):
 
 
 class DistributionEntry(DocumentModel):
-    """The distribution of an uncertain quantity: exactly one, and why it was taken."""
+    """Distribution of an uncertain quantity: exactly one, with its rationale."""
 
     normal: NormalEntry | None = None
     truncated_normal: TruncatedNormalEntry | None = None
@@ -133,7 +133,7 @@ class DistributionEntry(DocumentModel):
 
 
 class CorrelationEntry(DocumentModel):
-    """Uncertain quantities that go together."""
+    """Correlated uncertain quantities."""
 
     quantities: Annotated[tuple[QuantityName, ...], Field(min_length=2)]
     matrix: Annotated[tuple[tuple[Dimensionless, ...], ...], Field(min_length=2)]
@@ -141,7 +141,7 @@ class CorrelationEntry(DocumentModel):
 
 
 class CaseEntry(DocumentModel):
-    """One kind of object of a workload; what it does not give is the scene's."""
+    """One kind of object of a workload; values that it omits are those of the scene."""
 
     case: Identifier
     replicates: Annotated[int, Field(ge=1, le=MOST_REPLICATES_OF_CASE)] = 1

@@ -1,9 +1,9 @@
-"""Draws of a seed: each a function of the seed and the quantity's name alone.
+"""Random draws of a seed, each a function of only the seed and the quantity's name.
 
 A counter-based generator (Philox 4x64-10, Salmon et al. 2011) is keyed by a digest of seed and name, and its first
-number goes through the inverse distribution function. So a draw depends neither on the order of draws nor on what else
-is uncertain, and is the same for every design: common random numbers. Quantities of a correlated group depend on each
-other, and on no more.
+number goes through the inverse distribution function. A draw therefore depends neither on the order of draws nor on the
+other uncertain quantities, and is the same for every design (common random numbers). Quantities of a correlated group
+depend only on each other.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ _SEEDS_KEPT = 4096
 
 @lru_cache(maxsize=_SEEDS_KEPT)
 def draws_of(uncertainty: Uncertainty, seed: int, *, joints: int = MOST_JOINTS) -> Mapping[str, float]:
-    """The draws of a trial by name, in the order of the registry, then object by object.
+    """Draws of a trial by name, in the order of the registry, then object by object.
 
-    A draw is rounded to nine significant digits: kernels of other processors differ in the last of sixteen, and a
-    draw is an input that must be the same wherever it is made.
+    A draw is rounded to nine significant digits: numerical kernels of different processors differ in the sixteenth
+    digit, and a draw, as an input, must be the same on all machines.
 
     Args:
-        uncertainty: What is uncertain.
+        uncertainty: The uncertain quantities.
         seed: The trial's seed.
-        joints: Number of the arm's joints, each of which has draws of its own.
+        joints: Number of the arm's joints; a quantity of each joint has one draw for each.
     """
     values = {one.quantity: one.distribution for one in uncertainty.values}
     declared = in_order(values)
@@ -52,23 +52,23 @@ def draws_of(uncertainty: Uncertainty, seed: int, *, joints: int = MOST_JOINTS) 
 
 
 def uniform_of(seed: int, name: str) -> float:
-    """A number that is uniform between 0 and 1, both excluded, of a seed and a name.
+    """Uniform random number in the open interval (0, 1), a function of seed and name.
 
     Args:
         seed: The trial's seed.
         name: The name of a draw.
     """
-    # Odd multiples of 2**-54: neither end can be drawn.
+    # Odd multiples of 2**-54 exclude both ends.
     return float((int(_generator(seed, name).random_raw()) >> 11) * 2 + 1) * 2.0**-54
 
 
 def white_noise(seed: int, name: str, count: int) -> NDArray[np.float64]:
-    """Standard normal numbers (count,) of a seed and a name; fewer of them are the first of more.
+    """Standard normal random numbers, shape (count,), a function of seed and name; a prefix of any longer sequence.
 
     Args:
         seed: The trial's seed.
-        name: The name of what is noisy.
-        count: How many.
+        name: The name of the noisy quantity.
+        count: Number of values.
     """
     return np.random.Generator(_generator(seed, name)).standard_normal(count)
 
@@ -79,7 +79,7 @@ def _generator(seed: int, name: str) -> np.random.Philox:
 
 
 def _correlated(group: Correlation, shares: Mapping[str, float], joints: int) -> dict[str, float]:
-    """The shares of a group by a Gaussian copula; each joint of quantities with several draws by itself."""
+    """Correlated uniform numbers of a group by a Gaussian copula, independent between the joints."""
     from scipy.special import ndtr, ndtri
 
     names = [quantity_of(quantity).draw_names_for(joints) for quantity in group.quantities]

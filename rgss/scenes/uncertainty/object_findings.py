@@ -13,11 +13,11 @@ from rgss.scenes.uncertainty.quantity_names import name_of_first, object_quantit
 def unknown_objects(
     names: Iterable[str], document: Document, *, first: str, further: Sequence[str]
 ) -> Iterator[Finding]:
-    """Uncertain quantities of further objects that the scene does not have.
+    """Findings about uncertain quantities of unknown further objects.
 
     Args:
         names: Names of the uncertain quantities, under ``uncertainty``.
-        document: Their file.
+        document: The file, for positions.
         first: Id of the scene's first object.
         further: Ids of its further objects.
     """

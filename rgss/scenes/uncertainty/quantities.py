@@ -1,7 +1,7 @@
-"""Registry of the quantities that may be uncertain.
+"""Registry of the uncertain quantities.
 
-A new quantity is one entry here: the reader, the schemas, the draws, the frames and the page docs/uncertainty.md read
-this table. An entry names the field of `rgss.trials.conditions.Conditions` that it changes.
+A new quantity is one entry here: reader, schemas, draws, data frames and docs/uncertainty.md use this table. An entry
+names the field of `rgss.trials.conditions.Conditions` that it changes.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class Application(Enum):
 
 
 class EntersAt(str, Enum):
-    """First piece of a trial that a draw enters; it reaches those after it through that piece."""
+    """First piece of a trial that depends on a draw; later pieces depend on it through that piece."""
 
     PLAN = "plan"
     TIMING = "timing"
@@ -33,19 +33,19 @@ class EntersAt(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UncertainQuantity:
-    """A quantity that may be uncertain.
+    """Quantity that may be uncertain.
 
     Attributes:
         name: Its name in files, such as ``perception.x``.
         unit: The SI unit of its draws; ``"1"`` for factors and coefficients.
-        meaning: What it is, in a sentence.
+        meaning: Its definition, in a sentence.
         field: The field of the conditions that it changes.
-        application: What a draw does to the field.
+        application: Effect of a draw on the field.
         enters: The first piece of a trial that depends on it.
         least: The least value that a draw may have.
         is_least_allowed: Whether the least value itself may be drawn.
-        count: How many independent draws it has, one for each joint; 1 for most.
-        object: Id of the further object that it is about; empty for the first object and the machine.
+        count: Number of independent draws: one for each joint, or 1.
+        object: Id of its further object; empty for the first object and the machine.
     """
 
     name: str
@@ -61,7 +61,7 @@ class UncertainQuantity:
 
     @property
     def draw_names(self) -> tuple[str, ...]:
-        """Names of its draws: its own, or its own with the number of each joint from 1."""
+        """Names of its draws: its name, or its name with the number of each joint, from 1."""
         if self.count == 1:
             return (self.name,)
         return tuple(f"{self.name}.{index}" for index in range(1, self.count + 1))
@@ -75,7 +75,7 @@ class UncertainQuantity:
         return self.draw_names[:joints] if self.count > 1 else self.draw_names
 
     def is_possible(self, value: float) -> bool:
-        """True if a value may be drawn."""
+        """True if a value is in the admissible range."""
         return value > self.least or (self.is_least_allowed and value == self.least)
 
 
@@ -103,15 +103,11 @@ def _of_execution(
 _REPLACE, _SCALE = Application.REPLACE, Application.SCALE
 
 _ALL = (
-    _deviation(
-        "workpiece.x", "m", "stands_x_m", "Distance along the world's x at which the object stands off its place."
-    ),
-    _deviation(
-        "workpiece.y", "m", "stands_y_m", "Distance along the world's y at which the object stands off its place."
-    ),
+    _deviation("workpiece.x", "m", "offset_x_m", "Offset of the object from its place along the world's x."),
+    _deviation("workpiece.y", "m", "offset_y_m", "Offset of the object from its place along the world's y."),
     _of_execution("workpiece.mass", "kg", "mass_kg", "Mass of the object.", _REPLACE, zero=False),
     _of_execution(
-        "workpiece.mass_factor", "1", "mass_kg", "Mass of the object over the mass that is stated.", _SCALE, zero=False
+        "workpiece.mass_factor", "1", "mass_kg", "Mass of the object divided by its stated mass.", _SCALE, zero=False
     ),
     _of_execution(
         "workpiece.centre_of_mass",
@@ -128,12 +124,14 @@ _ALL = (
         "Friction coefficient of the object; that of a contact is the product with the other body's.",
         _REPLACE,
     ),
-    _deviation("perception.x", "m", "perceived_x_m", "Perceived less true position of the object along the world's x."),
-    _deviation("perception.y", "m", "perceived_y_m", "Perceived less true position of the object along the world's y."),
-    _deviation("perception.z", "m", "perceived_z_m", "Perceived less true height of the object."),
     _deviation(
-        "perception.yaw", "rad", "perceived_yaw_rad", "Perceived less true turn of the object about the vertical."
+        "perception.x", "m", "perceived_x_m", "Perceived minus true position of the object along the world's x."
     ),
+    _deviation(
+        "perception.y", "m", "perceived_y_m", "Perceived minus true position of the object along the world's y."
+    ),
+    _deviation("perception.z", "m", "perceived_z_m", "Perceived minus true height of the object."),
+    _deviation("perception.yaw", "rad", "perceived_yaw_rad", "Perceived minus true yaw of the object."),
     _deviation(
         "perception.roll", "rad", "perceived_roll_rad", "Perceived tilt of the upright object about the world's x."
     ),
@@ -143,7 +141,7 @@ _ALL = (
     UncertainQuantity(
         name="robot.tool_speed",
         unit="1",
-        meaning="Largest speed of the tool centre over the one that the design sets.",
+        meaning="Speed limit of the tool centre divided by that of the design.",
         field="tool_speed_m_s",
         application=_SCALE,
         enters=EntersAt.TIMING,
@@ -153,20 +151,34 @@ _ALL = (
     UncertainQuantity(
         name="robot.joint_offset",
         unit="rad",
-        meaning="True less reported angle of a joint: the zero error of its encoder, drawn for each joint.",
+        meaning="True minus reported angle of a joint: the zero error of its encoder, drawn for each joint.",
         field="joint_offsets_rad",
         application=Application.ADD,
         enters=EntersAt.EXECUTION,
         count=MOST_JOINTS,
     ),
     _of_execution(
-        "gripper.finger.force", "1", "finger_force_n", "Force of the fingers over the design's.", _SCALE, zero=False
+        "gripper.finger.force",
+        "1",
+        "finger_force_n",
+        "Force of the fingers divided by that of the design.",
+        _SCALE,
+        zero=False,
     ),
     _of_execution(
-        "gripper.finger.speed", "1", "finger_speed_m_s", "Speed of the fingers over the design's.", _SCALE, zero=False
+        "gripper.finger.speed",
+        "1",
+        "finger_speed_m_s",
+        "Speed of the fingers divided by that of the design.",
+        _SCALE,
+        zero=False,
     ),
     _of_execution(
-        "gripper.finger.friction", "1", "pad_friction", "Friction coefficient of the pads over the design's.", _SCALE
+        "gripper.finger.friction",
+        "1",
+        "pad_friction",
+        "Friction coefficient of the pads divided by that of the design.",
+        _SCALE,
     ),
     _of_execution(
         "gripper.force_sensor.noise",

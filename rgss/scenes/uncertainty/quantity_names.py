@@ -1,6 +1,6 @@
 """Names of uncertain quantities: those of the registry, and those of the further objects of a scene.
 
-What is `workpiece.mass` and `perception.x` of the first object is `workpieces.ID.mass` and `perception.ID.x` of the
+`workpiece.mass` and `perception.x` of the first object correspond to `workpieces.ID.mass` and `perception.ID.x` of the
 object ID under the scene's `workpieces`.
 """
 
@@ -15,7 +15,7 @@ from types import MappingProxyType
 from rgss.scenes.uncertainty.quantities import QUANTITIES, UncertainQuantity
 
 _PREFIXES: Mapping[str, str] = MappingProxyType({"workpiece": "workpieces", "perception": "perception"})
-"""First part of a name of the first object, and of the same name of a further object."""
+"""Name prefixes of the first object's quantities, and the corresponding prefixes for further objects."""
 
 _OWN = {
     (_PREFIXES[first], last): one
@@ -31,13 +31,13 @@ _UNIT_ENDINGS: Mapping[str, str] = MappingProxyType(
 
 @lru_cache(maxsize=1024)
 def quantity_of(name: str) -> UncertainQuantity:
-    """The quantity of a name or of a draw, such as ``robot.joint_offset.3`` or ``workpieces.lid.mass``.
+    """Quantity of a name or of a draw, such as ``robot.joint_offset.3`` or ``workpieces.lid.mass``.
 
     Args:
         name: The name.
 
     Raises:
-        KeyError: There is none.
+        KeyError: The name is unknown.
     """
     if name in QUANTITIES:
         return QUANTITIES[name]
@@ -61,7 +61,7 @@ def object_quantity_name(first: str, known: str) -> str:
 
 
 def name_of_first(quantity: UncertainQuantity) -> str:
-    """Name of the same quantity of the first object.
+    """Name of the corresponding quantity of the first object.
 
     Args:
         quantity: A quantity.
@@ -71,7 +71,7 @@ def name_of_first(quantity: UncertainQuantity) -> str:
 
 
 def in_order(names: Iterable[str]) -> tuple[UncertainQuantity, ...]:
-    """The quantities in the order in which they are applied: that of the registry, then object by object.
+    """Quantities in the order of their application: that of the registry, then object by object.
 
     Args:
         names: Their names; the order has no effect.
@@ -81,10 +81,10 @@ def in_order(names: Iterable[str]) -> tuple[UncertainQuantity, ...]:
 
 
 def similar_name(text: str) -> str | None:
-    """The name that a text may stand for; None if none is near.
+    """Nearest known name; None if none is near.
 
     Args:
-        text: What a file has for a name.
+        text: The name in a file.
     """
     known = text.partition(".")[2].rpartition(".")[0]
     of_object = [f"{prefix}.{known}.{last}" for prefix, last in _OWN] if known else []
@@ -98,10 +98,10 @@ def further_object_endings() -> dict[str, tuple[str, ...]]:
 
 
 def draw_column(draw: str) -> str:
-    """Name of a table's column of a draw, such as ``drawn_perception_x_m``: the unit at its end.
+    """Name of the table column of a draw, such as ``drawn_perception_x_m``, with the unit as suffix.
 
     Args:
-        draw: The name of the draw; one that is not in the registry, from another version, has no unit.
+        draw: The name of the draw; without a unit if it is not in the registry (from another version).
     """
     try:
         unit = _UNIT_ENDINGS[quantity_of(draw).unit]
@@ -111,10 +111,10 @@ def draw_column(draw: str) -> str:
 
 
 def object_quantity_of_column(column: str) -> UncertainQuantity | None:
-    """The quantity of a further object whose draws a column has; None for any other column.
+    """Quantity of a further object in a column of draws; None for any other column.
 
     Args:
-        column: Name of the column; dots of the object's id are underscores in it.
+        column: Name of the column; dots of the object's id are replaced by underscores.
     """
     for (prefix, last), one in _OWN.items():
         start, end = f"drawn_{prefix}_", f"_{last}{_UNIT_ENDINGS[one.unit]}"

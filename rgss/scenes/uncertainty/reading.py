@@ -1,4 +1,4 @@
-"""Reader of uncertainty from its YAML form, with every problem at its place."""
+"""Reader of uncertainty from its document model, with findings."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ def read_uncertainty(
     *,
     declared: Sequence[str] | None = None,
 ) -> Uncertainty:
-    """Read what is uncertain in a scene or a study.
+    """Read the uncertainty of a scene or a study.
 
     Args:
         values: The distribution of each quantity.
         correlations: The groups.
-        document: Where they stand, under ``uncertainty`` and ``correlations``.
-        findings: What is wrong is added here.
-        declared: Names that a group may have beside those of `values`; None if that is not known here.
+        document: The file, for positions, with ``uncertainty`` and ``correlations``.
+        findings: List to which findings are added.
+        declared: Names allowed in a group in addition to those of `values`; None if unknown here.
     """
     read = []
     for name, entry in values.items():
@@ -131,7 +131,7 @@ class _Reader:
         elif any(not 0.0 < weight < math.inf for weight in weights):
             self._note("uncertainty.weights", "weights must be greater than zero", (kind, "weights"))
         if len(set(listed)) < len(listed):
-            self._note("uncertainty.values", "a value stands twice", (kind, "values"), hint="give it both weights")
+            self._note("uncertainty.values", "a value is listed twice", (kind, "values"), hint="add both weights")
         if len(weights) != len(listed):
             return None
         pairs = sorted(zip(listed, weights, strict=True))
@@ -147,7 +147,10 @@ class _Reader:
         sd = self._value(kind, "sd", text)
         if not sd > 0.0:
             self._note(
-                "uncertainty.spread", "sd must be greater than zero", (kind, "sd"), hint="a known value is a constant"
+                "uncertainty.spread",
+                "sd must be greater than zero",
+                (kind, "sd"),
+                hint="use a constant for a known value",
             )
         return sd
 
@@ -164,20 +167,20 @@ class _Reader:
 
 
 def _wrong_group(group: CorrelationEntry, taken: set[str], known: set[str] | None) -> tuple[str, str, str] | None:
-    """Message, key and hint of what is wrong with a group; None if nothing is."""
+    """Message, key and hint of the first error of a group; None if it is valid."""
     size = len(group.quantities)
     if len(set(group.quantities)) < size or taken.intersection(group.quantities):
-        return "a quantity is in a group twice", "quantities", "put all that go together in one group"
+        return "a quantity is in a group twice", "quantities", "put all correlated quantities in one group"
     missing = [] if known is None else [name for name in group.quantities if name not in known]
     if missing:
         return f"{missing[0]} has no distribution", "quantities", "give it one under 'uncertainty'"
     if len({quantity_of(name).count for name in group.quantities}) > 1:
-        return "a quantity of each joint goes together with others of each joint alone", "quantities", ""
+        return "a quantity of each joint can be correlated only with others of each joint", "quantities", ""
     if any(len(row) != size for row in group.matrix) or len(group.matrix) != size:
         return f"the matrix must have {size} rows of {size} correlations", "matrix", ""
     matrix = np.array(group.matrix)
     if np.abs(matrix - matrix.T).max() > _SYMMETRY or np.abs(np.diag(matrix) - 1.0).max() > _SYMMETRY:
-        return "a correlation matrix is symmetric, with ones on its diagonal", "matrix", ""
+        return "a correlation matrix must be symmetric, with ones on its diagonal", "matrix", ""
     if float(np.linalg.eigvalsh(matrix).min()) < _LEAST_EIGENVALUE:
-        return "no quantities have these correlations: the matrix is not positive definite", "matrix", "lower them"
+        return "the correlation matrix must be positive definite", "matrix", "lower the correlations"
     return None

@@ -1,4 +1,4 @@
-"""Workload: the objects that a study's trials carry, assigned to seeds."""
+"""Workload: the objects of a study's trials, assigned to seeds."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from functools import lru_cache
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
-    """One kind of object of a workload; the robot knows which it carries.
+    """One kind of object of a workload, known to the robot.
 
     Attributes:
         id: Its name.
-        replicates: How many of each block of seeds it has.
+        replicates: Number of its seeds in each block of seeds.
         mass_kg: Mass of the object; None for the scene's.
         radius_m: Radius; None for the scene's.
         height_m: Height; None for the scene's.
@@ -40,15 +40,16 @@ class Workload:
     cases: tuple[Case, ...] = ()
 
     def case_of(self, seed: int) -> Case | None:
-        """The case of a trial: each block of as many seeds as the cases have replicates has each that often.
+        """Case of a trial.
 
-        The same for every design, and independent of how many replicates a study has.
+        Each block of seeds, as long as the cases have replicates in total, contains each case as often as its
+        replicates. Independent of the design and of a study's number of replicates.
 
         Args:
             seed: The trial's seed.
 
         Returns:
-            The case; None where there is no workload.
+            The case; None without a workload.
         """
         if not self.cases:
             return None
@@ -62,7 +63,7 @@ ONE_WORKLOAD = Workload()
 
 @lru_cache(maxsize=64)
 def _block(replicates: Sequence[int]) -> tuple[int, ...]:
-    """The cases of a block of seeds in turn, spread as evenly as may be: next is the one that is most behind."""
+    """Cases of a block of seeds in an even sequence: the next case is the one with the greatest deficit."""
     total = int(math.fsum(replicates))
     counts = [0] * len(replicates)
     order = []

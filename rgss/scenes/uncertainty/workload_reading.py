@@ -1,4 +1,4 @@
-"""Reader of the cases of a workload from its YAML form."""
+"""Reader of the cases of a workload from its document model."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ def read_workload(entries: Sequence[CaseEntry], document: Document, findings: li
 
     Args:
         entries: The cases.
-        document: Where they stand, under ``workload``.
-        findings: What is wrong is added here.
+        document: The file, for positions, with ``workload``.
+        findings: List to which findings are added.
     """
     seen: set[str] = set()
     for index, entry in enumerate(entries):

@@ -17,7 +17,7 @@ from rgss.studies.robot_project.layout import Layout, layouts, scene_text
 from rgss.studies.robot_project.overhead_layout import overhead_layouts
 from rgss.studies.robot_project.reach import horizontal_reach_m, sampled_configurations
 from rgss.tasks import default_task
-from rgss.trials import Workcell, serves_every_stop, unserved_waypoints, waypoint_configurations
+from rgss.trials import Workcell, every_stop_is_feasible, infeasible_waypoints, waypoint_configurations
 
 Array = NDArray[np.float64]
 
@@ -86,9 +86,9 @@ def fitted(
         cells = _cells(scene, geometries)
         if any(_points_into_arm(cell) for cell in cells):
             return None, "the gripper touches the arm in most configurations"
-        unserved = next((cell for cell in cells if not serves_every_stop(cell)), None)
+        unserved = next((cell for cell in cells if not every_stop_is_feasible(cell)), None)
         if unserved is not None:
-            reason = next((str(one) for one in unserved_waypoints(unserved).values()), reason)
+            reason = next((str(one) for one in infeasible_waypoints(unserved).values()), reason)
             continue
         # Valid configurations at the waypoints, with the least travel from one to the next.
         stops = [waypoint_configurations(cell) for cell in cells]

@@ -32,7 +32,7 @@ def _duplicates(model: TraceModel) -> Iterator[Violation]:
             other = model.requirements.finding("", measure.id, "")
         if other is not measure:
             message = f"id {measure.id!r} is already declared at {other.file}:{other.line}:{other.column}"
-            yield Violation(subject=measure, message=message, hint="give it an id of its own")
+            yield Violation(subject=measure, message=message, hint="use a unique id")
 
 
 def _cycles(model: TraceModel) -> Iterator[Violation]:

@@ -1,10 +1,11 @@
 """Canonical form of Python source, independent of layout and comments.
 
-Two texts have one form if they differ in layout, comments, docstrings, the annotations of functions and of
-variables in them, imports for type checkers, or the texts of arguments that are named in `PROSE`. Annotations in the
-body of a class and of a module count, for dataclasses and readers of records look at them. The form is the same on
-every Python that can parse the text, for it holds no field that a later grammar has added and that is not used, and
-joins what one grammar splits.
+Two texts have the same form if they differ only in layout, comments, docstrings, annotations of functions and of their
+local variables, imports for type checkers, or the texts of the arguments named in `PROSE`. Annotations in the body of a
+class and of a module count, because dataclasses and readers of records evaluate them.
+
+The form is the same on every Python version that can parse the text: it omits unused fields that a later grammar has
+added, and joins nodes that only some grammars split.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from collections.abc import Iterable, Iterator
 
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 PROSE = frozenset({"meaning", "phase_meaning"})
-"""Keyword arguments whose literal texts describe and decide nothing, as those of a metric's descriptor."""
+"""Keyword arguments whose literal texts are only descriptions, such as those of a metric's descriptor."""
 
 _NOT_COUNTED = frozenset({"ctx", "kind", "type_comment", "returns", "type_ignores"})
 
@@ -24,7 +25,7 @@ def canonical_form(tree: ast.Module, *, leave_out: frozenset[ast.stmt] = frozens
 
     Args:
         tree: The tree.
-        leave_out: Statements that do not count, such as imports that are recorded elsewhere.
+        leave_out: Ignored statements, such as imports that are recorded elsewhere.
     """
     parts: list[str] = []
     _write_block(tree.body, parts, leave_out, in_function=False)
@@ -32,7 +33,7 @@ def canonical_form(tree: ast.Module, *, leave_out: frozenset[ast.stmt] = frozens
 
 
 def is_for_type_checkers(test: ast.expr) -> bool:
-    """True if a condition holds for type checkers alone.
+    """True if a condition holds only for type checkers.
 
     Args:
         test: The condition.
@@ -53,7 +54,7 @@ def _write_block(
 
 
 def _effective(statements: Iterable[ast.stmt]) -> Iterator[ast.stmt]:
-    """Statements that do anything; a text by itself and ``pass`` do nothing."""
+    """Statements with an effect; a bare string and ``pass`` have none."""
     for statement in statements:
         if isinstance(statement, ast.Pass) or (
             isinstance(statement, ast.Expr)
@@ -89,7 +90,7 @@ def _write(node: ast.AST, parts: list[str], leave_out: frozenset[ast.stmt], in_f
         if name in _NOT_COUNTED or (name == "annotation" and kind is ast.arg):
             continue
         value = getattr(node, name, None)
-        # What is not used may not be a field of an earlier grammar.
+        # An unused field may not exist in an earlier grammar.
         if value is None or (value == [] and type(value) is list):
             continue
         parts.append(name)
@@ -115,7 +116,7 @@ def _write(node: ast.AST, parts: list[str], leave_out: frozenset[ast.stmt], in_f
 
 
 def _joined(values: list[ast.expr]) -> list[ast.expr]:
-    """The parts of a formatted string with neighbouring texts as one, and none that is empty."""
+    """Parts of a formatted string, with adjacent texts joined and empty ones removed."""
     found: list[ast.expr] = []
     for value in values:
         text = _text_of(value)

@@ -1,15 +1,13 @@
-"""Code that makes a piece, found by static analysis of imports.
+"""Fingerprint of the code of a piece, by static analysis of imports.
 
-The digest of a piece covers the code that makes it, no less and no more: another colour of a
-picture or another way to store records must not make a plan stale. What counts is found by
-following the imports of a module, or those that one function of it uses. A package that only hands
-on what its modules define (its ``__init__`` holds nothing but imports and ``__all__``) is followed
-name by name, so that a module beside the one that is wanted does not count, although Python loads
-it too; modules of this package do nothing when they are loaded, so that loading alone changes no
-result.
+The digest of a piece covers exactly the code that makes it: a change of a picture's colour or of the storage of records
+must not make a plan stale. The relevant code is found by following the imports of a module, or those that one of its
+functions uses. A package that only re-exports (its ``__init__`` contains only imports and ``__all__``) is followed name
+by name, so that its other modules do not count, although Python loads them too; modules of this package have no
+import-time effects, so that loading alone changes no result.
 
-What is digested of a module is its syntax in canonical form, and of an import what it leads to and
-not by which path: a module that is renamed or moved keeps its digest, and so does all that uses it.
+A module is digested by its canonical syntax, and an import by its target instead of its path: renaming or moving a
+module changes neither its digest nor that of its users.
 """
 
 from __future__ import annotations
@@ -30,13 +28,13 @@ _BLOCKS = ("body", "orelse", "handlers", "finalbody", "cases")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SourceClosure:
-    """The code that some modules need.
+    """Source code on which modules depend.
 
     Attributes:
         modules: Names of the modules of the package, sorted.
-        foreign: Top-level names of what is imported from elsewhere, the standard library left out, sorted.
-        digest: SHA-256 of the canonical forms of the modules and of what their imports lead to; the names of
-            modules, comments, docstrings and layout do not count.
+        foreign: Top-level names of third-party imports, sorted.
+        digest: SHA-256 of the canonical forms of the modules and of the targets of their imports; module names,
+        comments, docstrings and layout are ignored.
     """
 
     modules: tuple[str, ...]
@@ -46,24 +44,24 @@ class SourceClosure:
 
 @lru_cache(maxsize=1)
 def own_sources() -> SourceTree:
-    """The sources of this package."""
+    """Source tree of this package."""
     return SourceTree(_PACKAGE)
 
 
 def source_digest(module: str) -> str:
-    """Digest of the code that a module of this package needs, itself and what it imports.
+    """Digest of the code of a module of this package and of its imports.
 
     Args:
         module: Its name.
 
     Raises:
-        ModuleNotFoundError: It is not there.
+        ModuleNotFoundError: The module does not exist.
     """
     return own_sources().closure_of((module,)).digest
 
 
 class SourceTree:
-    """The sources of a package as files, each read once."""
+    """Source files of a package, each read once."""
 
     def __init__(self, folder: Path) -> None:
         """Start without any source read.
@@ -81,17 +79,17 @@ class SourceTree:
         self._digests: dict[str, str] = {}
 
     def closure_of(self, entries: Sequence[str]) -> SourceClosure:
-        """Follow imports, wherever in a module they are.
+        """Transitive closure of imports, at any place in a module.
 
         Args:
-            entries: Modules of the package, such as ``rgss.trials.planning.plan``, all of whose imports are followed;
-                functions, such as ``rgss.trials.pieces.pieces:make_plan``, whose module counts as a whole, but of whose
-                imports only those are followed that the function uses, itself or through others of its module;
-                and modules with a colon and nothing behind it, which count without their imports.
+            entries: Modules of the package, such as ``rgss.trials.planning.plan``, with all of their imports;
+                functions, such as ``rgss.trials.pieces.pieces:make_plan``, with their whole module but only the imports
+                that the function uses, directly or through others of its module; and modules followed by a colon,
+                without their imports.
 
         Raises:
-            ModuleNotFoundError: A module is not there.
-            LookupError: A function is not.
+            ModuleNotFoundError: A module does not exist.
+            LookupError: A function does not exist.
         """
         followed: set[str] = set()
         modules: set[str] = set()
@@ -130,13 +128,13 @@ class SourceTree:
         )
 
     def module_digest(self, module: str) -> str:
-        """The SHA-256 of the canonical form of a module, without its imports of this package.
+        """SHA-256 of the canonical form of a module, without its imports from this package.
 
         Args:
             module: Its name.
 
         Raises:
-            ModuleNotFoundError: It is not there.
+            ModuleNotFoundError: The module does not exist.
         """
         if module not in self._digests:
             tree = self._tree(module)
@@ -151,7 +149,7 @@ class SourceTree:
         return all(self._is_ours(alias.name) for alias in node.names)
 
     def _imports_used_by(self, module: str, function: str) -> tuple[_Import, ...]:
-        """The imports that a function of a module uses, itself or through what else the module defines."""
+        """Imports that a function of a module uses, directly or through other definitions of the module."""
         tree = self._tree(module)
         defined: dict[str, ast.stmt] = {}
         for node in tree.body:
@@ -184,7 +182,7 @@ class SourceTree:
         return module.partition(".")[0] == self._package
 
     def _definer(self, module: str, name: str) -> str:
-        """The module that defines a name which is imported from a module or package."""
+        """Module that defines a name imported from a module or package."""
         asked = (module, name)
         if asked not in self._definers:
             self._definers[asked] = self._found_definer(module, name)
@@ -200,7 +198,7 @@ class SourceTree:
         return module
 
     def _only_hands_on(self, module: str) -> bool:
-        """True if a module is a package's ``__init__`` of nothing but a docstring, imports and ``__all__``.
+        """True if a module is a package's ``__init__`` with only a docstring, imports and ``__all__``.
 
         The imports may be deferred (``rgss.lazy_exports``), which leaves a condition for type checkers.
         """
@@ -214,7 +212,7 @@ class SourceTree:
         )
 
     def _handed_on(self, module: str) -> Iterator[_Import]:
-        """The imports of a front door, those that it defers among them."""
+        """Imports of a re-exporting package, including deferred ones."""
         for node in self._tree(module).body:
             yield from _imports_below(node.body if isinstance(node, ast.If) else [node], module)
 
@@ -253,7 +251,7 @@ class SourceTree:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Import:
-    """One imported name; the name is empty where the module as a whole is imported."""
+    """One imported name; the name is empty if the whole module is imported."""
 
     module: str
     name: str
@@ -261,7 +259,7 @@ class _Import:
 
 
 def _imports_below(statements: Iterable[ast.AST], package: str) -> Iterator[_Import]:
-    """The imports among statements and the statements within them; expressions hold none and are passed over."""
+    """Imports in statements and nested statements; expressions contain none and are skipped."""
     for node in statements:
         if isinstance(node, ast.Import):
             for alias in node.names:
@@ -278,7 +276,7 @@ def _imports_below(statements: Iterable[ast.AST], package: str) -> Iterator[_Imp
 
 
 def _absolute(node: ast.ImportFrom, package: str) -> str:
-    """The module that is imported from, relative imports resolved."""
+    """Imported module, with relative imports resolved."""
     if not node.level:
         return node.module or ""
     parts = package.split(".")
@@ -287,7 +285,7 @@ def _absolute(node: ast.ImportFrom, package: str) -> str:
 
 
 def _import_statements(statements: Iterable[ast.AST]) -> Iterator[ast.Import | ast.ImportFrom]:
-    """Every import statement among statements and within them."""
+    """All import statements in statements and nested statements."""
     for node in statements:
         if isinstance(node, (ast.Import, ast.ImportFrom)):
             yield node

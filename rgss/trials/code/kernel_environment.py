@@ -1,9 +1,9 @@
-"""The numeric environment of a process that makes trials: one set of kernels on every x86-64 processor.
+"""Numeric environment of a trial process: the same numerical kernels on every x86-64 processor.
 
-OpenBLAS, NumPy and the C library's mathematics choose their kernels by the processor when a process starts, and
-kernels differ in last bits, which contact amplifies. Environment variables that are read at that time choose
-instead what every processor has: the kernels without AVX and fused multiply-add. It cannot be chosen later, so
-trials are made in processes that are started with it.
+OpenBLAS, NumPy and the C library's mathematics select their kernels by the processor when a process starts. Kernels
+differ in the last bits, which contact amplifies. Environment variables, read at start-up, select kernels that every
+processor has, without AVX and fused multiply-add. The selection cannot be changed later, so trials run in processes
+started with these variables.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from pathlib import Path
 from types import MappingProxyType
 
 KERNEL = "Nehalem"
-"""OpenBLAS's kernels: the newest that need no more than SSE 4.2, which NumPy needs too."""
+"""OpenBLAS's kernels: the newest that require at most SSE 4.2, which NumPy requires too."""
 
 WITHOUT = ("FMA", "FMA4", "FMA_Usable", "FMA4_Usable")
-"""Features that the C library's mathematics may not use, by their names before and since glibc 2.33."""
+"""Processor features excluded for the C library's mathematics, by their names before and since glibc 2.33."""
 
 ONE_THREAD: Mapping[str, str] = MappingProxyType(
     dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 )
-"""A sum that is divided among threads is rounded by their number."""
+"""The rounding of a sum that is divided among threads depends on their number."""
 
 _CORE, _TUNABLES = "OPENBLAS_CORETYPE", "GLIBC_TUNABLES"
 _DISABLED, _ENABLED = "NPY_DISABLE_CPU_FEATURES", "NPY_ENABLE_CPU_FEATURES"
@@ -35,16 +35,16 @@ _STARTING = threading.Lock()
 
 
 def numeric_environment(inherited: Mapping[str, str]) -> dict[str, str]:
-    """The environment variables of a process that makes trials.
+    """Environment variables of a trial process.
 
     Args:
-        inherited: The variables that it has otherwise; what they say of kernels and threads is overruled.
+        inherited: Its other variables; their settings of kernels and threads are overridden.
     """
     chosen = {**inherited, **ONE_THREAD}
     if _is_x86_64():
         chosen[_CORE] = KERNEL
         chosen[_TUNABLES] = _tunables(inherited.get(_TUNABLES, ""))
-    # NumPy refuses to be given both.
+    # NumPy rejects both variables together.
     chosen.pop(_ENABLED, None)
     chosen[_DISABLED] = " ".join(sorted({*_dispatched(), *_words(inherited.get(_DISABLED, ""))}))
     return chosen
@@ -61,10 +61,10 @@ def problem_here() -> str:
 
 
 def problem_in(environment: Mapping[str, str]) -> str:
-    """Deviation of a process's start environment from the numeric environment, in a few words; empty if there is none.
+    """Deviation of a process's start environment from the numeric environment; empty if there is none.
 
     Args:
-        environment: The variables with which the process was started.
+        environment: The environment variables at the start of the process.
     """
     wanted: dict[str, str] = dict(ONE_THREAD)
     if _is_x86_64():
@@ -73,13 +73,13 @@ def problem_in(environment: Mapping[str, str]) -> str:
         if environment.get(name) != value:
             return f"{name} is {environment.get(name, 'not set')} instead of {value}"
     if _is_x86_64() and not {f"-{name}" for name in WITHOUT} <= {*_capabilities(environment.get(_TUNABLES, ""))}:
-        return f"{_TUNABLES} leaves the C library its choice"
+        return f"{_TUNABLES} does not restrict the C library's kernels"
     return f"{_DISABLED} is not set" if _DISABLED not in environment else ""
 
 
 @contextmanager
 def numeric_environment_of_children() -> Iterator[None]:
-    """Start processes in the block with the numeric environment; this process keeps its own."""
+    """Context in which child processes are started with the numeric environment; this process keeps its own."""
     with _STARTING:
         before = dict(os.environ)
         chosen = numeric_environment(before)
@@ -100,7 +100,7 @@ def _set(values: Mapping[str, str | None]) -> None:
 
 
 def _started_with() -> Mapping[str, str]:
-    """The environment that this process was started with; as it is now, where the system does not keep that."""
+    """Environment at the start of this process; the present one on systems that do not provide it."""
     try:
         entries = Path("/proc/self/environ").read_bytes().split(b"\0")
     except OSError:
@@ -110,7 +110,7 @@ def _started_with() -> Mapping[str, str]:
 
 
 def _tunables(inherited: str) -> str:
-    """The C library's tunables with ours added to the user's."""
+    """C library tunables of the user, with ours added."""
     others = [one for one in inherited.split(":") if one and one.partition("=")[0] != _CAPABILITIES]
     ours = [f"-{name}" for name in WITHOUT]
     kept = [one for one in _capabilities(inherited) if one.lstrip("-") not in WITHOUT]
@@ -123,7 +123,7 @@ def _capabilities(tunables: str) -> list[str]:
 
 
 def _dispatched() -> list[str]:
-    """The features that NumPy would choose kernels by on this processor."""
+    """Processor features by which NumPy would dispatch kernels on this processor."""
     import numpy as np
 
     found = np.show_config(mode="dicts").get("SIMD Extensions", {}).get("found", [])

@@ -1,4 +1,4 @@
-"""Numerics of a process: names of kernels, and digests of the results of fixed problems."""
+"""Numerics of a process: names of numerical kernels, and digests of the results of fixed problems."""
 
 from __future__ import annotations
 
@@ -49,14 +49,14 @@ def numerics() -> Numerics:
         "platform": f"{platform.system()} {platform.machine()}".replace(" ", "-"),
         "libm": f"{_c_library()} {_digest(_libm_results())}",
         "numpy": f"{_simd()} {_digest(_numpy_results())}",
-        # Last, since it loads what the names are read from.
+        # Last, since it loads the libraries from which the names are read.
         "blas": _blas(),
     }
 
 
 @lru_cache(maxsize=1)
 def fixed_numerics() -> Numerics:
-    """Numerics of a process of this machine with the numeric environment, as processes that make trials have.
+    """Numerics of a trial process on this machine, with the numeric environment.
 
     Raises:
         SimulationError: Such a process cannot be started.
@@ -69,7 +69,7 @@ def fixed_numerics() -> Numerics:
     if done.returncode != 0:
         lines = done.stderr.strip().splitlines()
         raise SimulationError(
-            f"no process can be started to compute in: {lines[-1] if lines else 'it printed nothing'}"
+            f"the probe process of the numerics failed: {lines[-1] if lines else 'it printed nothing'}"
         )
     found: dict[str, str] = json.loads(done.stdout.splitlines()[-1])
     return found
@@ -88,7 +88,7 @@ def _c_library() -> str:
 
 
 def _fractions(count: int, step: float = 0.6180339887498949) -> list[float]:
-    """Numbers between 0 and 1 that are spread evenly and have nothing to do with the processor."""
+    """Evenly spread numbers between 0 and 1, independent of the processor."""
     return [math.fmod(0.5 + index * step, 1.0) for index in range(count)]
 
 
@@ -108,7 +108,7 @@ def _libm_results() -> Iterable[float]:
             yield one(100.0 * x + 1e-3)
         yield math.atan2(2.0 * x - 1.0, 2.0 * y - 1.0)
         yield math.hypot(x, y)
-        # Python's own, by an algorithm that its versions have changed.
+        # Python's implementation, whose algorithm has changed between versions.
         yield math.hypot(x, y, x - y)
         yield math.dist((x, y, 1.0), (y, 0.5, x))
         yield math.pow(x + 0.1, 6.0 * y - 3.0)
@@ -147,7 +147,7 @@ def _numpy_results() -> Iterable[float]:
 
 def _blas() -> str:
     import numpy as np
-    import scipy.linalg  # loads the library of its own that it brings
+    import scipy.linalg  # loads the library bundled with it
 
     results: list[float] = []
     for count in _SIZES:
@@ -170,10 +170,10 @@ def _matrix(count: int, step: float) -> NDArray[Any]:
 
 
 def _kernels() -> str:
-    """Names of the kernels of each OpenBLAS of NumPy and SciPy, as far as the system lists what is loaded.
+    """Kernel names of each OpenBLAS of NumPy and SciPy, if the system lists loaded libraries.
 
-    Where these have none of their own, of each that is loaded. Others compute nothing of what is digested, and
-    would name a process by what happens to be loaded in it.
+    If these have none of their own, of each loaded OpenBLAS. Other libraries do not contribute to the digested results,
+    and depend on what else a process has loaded.
     """
     try:
         lines = Path("/proc/self/maps").read_text(encoding="utf-8", errors="replace").splitlines()

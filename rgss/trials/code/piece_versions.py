@@ -1,4 +1,4 @@
-"""Versions of the code and the engines that each piece of a trial depends on."""
+"""Versions of code and engines on which each piece of a trial depends."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ ENGINES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "highspy": ("highspy",),
     }
 )
-"""The distributions behind each foreign module that a piece's making may import."""
+"""Distributions of the third-party modules that the code of a piece imports."""
 
 ENTRIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -32,17 +32,17 @@ ENTRIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "timing": ("rgss.trials.pieces.pieces:make_timing",),
         "execution": ("rgss.trials.pieces.pieces:make_execution",),
         "bench": ("rgss.trials.pieces.pieces:make_bench",),
-        # The second assembles a trial that shares nothing from the results of the others.
+        # The second assembles a trial without shared pieces from the results of the others.
         "record": ("rgss.trials.pieces.pieces:record_of", "rgss.trials.pieces.run:"),
     }
 )
-"""The function that a worker calls to make each piece, and those that put the record together."""
+"""Entry points: the worker function of each piece, and those that assemble the record."""
 
 _EVERYWHERE = ("rgss.trials.code.kernel_environment",)
-"""Code that affects results without being imported by them: the numeric environment of a worker."""
+"""Code that affects results without being imported: the numeric environment of a worker."""
 
 NOT_INSTALLED = "not installed"
-"""Version of an engine of which neither the installation nor the evidence has one."""
+"""Version of an engine with a version in neither the installation nor the evidence."""
 
 _CODE = "rgss-"
 
@@ -50,10 +50,10 @@ _assumed: dict[str, str] = {}
 
 
 def versions() -> dict[str, str]:
-    """Installed version of each engine, and for each piece a digest of the source that makes it.
+    """Installed version of each engine, and for each piece a digest of its source code.
 
-    The source is digested so that evidence of other code is never taken for evidence of this. An installation
-    without engines has the versions that `assume_engines` was given.
+    The digest prevents the use of evidence made by other code. An installation without engines has the versions passed
+    to `assume_engines`.
 
     Raises:
         DefinitionError: An engine is not installed, and no versions are assumed.
@@ -66,11 +66,11 @@ def versions() -> dict[str, str]:
 
 
 def assume_engines(recorded: Iterable[Mapping[str, str]]) -> None:
-    """Read evidence under the engine versions that it was made with, where engines are not installed.
+    """Assume the engine versions of the stored evidence if engines are not installed.
 
-    An installation without engines makes no trial, so it has no versions of its own to look trials up by. The
-    versions of most trials of the present code are assumed, or of most trials if the code changed since. With
-    all engines installed, this does nothing.
+    An installation without engines has no versions of its own for the lookup of trials. The most frequent versions
+    among the trials of the present code are assumed, or among all trials if the code has changed. With all engines
+    installed, this does nothing.
 
     Args:
         recorded: The versions in the provenance of each stored trial; read only if an engine is missing.
@@ -88,27 +88,27 @@ def assume_engines(recorded: Iterable[Mapping[str, str]]) -> None:
 
 
 def versions_of(piece: str, among: Mapping[str, str]) -> dict[str, str]:
-    """The versions that a piece depends on by itself, its forerunners not counted.
+    """Versions on which a piece depends directly, without those of the pieces before it.
 
     Args:
         piece: ``plan``, ``timing``, ``execution``, ``bench`` or ``record``.
-        among: Versions as `versions` gives them; those that are not there are left out.
+        among: Versions in the form of `versions`; missing ones are skipped.
     """
     return {name: among[name] for name in _names_of(piece) if name in among}
 
 
 def are_of_this_kind(found: Mapping[str, str]) -> bool:
-    """True if versions name the source of each piece; those that rgss kept before named one for all.
+    """True if versions have a source digest for each piece; earlier releases stored one for all pieces.
 
     Args:
-        found: Versions as a trial's provenance has them.
+        found: Versions of a trial's provenance.
     """
     return all(f"{_CODE}{piece}" in found for piece in ENTRIES)
 
 
 @lru_cache(maxsize=len(ENTRIES))
 def source_of(piece: str) -> SourceClosure:
-    """The modules and engines that make a piece.
+    """Modules and engines on which a piece depends.
 
     Args:
         piece: ``plan``, ``timing``, ``execution``, ``bench`` or ``record``.
@@ -117,7 +117,7 @@ def source_of(piece: str) -> SourceClosure:
 
 
 def code_of_trials() -> dict[str, str]:
-    """A short digest of each module that makes any piece of a trial, by its name."""
+    """Short digest of each module on which any piece of a trial depends, by name."""
     modules = sorted({module for piece in ENTRIES for module in source_of(piece).modules})
     return {module: own_sources().module_digest(module)[:12] for module in modules}
 

@@ -1,7 +1,7 @@
 """Conditions of a trial: draws of its seed, true values, and the robot's perception of them.
 
-The plan is made from what is perceived, the machine meets what is true, and the grip is controlled by what the robot
-believes of the object: what the files, or the case of the workload, say.
+Planning uses the perceived values, the simulation the true ones, and grip control the nominal properties of the object
+that the robot assumes: those of the files, or of the case of the workload.
 """
 
 from __future__ import annotations
@@ -29,41 +29,43 @@ _NO_DRAWS: Mapping[str, float] = MappingProxyType({})
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Conditions:
-    """The conditions of one trial. The fields after `draws` are what uncertain quantities change.
+    """Conditions of one trial.
+
+    Uncertain quantities change the fields after `draws`.
 
     Attributes:
-        scene: The scene with the object of the trial's case, as the robot believes it.
-        design_gripper: The gripper as the design states it.
-        case: Id of the case of the workload; empty where there is none.
+        scene: The scene with the object of the trial's case, with the properties that the robot assumes.
+        design_gripper: The gripper of the design.
+        case: Id of the case of the workload; empty if there is none.
         draws: The draws by name.
-        stands_x_m: True offset of the object from its nominal position along x.
-        stands_y_m: The same along y.
-        perceived_x_m: Perceived less true position of the object along x.
+        offset_x_m: True offset of the object from its nominal position along x.
+        offset_y_m: The same along y.
+        perceived_x_m: Perceived minus true position of the object along x.
         perceived_y_m: The same along y.
         perceived_z_m: The same along z.
-        perceived_yaw_rad: Perceived less true turn of the object about the vertical.
-        perceived_roll_rad: Perceived tilt of the object about x.
+        perceived_yaw_rad: Perceived minus true yaw of the object. perceived_roll_rad: Perceived tilt of the object
+        about x.
         perceived_pitch_rad: Perceived tilt of the object about y.
         mass_kg: True mass of the object.
         centre_of_mass_m: True height of its centre of mass above the centre of its shape.
         friction: Its true friction coefficient.
         tool_speed_m_s: Largest speed of the tool.
-        joint_offsets_rad: True less reported angle of each joint; empty where the encoders are right.
+        joint_offsets_rad: True minus reported angle of each joint; empty for exact encoders.
         finger_force_n: Force of one finger.
         finger_speed_m_s: Speed of the fingers.
         pad_friction: Friction coefficient of the pads.
         sensor_noise_n: Standard deviation of the noise of a reading of a finger's force.
-        sensor_offset_n: Its offset.
-        sensor_delay_s: Its age.
-        others: The same of the further objects of which something is drawn.
+        sensor_offset_n: Offset of a reading.
+        sensor_delay_s: Age of a reading.
+        others: Conditions of the further objects with draws.
     """
 
     scene: Scene
     design_gripper: Gripper
     case: str = ""
     draws: Mapping[str, float] = field(default_factory=lambda: _NO_DRAWS)
-    stands_x_m: float = 0.0
-    stands_y_m: float = 0.0
+    offset_x_m: float = 0.0
+    offset_y_m: float = 0.0
     perceived_x_m: float = 0.0
     perceived_y_m: float = 0.0
     perceived_z_m: float = 0.0
@@ -85,17 +87,17 @@ class Conditions:
 
     @property
     def true_scene(self) -> Scene:
-        """The scene as it is."""
+        """Scene with true values."""
         return self._with_objects(true_workpiece)
 
     @property
     def perceived_scene(self) -> Scene:
-        """The scene as the robot perceives it: the objects where they are seen, and what else the files say."""
+        """Scene as perceived by the robot: the objects at their perceived poses, all else from the files."""
         return self._with_objects(perceived_workpiece)
 
     @property
     def true_gripper(self) -> Gripper:
-        """The gripper as it is."""
+        """Gripper with true values."""
         gripper = replace(
             self.design_gripper,
             finger_force_n=self.finger_force_n,
@@ -105,24 +107,24 @@ class Conditions:
         return self.design_gripper if gripper == self.design_gripper else gripper
 
     def is_grip_known(self, name: str) -> bool:
-        """True if the robot reads the fingers' true forces and has the true mass of an object and friction.
+        """True if the sensed finger forces and the assumed mass and friction of an object equal the true values.
 
         Args:
             name: The object.
         """
-        believed = self.believed(name)
+        assumed = self.assumed(name)
         true: Conditions | ObjectConditions = next((one for one in self.others if one.id == name), self)
         if name != self.scene.workpiece.id and true is self:
-            true = nominal_object(believed)
+            true = nominal_object(assumed)
         is_sensor_ideal = self.sensor_noise_n == self.sensor_offset_n == self.sensor_delay_s == 0.0
         return is_sensor_ideal and (true.mass_kg, true.friction, self.pad_friction) == (
-            believed.mass_kg,
-            believed.friction,
+            assumed.mass_kg,
+            assumed.friction,
             self.design_gripper.friction,
         )
 
-    def believed(self, name: str) -> Workpiece:
-        """An object as the robot believes it.
+    def assumed(self, name: str) -> Workpiece:
+        """Object with the properties that the robot assumes.
 
         Args:
             name: The object.
@@ -144,7 +146,7 @@ class Conditions:
 
 
 def conditions_of(spec: TrialSpec) -> Conditions:
-    """The conditions of a trial, by its seed.
+    """Conditions of a trial from its seed.
 
     Args:
         spec: The trial.
@@ -154,7 +156,7 @@ def conditions_of(spec: TrialSpec) -> Conditions:
 
 
 def nominal_conditions(spec: TrialSpec) -> Conditions:
-    """The conditions of a trial as the files and its case say, before anything is drawn.
+    """Nominal conditions of a trial, from the files and its case, without draws.
 
     Args:
         spec: The trial.
@@ -194,7 +196,7 @@ def _conditions_of(spec: TrialSpec) -> Conditions:
 def _changes(
     quantities: Sequence[UncertainQuantity], draws: Mapping[str, float], nominal: Conditions | ObjectConditions
 ) -> dict[str, float | tuple[float, ...]]:
-    """Values of the fields that draws change."""
+    """Values of the fields changed by draws."""
     changes: dict[str, float | tuple[float, ...]] = {}
     for quantity in quantities:
         drawn = [draws[name] for name in quantity.draw_names if name in draws]
@@ -208,13 +210,13 @@ def _changes(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DrawnValue:
-    """One draw of a trial and what it came to.
+    """One draw of a trial with its nominal and resulting value.
 
     Attributes:
         name: Name of the draw, such as ``gripper.finger.force``.
         unit: Unit of the two values.
-        nominal: The value as the files, the design and the case say.
-        drawn: The value that the trial has.
+        nominal: The value of the files, the design and the case.
+        drawn: The value in the trial.
     """
 
     name: str
@@ -224,7 +226,7 @@ class DrawnValue:
 
 
 def drawn_values(spec: TrialSpec) -> tuple[DrawnValue, ...]:
-    """The draws of a trial beside the nominal values, in the order of the registry.
+    """Draws of a trial with the nominal values, in the order of the registry.
 
     Args:
         spec: The trial.
@@ -237,7 +239,7 @@ def drawn_values(spec: TrialSpec) -> tuple[DrawnValue, ...]:
         if quantity.count > 1:
             before, after = 0.0, conditions.draws[name]
         elif quantity.object:
-            known = nominal_object(conditions.believed(quantity.object))
+            known = nominal_object(conditions.assumed(quantity.object))
             before, after = getattr(known, quantity.field), getattr(drawn[quantity.object], quantity.field)
         else:
             before, after = getattr(nominal, quantity.field), getattr(conditions, quantity.field)
@@ -246,7 +248,7 @@ def drawn_values(spec: TrialSpec) -> tuple[DrawnValue, ...]:
 
 
 def _unit_of(quantity: UncertainQuantity) -> str:
-    """Unit of the field of a quantity, which a factor does not have."""
+    """Unit of the field of a quantity; a factor has the unit of its field."""
     if quantity.application is not Application.SCALE:
         return quantity.unit
     endings = {"_kg": "kg", "_n": "N", "_m_s": "m/s"}
@@ -271,10 +273,10 @@ def _scene_of(scene: Scene, case: Case | None) -> Scene:
         )
     elif case.radius_m is not None or case.height_m is not None:
         raise DefinitionError(
-            f"case {case.id!r} of the workload has a radius or a height, and the object is no upright cylinder",
-            hint="let the cases of this object differ in mass and friction alone",
+            f"case {case.id!r} of the workload has a radius or a height, but the object is not an upright cylinder",
+            hint="vary only mass and friction in the cases of this object",
         )
-    # It has the position of the scene's object, on its own foot.
+    # It has the position of the scene's object, with its bottom on the support.
     rise_m = shape.half_height_m - own.shape.half_height_m
     workpiece = replace(
         own,

@@ -8,20 +8,20 @@ from typing import Protocol
 from rgss.scenes import Pose, Workpiece
 
 
-class OfObject(Protocol):
-    """What uncertain quantities change of an object."""
+class ObjectValues(Protocol):
+    """Interface of an object's values that uncertain quantities change."""
 
     @property
-    def stands_x_m(self) -> float:
+    def offset_x_m(self) -> float:
         """True offset from its nominal position along x."""
 
     @property
-    def stands_y_m(self) -> float:
+    def offset_y_m(self) -> float:
         """The same along y."""
 
     @property
     def perceived_x_m(self) -> float:
-        """Perceived less true position along x."""
+        """Perceived minus true position along x."""
 
     @property
     def perceived_y_m(self) -> float:
@@ -33,7 +33,7 @@ class OfObject(Protocol):
 
     @property
     def perceived_yaw_rad(self) -> float:
-        """Perceived less true turn about the vertical."""
+        """Perceived minus true yaw."""
 
     @property
     def perceived_roll_rad(self) -> float:
@@ -58,16 +58,16 @@ class OfObject(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ObjectConditions:
-    """Conditions of a further object of which something is drawn; the fields are those of `Conditions`.
+    """Conditions of a further object with draws; the fields are those of `Conditions`.
 
     Attributes:
         id: The object.
-        stands_x_m: True offset from its nominal position along x.
-        stands_y_m: The same along y.
-        perceived_x_m: Perceived less true position along x.
+        offset_x_m: True offset from its nominal position along x.
+        offset_y_m: The same along y.
+        perceived_x_m: Perceived minus true position along x.
         perceived_y_m: The same along y.
         perceived_z_m: The same along z.
-        perceived_yaw_rad: Perceived less true turn about the vertical.
+        perceived_yaw_rad: Perceived minus true yaw.
         perceived_roll_rad: Perceived tilt about x.
         perceived_pitch_rad: Perceived tilt about y.
         mass_kg: True mass.
@@ -76,8 +76,8 @@ class ObjectConditions:
     """
 
     id: str
-    stands_x_m: float = 0.0
-    stands_y_m: float = 0.0
+    offset_x_m: float = 0.0
+    offset_y_m: float = 0.0
     perceived_x_m: float = 0.0
     perceived_y_m: float = 0.0
     perceived_z_m: float = 0.0
@@ -90,7 +90,7 @@ class ObjectConditions:
 
 
 def nominal_object(workpiece: Workpiece) -> ObjectConditions:
-    """The conditions of an object as the files say.
+    """Nominal conditions of an object, from the files.
 
     Args:
         workpiece: The object.
@@ -103,43 +103,43 @@ def nominal_object(workpiece: Workpiece) -> ObjectConditions:
     )
 
 
-def true_workpiece(believed: Workpiece, one: OfObject) -> Workpiece:
-    """The object as it is.
+def true_workpiece(assumed: Workpiece, one: ObjectValues) -> Workpiece:
+    """Object with true values.
 
     Args:
-        believed: The object as the files or the case of the workload say.
+        assumed: The object of the files or of the case of the workload.
         one: Its conditions.
     """
     return replace(
-        believed,
-        pose=moved(believed.pose, (one.stands_x_m, one.stands_y_m, 0.0)),
+        assumed,
+        pose=moved(assumed.pose, (one.offset_x_m, one.offset_y_m, 0.0)),
         mass_kg=one.mass_kg,
         centre_of_mass_m=one.centre_of_mass_m,
         friction=one.friction,
     )
 
 
-def perceived_workpiece(believed: Workpiece, one: OfObject) -> Workpiece:
-    """The object where the robot perceives it; what else there is of it is believed.
+def perceived_workpiece(assumed: Workpiece, one: ObjectValues) -> Workpiece:
+    """Object at its perceived pose, with the properties that the robot assumes.
 
     Args:
-        believed: The object as the files or the case of the workload say.
+        assumed: The object of the files or of the case of the workload.
         one: Its conditions.
     """
-    shift = (one.stands_x_m + one.perceived_x_m, one.stands_y_m + one.perceived_y_m, one.perceived_z_m)
-    pose = moved(believed.pose, shift)
+    shift = (one.offset_x_m + one.perceived_x_m, one.offset_y_m + one.perceived_y_m, one.perceived_z_m)
+    pose = moved(assumed.pose, shift)
     turn = (one.perceived_roll_rad, one.perceived_pitch_rad, one.perceived_yaw_rad)
     if any(turn):
         pose = pose @ Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), turn)
-    return replace(believed, pose=pose)
+    return replace(assumed, pose=pose)
 
 
 def moved(pose: Pose, shift_m: tuple[float, float, float]) -> Pose:
-    """A pose that is moved along the world's axes; itself for no shift.
+    """Pose translated along the world's axes; unchanged for a zero shift.
 
     Args:
         pose: The pose.
-        shift_m: By how much along x, y and z.
+        shift_m: Translation along x, y and z.
     """
     if not any(shift_m):
         return pose

@@ -1,4 +1,4 @@
-"""Grasp that a trial takes of its candidates, and how the record shows it."""
+"""Choice of a trial's grasp among the candidates, and its entry in the record."""
 
 from typing import TYPE_CHECKING
 

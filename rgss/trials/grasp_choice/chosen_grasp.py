@@ -6,18 +6,18 @@ from collections.abc import Collection, Iterable
 from dataclasses import replace
 
 from rgss.evidence import Metric
-from rgss.scenes import TakenGrasp
+from rgss.scenes import ChosenGrasp
 from rgss.trials.phase_result import PhaseResult
 
 
 def with_chosen_grasp(
-    results: Iterable[PhaseResult], taken: TakenGrasp | None, grips: Collection[str]
+    results: Iterable[PhaseResult], taken: ChosenGrasp | None, grips: Collection[str]
 ) -> tuple[PhaseResult, ...]:
-    """The phases, the grasp that was taken among the metrics of the grasp phase.
+    """Phases with the chosen grasp among the metrics of the grasp phase.
 
     Args:
         results: The phases.
-        taken: The grasp; None where it is stated, which leaves the phases as they are.
+        taken: The chosen grasp; None for a stated grasp, which leaves the phases unchanged.
         grips: Names of the steps that close the hand.
     """
     if taken is None:

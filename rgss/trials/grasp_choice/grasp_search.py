@@ -1,4 +1,4 @@
-"""The grasp that is taken: the best candidate that the arm can reach at every waypoint, without a collision."""
+"""Search for the best grasp candidate that the arm can reach at every waypoint without collision."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from rgss.grasping.candidates import RankedGrasp, RankedGrasps, ranked_grasps, ranked_suction, symmetric_turns
 from rgss.kinematics import Arm, CollisionModel, inverse_kinematics, straight_line
-from rgss.scenes import GraspCandidates, GripperGeometry, Scene, TakenGrasp, Waypoint, waypoint_poses
+from rgss.scenes import ChosenGrasp, GraspCandidates, GripperGeometry, Scene, Waypoint, waypoint_poses
 from rgss.tasks import MoveKind
 from rgss.trials.route import Route, Stop
 
@@ -30,7 +30,7 @@ class Rejection(str, Enum):
 
 
 class Cell(Protocol):
-    """What a candidate is tried in: the arm, and a collision model for each move."""
+    """Arm and collision models of the moves, for checks of a candidate."""
 
     @property
     def arm(self) -> Arm:
@@ -44,7 +44,7 @@ class Cell(Protocol):
 
     @property
     def route(self) -> Route:
-        """The stops of the task and the moves between them."""
+        """Stops of the task and the moves between them."""
         ...
 
 
@@ -53,22 +53,22 @@ class GraspSearch:
     """Result of a search for a grasp.
 
     Attributes:
-        scene: The scene with the grasp that is taken; with the best candidate where none can be reached, so that a
-            plan says why, and as it was where there is no candidate.
-        taken: The grasp; None where none can be reached.
-        ranked: The candidates, and what was none.
-        rejected: How many candidates each filter rejected before the one that is taken.
+        scene: The scene with the chosen grasp; with the best candidate if none is reachable, so that a plan reports the
+        reason; unchanged without candidates.
+        taken: The chosen grasp; None if none is reachable.
+        ranked: The candidates and the rejected tool frames.
+        rejected: Number of candidates rejected by each filter before the chosen one.
     """
 
     scene: Scene
-    taken: TakenGrasp | None
+    taken: ChosenGrasp | None
     ranked: RankedGrasps
     rejected: Mapping[Rejection, int]
 
     @property
     def reasons(self) -> str:
-        """What rejected how many, in one line."""
-        counts = [(reason.value, count) for reason, count in self.ranked.unfit.items()]
+        """Numbers of rejections by filter, in one line."""
+        counts = [(reason.value, count) for reason, count in self.ranked.rejected_frames.items()]
         counts += [(reason.value, count) for reason, count in self.rejected.items()]
         return ", ".join(f"{reason}: {count}" for reason, count in counts)
 
@@ -81,15 +81,15 @@ def search_grasp(
     friction: float,
     build: Callable[[Scene], Cell],
 ) -> GraspSearch:
-    """Try the candidates in their order, each with the symmetric turns of the object at its place.
+    """First reachable candidate in their order, each with the symmetric rotations of the object at its place.
 
     Args:
-        scene: The scene as it is perceived.
+        scene: The perceived scene.
         geometry: The gripper's shape.
-        options: Which grasps are tried.
-        friction: Coefficient of the pads; the contact's is the product with the object's. Of a cup, its greatest
-            tangential over its greatest normal force.
-        build: Makes arm and collision models of a scene.
+        options: Specification of the candidates.
+        friction: Coefficient of the pads; the contact's is the product with the object's. For a cup, its greatest
+            tangential divided by its greatest normal force.
+        build: Factory of arm and collision models of a scene.
     """
     if geometry.cup is not None:
         ranked = ranked_suction(scene.workpiece, geometry, options, tangential_1=friction)
@@ -127,13 +127,13 @@ _STAGES = tuple(Rejection)
 
 
 def _last(reasons: Sequence[Rejection]) -> Rejection:
-    """The filter that the best turn came to."""
+    """The last filter that a rotation reached."""
     return max(reasons, key=_STAGES.index)
 
 
-def _taken(scene: Scene, grasp: RankedGrasp, turn: float, candidates: int, rejected: int) -> TakenGrasp:
+def _taken(scene: Scene, grasp: RankedGrasp, turn: float, candidates: int, rejected: int) -> ChosenGrasp:
     task = scene.task
-    return TakenGrasp(
+    return ChosenGrasp(
         id=grasp.id,
         tool_in_object=grasp.tool_in_object,
         opening_m=grasp.opening_m,
@@ -146,18 +146,18 @@ def _taken(scene: Scene, grasp: RankedGrasp, turn: float, candidates: int, rejec
     )
 
 
-def _with_grasp(scene: Scene, grasp: TakenGrasp) -> Scene:
+def _with_grasp(scene: Scene, grasp: ChosenGrasp) -> Scene:
     return replace(scene, task=replace(scene.task, grasp=grasp))
 
 
 def _unreached(arm: Arm, scene: Scene) -> Waypoint | None:
-    """The first waypoint that no configuration reaches."""
+    """First unreachable waypoint."""
     inverse = inverse_kinematics(arm)
     return next((waypoint for waypoint, pose in waypoint_poses(scene).items() if not inverse.solve(pose)), None)
 
 
 def _obstacle(cell: Cell) -> tuple[Rejection, bool] | None:
-    """The filter that rejects a grasp, and whether it does before the object is at its place; None where none does."""
+    """Filter that rejects a grasp, and True if it does for any rotation of the object at its place; None if none."""
     inverse, route = inverse_kinematics(cell.arm), cell.route
     valid: dict[int, list[Vector]] = {}
     for index, stop in enumerate(route.stops):
@@ -182,5 +182,5 @@ def _obstacle(cell: Cell) -> tuple[Rejection, bool] | None:
 
 
 def _is_before_place(stop: Stop) -> bool:
-    """Whether a stop is none at the place, so that another turn of the object there changes nothing."""
+    """True if a stop is not at the place, so that the object's rotation there does not affect it."""
     return not any(stop.name.startswith(waypoint.value) for waypoint in _AT_PLACE)

@@ -1,4 +1,4 @@
-"""Hands: how each kind of gripper takes and releases an object, one module a kind."""
+"""Hands: gripping and releasing by each kind of gripper, one module for each kind."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""Interface of a hand: how a kind of gripper takes and releases an object."""
+"""Interface of a hand: gripping and releasing by a kind of gripper."""
 
 from __future__ import annotations
 
@@ -9,55 +9,55 @@ from rgss.scenes import Scene
 
 
 class Hand(Protocol):
-    """A gripper as the task program uses it, of any kind and at any fidelity."""
+    """Interface of a gripper for the task program, of any kind and at any fidelity."""
 
     has_force_feedback: bool
-    """Whether it reads its force and can increase it while the object is carried."""
+    """True if it senses its force and can increase it while the object is carried."""
 
     def misfit(self, scene: Scene) -> str:
-        """Why the hand cannot hold an object by its size or shape; empty where it can.
+        """Reason why an object does not fit the hand by size or shape; empty if it fits.
 
         Args:
             scene: The scene, with the object as its workpiece.
         """
 
     def closing_s(self, scene: Scene, firm_s: float) -> float:
-        """Time from the command to close until the grasp is firm.
+        """Time in s from the command to close to a firm grasp.
 
         Args:
             scene: The scene, with the object as its workpiece.
-            firm_s: Time for which a grasp must be firm where the hand reads its force.
+            firm_s: Required duration of a firm grasp for a hand that senses its force.
         """
 
     def opening_s(self, scene: Scene) -> float:
-        """Time from the command to open until the hand is open.
+        """Time in s from the command to open to the open hand.
 
         Args:
-            scene: The scene, with the object that was held as its workpiece.
+            scene: The scene, with the held object as its workpiece.
         """
 
     @property
     def longest_travel_s(self) -> float:
-        """Time that the hand needs over its whole travel."""
+        """Time in s of the full travel."""
 
     @property
     def least_closing_s(self) -> float:
-        """Time that closing takes even where the object is firmly held before."""
+        """Least time of closing in s, even if the object is firmly held earlier."""
 
     @property
     def least_opening_s(self) -> float:
-        """Time that opening takes even where no finger travels."""
+        """Least time of opening in s, even without travel."""
 
     def needed_force_n(self, weight_n: float, friction: float) -> float:
-        """Normal force of each finger above which a grasp counts as firm.
+        """Threshold in N of each finger's normal force for a firm grasp.
 
         Args:
-            weight_n: Weight of the object, as the robot knows it.
-            friction: Coefficient of a finger on the object, as the robot knows it.
+            weight_n: Weight of the object assumed by the robot.
+            friction: Coefficient of a finger on the object assumed by the robot.
         """
 
     def shortfall(self, forces_n: Sequence[float], needed_n: float) -> str:
-        """What is short of a firm grasp, for the detail of a failure.
+        """Message about a grasp that is not firm, for the detail of a failure.
 
         Args:
             forces_n: Normal force of each finger.

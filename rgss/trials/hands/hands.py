@@ -1,4 +1,4 @@
-"""The hand of a gripper."""
+"""Factory of hands."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rgss.trials.hands.suction_hand import SuctionHand
 
 
 def hand_of(gripper: Gripper) -> Hand:
-    """The hand of a gripper, by its kind.
+    """Hand of a gripper, by its kind.
 
     Args:
         gripper: The gripper.

@@ -1,4 +1,4 @@
-"""Hand of fingers that are only commanded to open or to close: no force or position is read."""
+"""Open-loop hand: fingers are commanded to open or close without feedback of force or position."""
 
 from __future__ import annotations
 
@@ -7,34 +7,34 @@ from rgss.trials.hands.finger_hand import FingerHand
 
 
 class OpenLoopHand(FingerHand):
-    """Fingers whose commands take a fixed time; they press with all of their force, and it is never increased."""
+    """Hand whose commands take a fixed time; fingers press with their full, constant force."""
 
     has_force_feedback = False
 
     def __init__(self, gripper: Gripper, command_s: float) -> None:
-        """Take the gripper.
+        """Store the gripper's parameters.
 
         Args:
             gripper: Its shape, speed and force.
-            command_s: Time that a command takes.
+            command_s: Duration of a command.
         """
         super().__init__(gripper)
         self._command_s = command_s
 
     def closing_s(self, scene: Scene, firm_s: float) -> float:
-        """Time of the command, by which the object is held."""
+        """Duration of the command, after which the object is held."""
         return max(self._command_s, super().closing_s(scene, firm_s))
 
     def opening_s(self, scene: Scene) -> float:  # noqa: ARG002 - it is the same for each
-        """Time of the command."""
+        """Duration of the command."""
         return self._command_s
 
     @property
     def least_closing_s(self) -> float:
-        """Time of the command."""
+        """Duration of the command."""
         return self._command_s
 
     @property
     def least_opening_s(self) -> float:
-        """Time of the command."""
+        """Duration of the command."""
         return self._command_s

@@ -1,4 +1,4 @@
-"""Metrics of the grasp that was chosen of candidates; a stated grasp has none."""
+"""Metrics of the grasp chosen among candidates; none for a stated grasp."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ CHOICE_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="chosen_grasp_rank",
         unit="1",
-        meaning="place of the grasp that was taken in the order of the candidates, from 1",
+        meaning="rank of the chosen grasp among the candidates, from 1",
         better=Direction.LOWER,
     ),
     MetricDescriptor(
@@ -30,7 +30,7 @@ CHOICE_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="chosen_grasp_weight_1",
         unit="1",
-        meaning="weight at rest that a suction cup bears at the chosen point over the force of its vacuum",
+        meaning="weight at rest that a suction cup holds at the chosen point, divided by the force of its vacuum",
         better=Direction.HIGHER,
     ),
     MetricDescriptor(

@@ -17,22 +17,22 @@ class Direction(str, Enum):
 
 
 class Aggregation(str, Enum):
-    """Rule by which the value of a trial follows from those of its phases; phases without a value do not count."""
+    """Aggregation rule of the phases' values into that of the trial; phases without a value are skipped."""
 
     COMPUTED = "computed"
-    """By a function of its own (rgss/trials/record.py)."""
+    """By a dedicated function (rgss/trials/record.py)."""
     GREATEST = "greatest"
     LEAST = "least"
     OF_GREATEST = "of greatest"
-    """Value in the phase in which another metric (`MetricDescriptor.source`) is greatest, the first of equals."""
+    """Value in the first phase in which another metric (`MetricDescriptor.source`) is greatest."""
     LAST = "last"
     SUM = "sum"
     GREATEST_OF_EACH = "greatest of each"
-    """Greatest of each entry of a row."""
+    """Entry-wise maximum of rows."""
     SUM_OF_EACH = "sum of each"
-    """Sum of each entry of a row."""
+    """Entry-wise sum of rows."""
     WORST_CARRIED = "worst carried"
-    """Least, or greatest where lower is better, over the phases in which the object is carried."""
+    """Worst value, by the preferred direction, over the phases in which the object is carried."""
     SUM_CARRIED = "sum carried"
     """Sum over the phases in which the object is carried; missing if it is 0."""
     AT_GRASP = "at grasp"
@@ -59,29 +59,29 @@ _SUFFIXES = {
 
 
 FOR_EACH_MOVE = -1
-"""Length of a row that has an entry for each planned move of the task."""
+"""Length of a row with an entry for each planned move of the task."""
 FOR_EACH_JOINT = -2
-"""Length of a row that has an entry for each joint of the arm."""
+"""Length of a row with an entry for each joint of the arm."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MetricDescriptor:
-    """All that is stated of a metric, from which records, frames, the guard, schemas and documentation are made.
+    """Descriptor of a metric, the source of records, data frames, regression checks, schemas and documentation.
 
     Attributes:
-        name: Key in records, with the unit at its end.
+        name: Key in records, with the unit as suffix.
         unit: SI unit; ``1`` if it has none.
-        meaning: Definition, in one phrase. It takes no part in the digests of code.
+        meaning: Definition, in one phrase. It is excluded from code digests.
         better: Preferred direction.
-        trial: How the value of a trial is made; None if only phases have one.
+        trial: Aggregation rule of the trial's value; None if only phases have one.
         phase: Origin of the values of phases; None if only the trial has one.
-        fidelities: Fidelities in which it is observed. A trial may lack it nevertheless, such as after a failure.
+        fidelities: Fidelities in which it is observed; it may still be missing, such as after a failure.
         length: Number of entries of a row; 0 for one per finger, `FOR_EACH_MOVE` for one per planned move of the task,
             `FOR_EACH_JOINT` for one per joint of the arm, None for a single number. A recorded value of a phase is
             always a single number.
-        phase_meaning: Definition for one phase, where it differs.
-        source: The metric that is taken at the grasp, for `Aggregation.AT_GRASP`; the one that decides between the
-            phases, for `Aggregation.OF_GREATEST`.
+        phase_meaning: Definition for one phase, if it differs.
+        source: The metric evaluated at the grasp, for `Aggregation.AT_GRASP`; the metric that selects the phase, for
+        `Aggregation.OF_GREATEST`.
     """
 
     name: str

@@ -85,7 +85,7 @@ GRASP_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="grasp_q_smw_n",
         unit="N",
-        meaning="greatest wrench that is resisted in every direction (3.12)",
+        meaning="greatest wrench resisted in every direction (3.12)",
         better=Direction.HIGHER,
         trial=Aggregation.WORST_CARRIED,
         fidelities=WITH_CONTACT,
@@ -93,7 +93,7 @@ GRASP_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="grasp_load_factor_1",
         unit="1",
-        meaning="multiple of the object's weight that the grasp can bear",
+        meaning="multiple of the object's weight that the grasp can resist",
         better=Direction.HIGHER,
         trial=Aggregation.WORST_CARRIED,
         fidelities=WITH_CONTACT,
@@ -141,7 +141,7 @@ GRASP_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="contacts_separating",
         unit="1",
-        meaning="contacts that part",
+        meaning="contacts that separate",
         better=Direction.LOWER,
         trial=Aggregation.WORST_CARRIED,
         fidelities=WITH_CONTACT,
@@ -177,7 +177,7 @@ CARRY_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="held_distance_m",
         unit="m",
-        meaning="distance of the object from how it was grasped, its turn counted with its radius",
+        meaning="displacement of the object in the hand since the grasp, its rotation multiplied by its radius",
         better=Direction.LOWER,
         trial=Aggregation.WORST_CARRIED,
         fidelities=WITH_CONTACT,
@@ -185,7 +185,7 @@ CARRY_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="held_speed_m_s",
         unit="m/s",
-        meaning="norm of the object's velocity in the hand, its turning counted with its radius",
+        meaning="norm of the object's velocity in the hand, its angular velocity multiplied by its radius",
         better=Direction.LOWER,
         trial=Aggregation.WORST_CARRIED,
         fidelities=WITH_CONTACT,
@@ -193,7 +193,7 @@ CARRY_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="grasp_samples",
         unit="1",
-        meaning="how often the carried grasp was analysed",
+        meaning="number of analyses of the carried grasp",
         trial=Aggregation.SUM_CARRIED,
         fidelities=WITH_CONTACT,
     ),

@@ -1,4 +1,4 @@
-"""Metrics of single phases, of which a trial as a whole has none."""
+"""Metrics of single phases, without a value for the trial."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ PHASE_ONLY_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="commanded_tool_speed_m_s",
         unit="m/s",
-        meaning="greatest speed of the grasp centre that was asked for",
+        meaning="greatest commanded speed of the grasp centre",
         fidelities=WITH_CONTACT,
     ),
     MetricDescriptor(
         name="commanded_tool_acceleration_m_s2",
         unit="m/s**2",
-        meaning="greatest acceleration that was asked for",
+        meaning="greatest commanded acceleration of the grasp centre",
         fidelities=WITH_CONTACT,
     ),
     MetricDescriptor(
         name="workpiece_displacement_m",
         unit="m",
-        meaning="how far the object moved before the grasp, or the hand moved it in its release and afterwards",
+        meaning="displacement of the object before the grasp, or by the hand during and after its release",
         better=Direction.LOWER,
         fidelities=WITH_CONTACT,
     ),
@@ -34,7 +34,7 @@ PHASE_ONLY_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="workpiece_tilt_rad",
         unit="rad",
-        meaning="angle by which the object leans at the end",
+        meaning="tilt of the object at the end",
         better=Direction.LOWER,
         fidelities=WITH_CONTACT,
     ),
@@ -54,21 +54,21 @@ PHASE_ONLY_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="finger_travel_m",
         unit="m",
-        meaning="how far it had closed at the end of the grasp, of each finger",
+        meaning="travel from open at the end of the grasp, of each finger",
         fidelities=WITH_CONTACT,
         length=0,
     ),
     MetricDescriptor(
         name="tightenings",
         unit="1",
-        meaning="how often the grip was tightened",
+        meaning="number of increases of the grip force",
         better=Direction.LOWER,
         fidelities=WITH_CONTACT,
     ),
     MetricDescriptor(
         name="grasp_samples_closed",
         unit="1",
-        meaning="how many of the samples of the grasp were in force closure",
+        meaning="number of samples of the grasp in force closure",
         better=Direction.HIGHER,
         fidelities=WITH_CONTACT,
     ),
@@ -101,7 +101,7 @@ PHASE_ONLY_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="settling_s",
         unit="s",
-        meaning="time after opening until the object stood still",
+        meaning="settling time of the object after opening",
         better=Direction.LOWER,
         fidelities=WITH_CONTACT,
     ),

@@ -30,4 +30,4 @@ METRICS: Mapping[str, MetricDescriptor] = MappingProxyType({one.name: one for on
 PHASE_METRICS: Mapping[str, MetricDescriptor] = MappingProxyType(
     {one.name: one for one in _EVERY if one.phase is not None}
 )
-"""Metrics of a phase, those that are fields of its record included."""
+"""Metrics of a phase, including those that are fields of its record."""

@@ -17,7 +17,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="success",
         unit="1",
-        meaning="1 if all phases are complete and the object is where it should be, 0 if not",
+        meaning="1 if all phases are complete and the object is in its place, 0 if not",
         phase_meaning="1 if the phase was reached and completed, 0 if it was reached and failed",
         better=Direction.HIGHER,
         trial=Aggregation.COMPUTED,
@@ -26,7 +26,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="phases_completed",
         unit="1",
-        meaning="how many of the states were completed",
+        meaning="number of completed states",
         better=Direction.HIGHER,
         trial=Aggregation.COMPUTED,
         phase=None,
@@ -34,7 +34,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="phases_total",
         unit="1",
-        meaning="how many states the task has",
+        meaning="number of states of the task",
         trial=Aggregation.COMPUTED,
         phase=None,
     ),
@@ -71,7 +71,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="motion_time_s",
         unit="s",
-        meaning="simulated time of all states, planning not counted",
+        meaning="simulated time of all states, without planning",
         better=Direction.LOWER,
         trial=Aggregation.COMPUTED,
         phase=None,
@@ -115,7 +115,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="slip_m",
         unit="m",
-        meaning="greatest distance of the object from where it was grasped in the hand",
+        meaning="greatest displacement of the object in the hand since the grasp",
         better=Direction.LOWER,
         trial=Aggregation.GREATEST,
         fidelities=WITH_CONTACT,
@@ -155,7 +155,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="place_error_m",
         unit="m",
-        meaning="horizontal distance of the placed object from where it should stand",
+        meaning="horizontal position error of the placed object",
         better=Direction.LOWER,
         trial=Aggregation.LAST,
         fidelities=WITH_CONTACT,
@@ -163,7 +163,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="place_tilt_rad",
         unit="rad",
-        meaning="angle by which the placed object leans",
+        meaning="tilt of the placed object",
         better=Direction.LOWER,
         trial=Aggregation.LAST,
         fidelities=WITH_CONTACT,
@@ -196,7 +196,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="most_loaded_joint",
         unit="1",
-        meaning="number of the joint that came nearest to its torque limit, from 1",
+        meaning="number of the joint nearest to its torque limit, from 1",
         trial=Aggregation.OF_GREATEST,
         fidelities=WITH_TORQUES,
         source="peak_joint_torque_ratio",
@@ -220,7 +220,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="fastest_joint",
         unit="1",
-        meaning="number of the joint that came nearest to its speed limit, from 1",
+        meaning="number of the joint nearest to its speed limit, from 1",
         trial=Aggregation.OF_GREATEST,
         source="peak_joint_speed_ratio",
     ),
@@ -235,7 +235,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="governing_joint",
         unit="1",
-        meaning="number of the joint that came nearest to a limit of torque or of speed, from 1",
+        meaning="number of the joint nearest to a limit of torque or of speed, from 1",
         trial=Aggregation.OF_GREATEST,
         fidelities=WITH_TORQUES,
         source="peak_joint_utilisation",
@@ -243,7 +243,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="joint_work_j",
         unit="J",
-        meaning="mechanical work of the joints, the sum of ∫abs(τ q̇)dt: braking takes energy and none is recovered",
+        meaning="mechanical work of the joints without recuperation, the sum of ∫abs(τ q̇)dt",
         better=Direction.LOWER,
         trial=Aggregation.SUM,
         fidelities=WITH_TORQUES,
@@ -251,7 +251,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="joint_net_work_j",
         unit="J",
-        meaning="net work of the joints, the sum of ∫τ q̇ dt: what braking gives back is recovered in full",
+        meaning="net work of the joints with full recuperation, the sum of ∫τ q̇ dt",
         better=Direction.LOWER,
         trial=Aggregation.SUM,
         fidelities=WITH_TORQUES,
@@ -266,14 +266,14 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="path_clearance_min_m",
         unit="m",
-        meaning="least distance of arm, gripper and what it carries from scene and standing object along the moves",
+        meaning="least distance of arm, gripper and carried object from scene and placed object along the moves",
         better=Direction.HIGHER,
         trial=Aggregation.LEAST,
     ),
     MetricDescriptor(
         name="tracking_error_m",
         unit="m",
-        meaning="greatest distance of the grasp centre from where it should be",
+        meaning="greatest tracking error of the grasp centre",
         better=Direction.LOWER,
         trial=Aggregation.GREATEST,
     ),
@@ -289,7 +289,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="duration_s",
         unit="s",
-        meaning="simulated time that it took",
+        meaning="simulated time of the phase",
         better=Direction.LOWER,
         phase=PhaseValue.RECORDED,
     ),

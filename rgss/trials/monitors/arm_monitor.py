@@ -42,30 +42,30 @@ class ArmMonitor:
         *,
         path_m: Sequence[Sequence[float]] | Array = (),
     ) -> None:
-        """Begin at rest.
+        """Start at rest.
 
         Args:
-            kinematics: The arm's, with the tool at the grasp centre.
+            kinematics: Kinematics of the arm, with the tool at the grasp centre.
             robot: The arm.
-            control: How far the tool may stray, and how its acceleration is averaged.
+            control: Tolerance of the tool's tracking error, and averaging of its acceleration.
             settings: Length of a step.
-            path_m: Where the tool should be in the world, at the start of a move and after each of its steps; empty
-                where the arm is held.
+            path_m: Target positions of the tool in the world, at the start of a move and after each of its steps; empty
+                if the arm is at rest.
         """
         self._kinematics = kinematics
         self._joints = robot.joints
         self._limit_m = control.largest_tracking_error_m
-        # A joint that is off by an angle moves the tool by at most the angle times the reach.
+        # An angular error of a joint moves the tool by at most the error times the reach.
         self._near_rad = self._limit_m / (kinematics.reach_m * math.sqrt(len(robot.joints)))
         self._step_s = settings.step_s
         self._window = max(1, round(control.acceleration_window_s * settings.rate_hz))
-        # Velocities and torques of the steps in which the arm was held; those of a move have positions too.
+        # Velocities and torques of the steps at rest; those of a move have positions too.
         self._held = array("d")
         self._followed = array("d")
         self._path_m = path_m
 
     def note(self, state: JointState) -> None:
-        """Add a step in which the arm is held where it is.
+        """Add a step at rest.
 
         Args:
             state: The joints' positions (rad), velocities (rad/s) and torques (N·m) after it.
@@ -77,10 +77,10 @@ class ArmMonitor:
 
         Args:
             state: The joints' positions (rad), velocities (rad/s) and torques (N·m) after it.
-            target_rad: Where the joints should be.
+            target_rad: Target positions of the joints.
 
         Returns:
-            What is wrong, if the tool is farther from where it should be than it may be.
+            The violation, if the tracking error of the tool exceeds its limit.
         """
         positions, velocities, torques = state
         self._followed.extend(positions + velocities + torques)
@@ -93,7 +93,7 @@ class ArmMonitor:
         return self._observed({}).tracking_failure(error)
 
     def metrics(self) -> dict[str, Metric]:
-        """The observations by name with unit; those of the tool are missing where it did not follow a path."""
+        """Metrics by name with unit; those of the tool are missing if it did not follow a path."""
         return self._observed(self._tool()).metrics()
 
     def _tool(self) -> Mapping[str, Metric]:
@@ -113,7 +113,7 @@ class ArmMonitor:
 
     def _observed(self, tool: Mapping[str, Metric]) -> ArmObservations:
         arm = ArmObservations(self._joints, self._step_s)
-        # A phase holds the arm or moves it.
+        # In a phase the arm is either at rest or moves.
         held, moved = np.array(self._held).reshape(-1, 2, len(self._joints)), np.array(self._states())
         arm.note_steps(held[:, 1], held[:, 0])
         arm.note_steps(moved[:, 2], moved[:, 1])

@@ -1,4 +1,4 @@
-"""Conditions of a check step, evaluated on the object as it is."""
+"""Conditions of a check step, evaluated on the true state of the object."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ Point = tuple[float, float, float]
 
 
 def violated_condition(world: ContactWorld, control: ControlSettings, step: CheckStep, before: Pose) -> str:
-    """The first condition that does not hold, with its numbers; empty if all hold.
+    """Message of the first violated condition, with its numbers; empty if all hold.
 
     Args:
-        world: The world after the time in which rest is observed.
+        world: The world after the observation time of rest.
         control: Thresholds of rest.
         step: The conditions.
         before: Transform of the object to the world before that time.
@@ -37,7 +37,7 @@ def violated_condition(world: ContactWorld, control: ControlSettings, step: Chec
             allowed = f"at most {step.near.within_m * 1e3:g} mm are allowed"
             return f"the centre of {name} is {distance_m * 1e3:.1f} mm from {name_of_point}, {allowed}"
     if step.is_upright and pose.tilt_rad > about.place.largest_tilt_rad:
-        return f"{name} leans by {math.degrees(pose.tilt_rad):.1f} deg"
+        return f"{name} is tilted by {math.degrees(pose.tilt_rad):.1f} deg"
     if step.is_at_rest:
         moved_m = configuration_distance_m(before, pose, about.workpiece.shape.half_height_m)
         if moved_m > control.settled_speed_m_s * control.settled_s:
@@ -51,10 +51,10 @@ def violated_condition(world: ContactWorld, control: ControlSettings, step: Chec
 
 
 def _point(world: ContactWorld, near: Nearness, half_height_m: float) -> tuple[Point, str]:
-    """The point of the world that an object must be near, and its name."""
+    """Reference point of a nearness condition in the world, and its name."""
     if near.point_m is not None:
         return near.point_m, "the point"
     if near.object:
         return world.object_pose(near.object).position_m, f"that of {near.object}"
     x, y, z = next(one.region for one in world.scene.places if one.id == near.place).centre_m
-    return (x, y, z + half_height_m), f"where it stands at {near.place}"
+    return (x, y, z + half_height_m), f"its position at {near.place}"

@@ -1,4 +1,4 @@
-"""Monitor of an object that is let go of: the opening hand must not drag it along."""
+"""Monitor of a release: the opening hand must not drag the object."""
 
 from __future__ import annotations
 
@@ -13,21 +13,20 @@ from rgss.trials.plants import ControlSettings
 
 
 class DragMonitor:
-    """Monitor of a release: the displacement of the object by the hand from the command to open on.
+    """Monitor of the displacement of the object by the hand, from the command to open on.
 
-    A displacement counts while a finger has done more work on the object than it took since the two touched, and on
-    until the object is still: what was dragged may slide on. A fall, a landing, and an object that strikes a finger
-    or leans on it do not count. Displaced is the foot, the centre of the bottom face, horizontally: an object that
-    leans stays on its foot as it lands and rights itself.
-    What the object leans more counts with half of its height.
+    A displacement counts while the net work of a finger on the object since contact is positive, and until the object
+    is at rest, since a dragged object may slide on. A fall, a landing, and an object that strikes a finger or leans on
+    it do not count. The displacement is horizontal, of the centre of the bottom face: a tilted object lands on its edge
+    and rights itself without displacing it. An increase of the tilt counts with half of the object's height.
     """
 
     def __init__(self, world: ContactWorld, control: ControlSettings) -> None:
-        """Begin when the hand still holds the object.
+        """Start while the hand still holds the object.
 
         Args:
-            world: The world that is stepped.
-            control: The speed below which the object is still.
+            world: The world.
+            control: Speed below which the object is at rest.
         """
         self._world = world
         self._largest_m = world.scene.place.largest_drag_m
@@ -41,7 +40,7 @@ class DragMonitor:
         self._moved_m = 0.0
 
     def after_step(self, contacts: Contacts) -> Violation | None:
-        """Observe the world after a step; returns what goes wrong."""
+        """Observe the world after a step; returns a violation, if any."""
         before, now = self._pose, self._world.workpiece_pose()
         self._pose = now
         was, foot_m = self._foot_m(before), self._foot_m(now)
@@ -67,14 +66,14 @@ class DragMonitor:
         )
 
     def metrics(self) -> dict[str, Metric]:
-        """The observations by name with unit."""
+        """Metrics by name with unit."""
         return {"workpiece_displacement_m": self._moved_m}
 
     def _foot_m(self, pose: Pose) -> tuple[float, float, float]:
         return (pose @ Pose(position_m=(0.0, 0.0, -self._half_height_m))).position_m
 
     def _driving(self, before: Pose, now: Pose, forces_n: Sequence[float]) -> int | None:
-        """The finger that has done most work on the object since they touched; None if no work is above zero."""
+        """Finger with the greatest net work on the object since contact; None if no work is positive."""
         work_j = self._work_j
         for finger, force_n in enumerate(forces_n):
             if force_n <= 0.0:

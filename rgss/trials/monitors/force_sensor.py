@@ -1,7 +1,7 @@
 """Force sensors in the fingers: the normal force averaged over a moving window.
 
-The normal force in a step is the impulse in it divided by its length, and so the peak of an impact belongs to the
-step as much as to the impact. The impulse over a stated window does not: as the step shrinks, it converges.
+The normal force in a step is its impulse divided by its length, so the peak of an impact depends on the step length.
+The impulse over a fixed window converges as the step shrinks.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from collections.abc import Sequence
 class ForceSensor:
     """Moving average of each finger's normal force, with its greatest value.
 
-    The window is kept exactly: where it is not a whole number of steps, the oldest step counts in part. A window
-    shorter than a step is that step.
+    The window is exact: if it is not a whole number of steps, the oldest step is weighted in part. A window shorter
+    than a step is that step.
 
     Attributes:
         peak_n: Greatest average of any finger since the last restart.
     """
 
     def __init__(self, window_s: float, rate_hz: float) -> None:
-        """Begin without a force.
+        """Start without a force.
 
         Args:
             window_s: Length of the window.
@@ -50,7 +50,7 @@ class ForceSensor:
                     self.peak_n = mean
 
     def restart(self) -> None:
-        """Forget the peak; what is in the window stays in it."""
+        """Reset the peak; the window is kept."""
         self.peak_n = 0.0
         self._rising = len(self._weights)
 

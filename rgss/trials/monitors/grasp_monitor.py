@@ -1,4 +1,4 @@
-"""The grasp over a phase in which the object is carried: sampled at a fixed rate, kept at its worst."""
+"""Monitor of the grasp while the object is carried: sampled at a fixed rate, with the worst values."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from rgss.trials.plants import ControlSettings
 class GraspMonitor:
     """Monitor of the object in the hand, with periodic analyses of the grasp.
 
-    Beside the worst values it counts the samples in which the grasp was force-closed.
+    It also counts the samples in force closure.
 
     Attributes:
-        slip_m: Greatest distance of the object from where it was grasped.
+        slip_m: Greatest displacement of the object in the hand since the grasp.
     """
 
     def __init__(
@@ -28,10 +28,10 @@ class GraspMonitor:
         """Take the first sample.
 
         Args:
-            world: The world that is stepped.
-            control: How often to look, and to analyse.
-            held_at: Transform of the object to the grasp centre when it was grasped.
-            memory: Remembers the analysis of this grasp from one look to the next.
+            world: The world.
+            control: Rates of pose samples and of grasp analyses.
+            held_at: Transform of the object to the grasp-centre frame at the grasp.
+            memory: Cache of the grasp analysis between samples.
         """
         self.slip_m = 0.0
         self._world = world
@@ -46,10 +46,10 @@ class GraspMonitor:
         self._samples: list[dict[str, Metric]] = []
 
     def after_step(self) -> float | None:
-        """Look, if it is time.
+        """Take a sample, if due.
 
         Returns:
-            How far the object is from where it was grasped (m); None if it was not looked at.
+            Displacement of the object in the hand since the grasp (m); None without a sample.
         """
         self._steps += 1
         if self._steps % self._look_every:
@@ -60,10 +60,10 @@ class GraspMonitor:
         return slip
 
     def finish(self) -> float:
-        """Look and analyse at the end of the phase, whatever the time.
+        """Take a sample and analyse the grasp at the end of the phase.
 
         Returns:
-            How far the object is from where it was grasped (m).
+            Displacement of the object in the hand since the grasp (m).
         """
         slip = self._look()
         if self._sampled_at == self._steps and self._samples:
@@ -72,7 +72,7 @@ class GraspMonitor:
         return slip
 
     def metrics(self) -> dict[str, Metric]:
-        """The worst of each measure over the phase, and the number of samples with contact points to analyse."""
+        """Worst value of each metric over the phase, and the number of analysed samples."""
         analysed = [sample for sample in self._samples if "grasp_force_closure" in sample]
         return {
             **worst_of(self._samples),

@@ -1,4 +1,4 @@
-"""Analysis of the simulated grasp at one instant, for the record."""
+"""Grasp metrics of the simulated grasp at one instant, for the record."""
 
 from __future__ import annotations
 
@@ -50,15 +50,14 @@ _ANALYSED = (
     "q_smw_n",
     "load_factor_1",
 )
-# A pyramid of six edges underrates friction by at most 1 - cos(30°); more edges cost more than the physics.
+# A pyramid of six edges underestimates friction by at most 1 - cos(30°); more edges take longer than the physics.
 _CONE_EDGES = 6
-# Contacts of the engine penetrate by hundredths of a millimetre beyond a pad's deflection; a held object turns and
-# yields in its fingers by less than as much from one look to the next (0.35 mm/s was seen; an object that slips is ten
-# times as fast).
+# Contacts of the engine penetrate by hundredths of a millimetre beyond a pad's deflection; a held object moves in its
+# fingers by less than that between samples (0.35 mm/s was observed; a slipping object is ten times as fast).
 _PENETRATION_M, _SLIP_M_S = 5.0e-5, 1.0e-3
-# A point this far inside is not on the wall.
+# A point deeper than this is not on the wall.
 _WALL_M = 1.0e-3
-# Metrics of a lost grasp: it holds nothing, and everything else is undefined.
+# Metrics of a lost grasp: no closure, all others are undefined.
 _APART: Mapping[str, Metric] = {
     **{f"grasp_{name}": 0 for name in ("contact_count", "equilibrium", "force_closure", "form_closure")},
     **{f"grasp_{name}": 0.0 for name in ("q_msv_1", "q_voe_1", "q_gii_1", "q_smw_n", "load_factor_1")},
@@ -69,26 +68,27 @@ _APART: Mapping[str, Metric] = {
 def grasp_metrics(
     world: ContactWorld, motion: HandMotion, held_at: Pose, memory: GraspGeometryCache, *, strength: bool = True
 ) -> dict[str, Metric]:
-    """Analyse the contacts between fingers and workpiece, and the workpiece in the hand, as they are now.
+    """Metrics of the present contacts between fingers and workpiece, and of the workpiece's motion in the hand.
 
-    The contacts are hard points with friction, in the workpiece's frame; torques are divided by the workpiece's
-    greatest distance from its vertical axis, so that grasps of one object can be compared; the load is its weight.
+    The contacts are points with friction in the workpiece's frame; the characteristic length of torques is the
+    workpiece's greatest distance from its vertical axis, so that grasps of one object are comparable; the load is its
+    weight.
 
     Args:
         world: The world after a step.
-        motion: What happened in the hand until now.
-        held_at: Transform of the workpiece to the grasp centre when it was grasped.
-        memory: Remembers the analysis of this grasp from one look to the next.
-        strength: Whether to say what the grasp resists, which takes most of the time.
+        motion: Motion in the hand.
+        held_at: Transform of the workpiece to the grasp-centre frame at the grasp.
+        memory: Cache of the grasp analysis between samples.
+        strength: True to compute the strength of the grasp, which takes most of the time.
 
     Returns:
-        The measures by name with unit; those that need a contact are 0 or missing where no finger touches.
+        Metrics by name with unit; without a contact those that need one are 0 or missing.
     """
     workpiece, gripper = world.scene.workpiece, world.gripper
     contacts = world.finger_contacts()
     moved = _motion_in_the_hand(motion, held_at, girth_radius_m(workpiece.shape))
     if gripper.suction is not None:
-        return moved  # a seal is one surface, whose grasp no set of contact points describes
+        return moved  # a seal is one surface, which contact points do not describe
     if not contacts:
         return {**_APART, **moved}
     closing = [
@@ -119,7 +119,7 @@ def grasp_metrics(
 
 
 def worst_of(samples: Iterable[Mapping[str, Metric]]) -> dict[str, Metric]:
-    """The worst of each metric over several instants, by its preferred direction; without those that none has."""
+    """Worst value of each metric over several samples, by its preferred direction, if it has any value."""
     rows = list(samples)
     worst: dict[str, Metric] = {}
     for name, choose in _WORST.items():
@@ -137,7 +137,7 @@ def _point(
     fx, fy, fz = contact.friction_n
     force = contact.normal_force_n
     fx, fy, fz = fx + force * nx, fy + force * ny, fz + force * nz
-    # The force is what the engine had; how much of it is pressure depends on the normal.
+    # The total force is the engine's; its split into normal and friction force depends on the normal.
     pressure = max(0.0, fx * normal[0] + fy * normal[1] + fz * normal[2])
     vx, vy, vz = motion.velocity_at(contact.position_m)
     return ContactPoint(
@@ -154,7 +154,7 @@ def _point(
 
 
 def _wall_normal(contact: FingerContact, shape: ObjectShape) -> Vector3:
-    """The normal of the wall where that is what is touched; the engine's may be of an earlier moment."""
+    """Normal of the wall if the contact is on it; the engine's normal may be outdated."""
     if not isinstance(shape, Cylinder):
         return contact.normal
     x, y, z = contact.position_m
@@ -165,18 +165,18 @@ def _wall_normal(contact: FingerContact, shape: ObjectShape) -> Vector3:
 
 
 def _closing_velocity(azimuth_rad: float, speed_m_s: float, motion: HandMotion) -> Vector3:
-    """Velocity of a closing finger in the object's frame; fingers close across the tool's axis."""
+    """Velocity of a closing finger in the object's frame; fingers close perpendicular to the tool's axis."""
     return motion.held.inverse_rotate((-speed_m_s * math.cos(azimuth_rad), -speed_m_s * math.sin(azimuth_rad), 0.0))
 
 
 def _tolerances(world: ContactWorld) -> ContactTolerances:
-    """Tolerances of the contact status; a pad may yield by what all of its finger's force deflects one of its ends."""
+    """Tolerances of the contact status; a pad may deflect by the finger's full force on one of its ends."""
     yields_m = world.gripper.finger_force_n / (world.settings.pad_stiffness_n_m / RIBS)
     return ContactTolerances(gap_m=_PENETRATION_M + yields_m, speed_m_s=_SLIP_M_S)
 
 
 def _kinematics(points: Sequence[ContactPoint], tolerances: ContactTolerances) -> dict[str, Metric]:
-    """Kinematics of the contacts: gap and its rate, slip, and counts by status."""
+    """Contact kinematics: gap and its rate, slip, and counts by status."""
     motions = [recorded_motion(point) for point in points]
     statuses = [contact_status(motion, tolerances) for motion in motions]
     rates = [motion.gap_rate_m_s for motion in motions]
@@ -193,7 +193,7 @@ def _kinematics(points: Sequence[ContactPoint], tolerances: ContactTolerances) -
 
 
 def _motion_in_the_hand(motion: HandMotion, held_at: Pose, radius_m: float) -> dict[str, Metric]:
-    """The rigid-body measures: how far the workpiece is from where it was grasped, and how fast it moves there."""
+    """Rigid-body norms of the workpiece's displacement in the hand since the grasp, and of its velocity."""
     linear, angular = motion.twist()
     return {
         "held_distance_m": configuration_distance_m(held_at, motion.held, radius_m),

@@ -1,4 +1,4 @@
-"""Estimate of the grip from sensed forces and the believed object."""
+"""Estimate of the grip margin from sensed forces and assumed object properties."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class ForceSensorErrors:
 
     Attributes:
         noise_n: Standard deviation of white noise, drawn in each step for each finger.
-        offset_n: What is added to each reading.
+        offset_n: Offset of each reading.
         delay_s: Age of a reading, in whole steps.
     """
 
@@ -29,11 +29,11 @@ class ForceSensorErrors:
 
 
 class GripEstimate:
-    """Estimate of the grip margin: friction available over friction needed, of sensed forces and believed values.
+    """Estimate of the grip margin, friction available over friction needed, from sensed forces and assumed properties.
 
     Attributes:
-        mass_kg: Mass of the object as the robot believes it.
-        friction: Coefficient of a finger on the object as the robot believes it.
+        mass_kg: Mass of the object assumed by the robot.
+        friction: Coefficient of a finger on the object assumed by the robot.
     """
 
     def __init__(
@@ -48,17 +48,17 @@ class GripEstimate:
         seed: int,
         noise_of: str = "",
     ) -> None:
-        """Begin without a reading.
+        """Start without a reading.
 
         Args:
             errors: Errors of the sensors.
-            mass_kg: The believed mass.
-            friction: The believed coefficient of a finger on the object.
+            mass_kg: The assumed mass.
+            friction: The assumed coefficient of a finger on the object.
             fingers: Number of fingers.
-            window_s: Time over which forces are averaged.
+            window_s: Averaging window of the forces.
             rate_hz: Steps a second.
             seed: The trial's seed; a finger has the same noise in every design.
-            noise_of: Id of a further object, which has noise of its own; empty for the first.
+            noise_of: Id of a further object, which has its own noise; empty for the first.
         """
         self.mass_kg = mass_kg
         self.friction = friction
@@ -73,11 +73,11 @@ class GripEstimate:
         self._noise_n: list[list[float]] = []
 
     def begin_phase(self) -> None:
-        """Begin a new average."""
+        """Reset the average."""
         self._sums_n.clear()
 
     def read(self, forces_n: Sequence[float]) -> tuple[float, ...]:
-        """The readings of a step; before the first is as old as the delay, those of untouched sensors.
+        """Readings of a step; those of unloaded sensors during the initial delay.
 
         Args:
             forces_n: The true normal force of each finger.
@@ -86,18 +86,18 @@ class GripEstimate:
         late.append(tuple(forces_n))
         seen = late[0] if len(late) == late.maxlen else (0.0,) * self._fingers
         noise_n = self._noise()
-        # A sensor of pressure reports no pull.
+        # A pressure sensor does not report tension.
         return tuple([max(0.0, force + errors.offset_n + noise) for force, noise in zip(seen, noise_n, strict=True)])
 
     def after_step(self, forces_n: Sequence[float], load_m_s2: float) -> float | None:
-        """Take the forces of a step in which the object is carried.
+        """Add the forces of a step in which the object is carried.
 
         Args:
             forces_n: The true normal force of each finger.
             load_m_s2: Tool acceleration minus gravity, in magnitude.
 
         Returns:
-            The estimated margin; None before a window of readings is full.
+            The estimated margin; None before the window is full.
         """
         window = self._sums_n
         window.append(math.fsum(self.read(forces_n)))

@@ -1,4 +1,4 @@
-"""Motion of the object and the fingers in the hand, by differences of poses."""
+"""Motion of object and fingers in the hand, by differences of poses."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ _Triple = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class HandMotion:
-    """Object and fingers at the ends of a short time.
+    """Motion of object and fingers in the hand over a short interval.
 
-    Velocities are from places, not from the engine's velocities: of bodies that go round a bend
-    together these differ by the acceleration times a step, which is not slip.
+    Velocities are computed from poses, not from the engine's velocities: for bodies that move together along a curve
+    these differ by the acceleration times a step, which is not slip.
 
     Attributes:
-        before: Transform of the object to the grasp centre at the start.
-        held: The same at the end.
-        closing_m_s: Speed at which each finger closes.
-        span_s: The time between the two.
+        before: Transform of the object to the grasp-centre frame at the start.
+        held: Transform of the object to the grasp-centre frame at the end.
+        closing_m_s: Closing speed of each finger.
+        span_s: Length of the interval.
     """
 
     before: Pose
@@ -30,7 +30,7 @@ class HandMotion:
     span_s: float
 
     def velocity_at(self, point_m: _Triple) -> _Triple:
-        """Velocity (m/s) in the hand of a point of the object, which is given and answered in the object's frame."""
+        """Velocity (m/s) of a point of the object relative to the hand; point and result in the object's frame."""
         (ax, ay, az), (bx, by, bz) = self.held.rotate(point_m), self.before.rotate(point_m)
         (px, py, pz), (qx, qy, qz) = self.held.position_m, self.before.position_m
         span_s = self.span_s
@@ -41,7 +41,7 @@ class HandMotion:
         """Velocity (m/s) of the object's centre and angular velocity (rad/s) of the object, in the hand's frame."""
         now, then = self.held.position_m, self.before.position_m
         x, y, z = ((one - other) / self.span_s for one, other in zip(now, then, strict=True))
-        # A rotation by so little that its vector is twice the quaternion's.
+        # For a small rotation the rotation vector is twice the quaternion's vector part.
         turned = self.held @ self.before.inverse()
         qx, qy, qz, qw = turned.quaternion_xyzw
         scale = (2.0 if qw > 0.0 else -2.0) / self.span_s
@@ -49,13 +49,13 @@ class HandMotion:
 
 
 class InHandMotionTracker:
-    """Tracker of the motion in the hand, with the last sample."""
+    """Tracker of the motion in the hand."""
 
     def __init__(self, world: ContactWorld) -> None:
         """Take the first sample.
 
         Args:
-            world: The world that is stepped.
+            world: The world.
         """
         self._world = world
         self._at = 0
@@ -84,10 +84,10 @@ class InHandMotionTracker:
         """Take a sample.
 
         Args:
-            steps: Steps since the first look.
+            steps: Steps since the first sample.
 
         Returns:
-            What is seen now.
+            The present sample.
         """
         if steps != self._at:
             self._earlier, self._motion = (self._at, self._view), None

@@ -18,12 +18,12 @@ class StepObserver(Protocol):
         grip_margin: float | None,
         commanded_force_n: float | None,
     ) -> None:
-        """Take note of a step.
+        """Receive a step.
 
         Args:
             world: The world after the step.
-            phase: The phase to which the step belongs.
+            phase: The phase of the step.
             contacts: The contacts of the step.
-            grip_margin: Friction available over friction needed; None while it is not known.
-            commanded_force_n: Commanded force of each finger; None while it opens.
+            grip_margin: Friction available over friction needed; None while unknown.
+            commanded_force_n: Commanded force of each finger; None while the hand opens.
         """

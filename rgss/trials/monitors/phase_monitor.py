@@ -23,10 +23,10 @@ class PhaseMonitor:
     """Accumulator of the observations of one phase, with its first failure.
 
     Attributes:
-        failure: The first thing that went wrong; None so far.
-        detail: The numbers that show it.
-        grip_margin: Friction available over friction needed as last observed; None so far.
-        robot_touched_object: Whether a finger or another link pressed the object so far.
+        failure: The first failure; None so far.
+        detail: Numbers of the failure.
+        grip_margin: Last observed friction available over friction needed; None so far.
+        robot_touched_object: Whether any link of the robot has been in contact with the object.
     """
 
     def __init__(
@@ -45,17 +45,16 @@ class PhaseMonitor:
         """Start the monitor.
 
         Args:
-            world: The world that is stepped.
-            kinematics: The arm's, with the tool at the grasp centre.
+            world: The world.
+            kinematics: Kinematics of the arm, with the tool at the grasp centre.
             control: Thresholds.
-            carried_at: Transform of the object to the grasp centre when it was grasped; None
-                when it is not carried.
+            carried_at: Transform of the object to the grasp-centre frame at the grasp; None if it is not carried.
             resting_on: The body that the object may touch in this phase; empty for none.
-            path_m: Where the tool should be in the world, at the start of a move and after each of its steps; empty
-                where the arm is held.
-            memory: Remembers the analysis of a carried object's grasp from one phase to the next.
-            placed: Monitor of the object that was released, if the hand leaves it.
-            sensor: The fingers' force sensors, which go on from one phase to the next; new ones if not given.
+            path_m: Target positions of the tool in the world, at the start of a move and after each of its steps; empty
+                if the arm is at rest.
+            memory: Cache of the grasp analysis across phases.
+            placed: Monitor of the released object, if the hand leaves it.
+            sensor: The fingers' force sensors, shared across phases; new ones by default.
         """
         self.failure: Failure | None = None
         self.detail = ""
@@ -78,7 +77,7 @@ class PhaseMonitor:
         self._touches = 0
         self._peak_force_n = 0.0
         self._margin = math.inf
-        # While the hand is empty and moves, the object stands.
+        # While the hand is empty and moves, the object is at rest.
         self._is_empty_handed = carried_at is None
         self._standing: Contacts | None = None
         self._arm = ArmMonitor(kinematics, world.scene.robot, control, world.settings, path_m=path_m)
@@ -92,13 +91,13 @@ class PhaseMonitor:
 
         Args:
             load_m_s2: Tool acceleration minus gravity, in magnitude.
-            target_rad: Where the joints should be; None where the arm is held.
+            target_rad: Target positions of the joints; None if the arm is at rest.
         """
         world = self._world
         contacts = world.contacts(self._standing)
-        # A check that passed in the step before need not be repeated.
+        # A check that passed in the previous step need not be repeated.
         if contacts is not self._standing:
-            self._watch_touching(contacts)
+            self._check_contacts(contacts)
             is_standing = self._is_empty_handed and target_rad is not None and not contacts.is_robot_touching
             self._standing = contacts if is_standing else None
             if self._placed is not None:
@@ -110,21 +109,21 @@ class PhaseMonitor:
         elif (stray := self._arm.follow(world.arm_state(), target_rad)) is not None:
             self.fail(Failure.TRACKING_ERROR, stray)
         if self._grasp is not None:
-            self._watch_grip(contacts.finger_forces_n, load_m_s2)
+            self._check_grip(contacts.finger_forces_n, load_m_s2)
             slip_m = self._grasp.after_step()
             if slip_m is not None:
-                self._watch_slip(slip_m)
+                self._check_slip(slip_m)
         return contacts
 
     def finish(self) -> None:
-        """Observe a carried or released object at the end of the phase."""
+        """Final observation of a carried or released object at the end of the phase."""
         if self._placed is not None:
             self.note(self._placed.finish())
         if self._grasp is not None:
-            self._watch_slip(self._grasp.finish())
+            self._check_slip(self._grasp.finish())
 
     def fail(self, failure: Failure, detail: str) -> None:
-        """Record a failure, unless there was one before."""
+        """Record a failure, unless one is recorded."""
         if self.failure is None:
             self.failure, self.detail = failure, detail
 
@@ -134,7 +133,7 @@ class PhaseMonitor:
             self.fail(*violation)
 
     def metrics(self) -> dict[str, Metric]:
-        """The observations by name with unit."""
+        """Metrics by name with unit."""
         grasp = self._grasp
         return {
             "arm_scene_contacts": self._touches,
@@ -147,7 +146,7 @@ class PhaseMonitor:
             **(self._placed.metrics() if self._placed is not None else {}),
         }
 
-    def _watch_touching(self, contacts: Contacts) -> None:
+    def _check_contacts(self, contacts: Contacts) -> None:
         forces_n, other_n, _, robot_bodies, workpiece_bodies = contacts
         force_n = max(forces_n)
         if force_n > self._peak_force_n:
@@ -174,10 +173,10 @@ class PhaseMonitor:
             self.fail(
                 Failure.OBJECT_DAMAGED,
                 f"a finger pressed with {sensor.peak_n:.2f} N over {window_ms:g} ms, "
-                f"the object bears {self._limit_n:g} N",
+                f"above its limit of {self._limit_n:g} N",
             )
 
-    def _watch_grip(self, forces_n: tuple[float, ...], load_m_s2: float) -> None:
+    def _check_grip(self, forces_n: tuple[float, ...], load_m_s2: float) -> None:
         window = self._forces_n
         window.append(math.fsum(forces_n))
         if len(window) == self._window:
@@ -185,7 +184,7 @@ class PhaseMonitor:
             self.grip_margin = margin
             if margin < self._margin:
                 self._margin = margin
-        # Mostly all of them press, which is decided first.
+        # The common case, in which all fingers press, is decided first.
         if min(forces_n) > 0.0:
             self._lost_s = 0.0
             return
@@ -198,6 +197,6 @@ class PhaseMonitor:
             lost = f"{touching} fingers touched the object for {self._lost_s * 1e3:.0f} ms"
             self.fail(Failure.OBJECT_DROPPED, self._world.grip_fault or lost)
 
-    def _watch_slip(self, slip_m: float) -> None:
+    def _check_slip(self, slip_m: float) -> None:
         if slip_m > self._control.largest_slip_m:
             self.fail(Failure.OBJECT_DROPPED, f"the object slipped {slip_m * 1e3:.1f} mm in the gripper")

@@ -1,4 +1,4 @@
-"""Monitors of an object that is set down: its landing, and its displacement by the robot afterwards."""
+"""Monitors of a released object: its landing, and its displacement by the robot afterwards."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ Violation = tuple[Failure, str]
 
 
 class LandingMonitor:
-    """Monitor of a release: the height that the object falls, and its velocity change as it lands.
+    """Monitor of the landing: drop height of the object, and its velocity change on landing.
 
-    The velocity change is the impulse of the support over a window, less that of the weight, over the mass. It
-    converges to the speed of the fall, sqrt(2 g h), as the step shrinks, and does not depend on the mass. One step of
-    the fall is lost: at most 1.5 g dt.
+    The velocity change is the impulse of the support over a window, minus that of the weight, divided by the mass. It
+    converges to the speed of the fall, sqrt(2 g h), as the step shrinks, and does not depend on the mass. The error is
+    up to one step of the fall: at most 1.5 g dt.
     """
 
     def __init__(self, world: ContactWorld) -> None:
-        """Begin when the hand still holds the object.
+        """Start while the hand still holds the object.
 
         Args:
-            world: The world that is stepped.
+            world: The world.
         """
         scene = world.scene
         self._world = world
@@ -32,7 +32,7 @@ class LandingMonitor:
         workpiece = scene.workpiece
         self._limit_m_s = workpiece.landing_limit_m_s
         self._weight_n = workpiece.mass_kg * scene.gravity_m_s2
-        # A window that is shorter than a step is that step.
+        # A window shorter than a step is one step.
         self._over_mass_s_kg = max(workpiece.force_window_s, world.settings.step_s) / workpiece.mass_kg
         self._sensor = ForceSensor(workpiece.force_window_s, world.settings.rate_hz)
         self._height_m = lowest_point_m(world.workpiece_pose(), scene.workpiece.shape) - scene.place.centre_m[2]
@@ -43,18 +43,18 @@ class LandingMonitor:
         return max(0.0, self._sensor.peak_n - self._weight_n) * self._over_mass_s_kg
 
     def after_step(self) -> Violation | None:
-        """Observe the world after a step; returns what goes wrong."""
+        """Observe the world after a step; returns a violation, if any."""
         self._sensor.note((self._world.support_force_n(),))
         speed_m_s = self.speed_m_s
         if speed_m_s <= self._limit_m_s:
             return None
         return Failure.OBJECT_DAMAGED, (
             f"the object landed with {speed_m_s:.2f} m/s after a drop of {self._height_m * 1e3:.1f} mm, "
-            f"it bears {self._limit_m_s:g} m/s"
+            f"above its limit of {self._limit_m_s:g} m/s"
         )
 
     def after_opening(self) -> Violation | None:
-        """Judge the height of the release; returns what was wrong."""
+        """Check the height of the release; returns a violation, if any."""
         if self._height_m <= self._place.largest_drop_m:
             return None
         return Failure.OBJECT_DROPPED, (
@@ -63,7 +63,7 @@ class LandingMonitor:
         )
 
     def metrics(self) -> dict[str, Metric]:
-        """The observations by name with unit."""
+        """Metrics by name with unit."""
         return {
             "release_height_m": self._height_m,
             "landing_force_n": self._sensor.peak_n,
@@ -72,16 +72,16 @@ class LandingMonitor:
 
 
 class PlacedObjectMonitor:
-    """Monitor of a placed object while the hand leaves it; the robot must not move it any more.
+    """Monitor of a placed object while the hand leaves it; the robot must not move it again.
 
-    A displacement counts from the first touch on, to the end: what was pushed may roll on or fall over.
+    A displacement counts from the first contact to the end: a pushed object may roll on or fall over.
     """
 
     def __init__(self, world: ContactWorld) -> None:
-        """Begin when the object stands and the hand is open.
+        """Start when the object is at rest and the hand is open.
 
         Args:
-            world: The world that is stepped.
+            world: The world.
         """
         self._world = world
         self._largest_m = world.scene.place.largest_drag_m
@@ -92,14 +92,14 @@ class PlacedObjectMonitor:
         self._moved_m = 0.0
 
     def after_step(self, contacts: Contacts) -> Violation | None:
-        """Observe the world after a step; returns what goes wrong."""
+        """Observe the world after a step; returns a violation, if any."""
         force_n = max(contacts.finger_forces_n)
         if force_n > self._force_n:
             self._force_n, self._finger = force_n, contacts.finger_forces_n.index(force_n)
         return None if self._finger is None else self.finish()
 
     def finish(self) -> Violation | None:
-        """Observe the object alone, as at the end; returns what went wrong."""
+        """Final observation of the object; returns a violation, if any."""
         if self._finger is None:
             return None
         stands_at = self._world.workpiece_pose()
@@ -112,12 +112,12 @@ class PlacedObjectMonitor:
         )
 
     def metrics(self) -> dict[str, Metric]:
-        """The observations by name with unit."""
+        """Metrics by name with unit."""
         return {"workpiece_displacement_m": self._moved_m, "touch_force_n": self._force_n}
 
 
 def lowest_point_m(pose: Pose, shape: ObjectShape) -> float:
-    """Height in the world of the lowest point of a solid.
+    """Height in m of the lowest point of a solid in the world.
 
     Args:
         pose: Transform of its frame to the world.

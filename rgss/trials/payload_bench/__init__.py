@@ -1,4 +1,4 @@
-"""The payload bench: the greatest mass that a gripper holds under acceleration."""
+"""Payload bench: the greatest mass that a gripper holds under acceleration."""
 
 from typing import TYPE_CHECKING
 

@@ -1,7 +1,7 @@
-"""The payload bench: the mass at which a gripper first fails, found by bisection.
+"""Payload bench: the mass at which a gripper first fails, by bisection.
 
-The payload depends on the gripper, the object and the acceleration alone, so that one bench is
-evidence for every design with that gripper (MOE 1 and its MOPs; beside eq. 4.8).
+The payload depends only on the gripper, the object and the acceleration, so that one bench is evidence for every design
+with that gripper (MOE 1 and its MOPs; compare eq. 4.8).
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from rgss.trials.payload_bench.spec import BenchSpec
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PayloadResult:
-    """The payload of a gripper at its first failure, beside what theory says.
+    """Payload of a gripper at its first failure, with the theoretical values.
 
     Attributes:
         payload_kg: Greatest mass that was lifted and held; 0 if none was.
-        limited_by: What happened to the mass next above, or `RATED` if all masses were held.
+        limited_by: Failure of the next greater mass, or `RATED` if all masses were held.
         bracket_kg: Greatest mass held and smallest mass not held; both the rated mass if all were held.
         theory_kg: mu N_f F / (g + a_m).
         eq_4_8_kg: The same divided by the safety factor.
-        probes: Every mass that was tried, in order.
+        probes: All probed masses, in order.
     """
 
     payload_kg: float
@@ -38,35 +38,35 @@ class PayloadResult:
 
     @property
     def trials(self) -> int:
-        """Number of masses that were tried."""
+        """Number of probed masses."""
         return len(self.probes)
 
 
 def run_bench(spec: BenchSpec, *, probe_mass: Callable[[BenchSpec, float], Probe] = probe) -> PayloadResult:
     """Find the mass at which the gripper first fails.
 
-    The smallest mass for the solver as it is and the rated mass are tried first, then, if the smallest
-    slips, a still smaller one with more iterations; the bracket between two of them is then halved in
-    proportion. Theory is not used. The search assumes that a gripper that holds a mass also holds any smaller one.
+    The smallest mass for the default solver iterations and the rated mass are probed first; if the smallest slips, a
+    smaller one with more iterations follows; then the bracket is bisected geometrically. Theory is not used. The search
+    assumes that a gripper that holds a mass also holds any smaller one.
 
     Args:
         spec: The bench.
-        probe_mass: What tries one mass.
+        probe_mass: Function that probes one mass.
 
     Raises:
-        DefinitionError: The bench cannot be run as it is specified, or is outside of its validated range.
+        DefinitionError: The specification is invalid, or outside the validated range.
         SimulationError: The physics engine cannot build the rig.
     """
     spec.check()
     strange = outside(spec)
     if strange:
         raise DefinitionError(
-            f"the payload bench is not validated for a {strange[0]}",
-            hint="it answers only where simulation and Coulomb's law agree within 2 %",
+            f"the payload bench is not validated for {strange[0]}",
+            hint="it is valid only where simulation and Coulomb's law agree within 2 %",
         )
     low, high = probe_mass(spec, spec.first_kg), probe_mass(spec, spec.rated_kg)
     probes = [low, high]
-    # On a lighter object the forces and impacts are the same, and it slips later.
+    # A lighter object has the same forces and impacts, and slips later.
     if low.stopped_by is PayloadLimit.SLIP and spec.smallest_kg < low.mass_kg:
         low, high = probe_mass(spec, spec.smallest_kg), low
         probes.append(low)

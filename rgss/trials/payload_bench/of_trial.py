@@ -1,4 +1,4 @@
-"""The payload bench of a trial's gripper."""
+"""Payload bench of a trial's gripper."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from rgss.trials.trial_spec import TrialSpec
 
 
 def bench_of(spec: TrialSpec) -> BenchSpec | None:
-    """The payload bench of a trial's gripper; None where there is none.
+    """Payload bench of a trial's gripper; None if there is none.
 
-    There is none below contact physics, for a suction cup, for an object that the gripper cannot hold by its size,
-    and outside the validated range.
+    There is none below contact physics, for a suction cup, for an object that does not fit the gripper, and outside the
+    validated range.
 
     Args:
         spec: The trial.
@@ -29,7 +29,7 @@ def bench_of(spec: TrialSpec) -> BenchSpec | None:
 
 
 def payload_bench(spec: TrialSpec) -> BenchSpec:
-    """The payload bench of a trial's gripper, object and physics, validated or not.
+    """Payload bench of a trial's gripper, object and physics, without a check of the validated range.
 
     Args:
         spec: The trial.

@@ -1,7 +1,7 @@
-"""Validated range of the payload bench: where it agrees with Coulomb's law within 2 %.
+"""Validated range of the payload bench, in which it agrees with Coulomb's law within 2 %.
 
-`benchmarks/bench_range.py` scans it against mu N_f F / (g + a_m), which is computed apart from the bench.
-Beyond it the bench gives no answer.
+`benchmarks/bench_range.py` compares it with mu N_f F / (g + a_m), computed independently of the bench. Outside the
+range the bench gives no result.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ BOUND = 0.02
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ValidatedQuantity:
-    """Range of one quantity, the others being anywhere in theirs.
+    """Validated range of one quantity, for any values of the others in their ranges.
 
     Attributes:
-        name: What it is.
+        name: Its name.
         unit: Its unit, in SI.
         lowest: Least validated value.
         highest: Greatest validated value.
-        of: Reads it off a bench.
+        of: Function that returns its value for a bench.
     """
 
     name: str
@@ -40,7 +40,7 @@ class ValidatedQuantity:
         return self.lowest * (1 - 1e-9) <= value <= self.highest * (1 + 1e-9)
 
     def words(self) -> str:
-        """The range with its unit."""
+        """Text of the range with its unit."""
         return f"{self.lowest:g} to {self.highest:g} {self.unit}".rstrip()
 
 
@@ -69,7 +69,7 @@ VALIDATED: tuple[ValidatedQuantity, ...] = (
         highest=0.1,
         of=lambda spec: spec.gripper.finger_velocity_m_s,
     ),
-    # Heavy fingers that press little bounce on closing for longer than the grasp is waited for.
+    # Heavy fingers with little force bounce on closing for longer than the timeout of the grasp.
     ValidatedQuantity(
         name="momentum of a finger over its force",
         unit="s",
@@ -78,14 +78,14 @@ VALIDATED: tuple[ValidatedQuantity, ...] = (
         of=lambda spec: spec.gripper.driven_mass_kg * spec.gripper.finger_velocity_m_s / spec.gripper.finger_force_n,
     ),
     ValidatedQuantity(
-        name="solver iterations that pass the force of a finger",
+        name="solver iterations that transmit the force of a finger",
         unit="",
         lowest=0.0,
         highest=MOST_ITERATIONS,
         of=lambda spec: spec.physics.solver_iterations * spec.lightest_body_kg / spec.gripper.driven_mass_kg,
     ),
-    # Below, two ribs of a pad are too near one another to keep the object from turning about them: at 20 mm a slow
-    # heavy finger that presses with 0.5 N is 4.5 % off.
+    # Below it, two ribs of a pad are too close together to prevent a rotation of the object: at 20 mm a slow heavy
+    # finger with 0.5 N has an error of 4.5 %.
     ValidatedQuantity(
         name="height of the object", unit="m", lowest=0.03, highest=0.2, of=lambda spec: 2.0 * spec.shape.half_height_m
     ),
@@ -93,11 +93,11 @@ VALIDATED: tuple[ValidatedQuantity, ...] = (
         name="payload by Coulomb's law", unit="kg", lowest=0.03, highest=50.0, of=lambda spec: spec.theory_kg
     ),
 )
-"""The validated range. Of an object's diameter all are validated that the gripper closes on."""
+"""The validated ranges. Every object diameter that the gripper can close on is validated."""
 
 
 def outside(spec: BenchSpec) -> tuple[str, ...]:
-    """Quantities of a bench outside of the validated range, one sentence each.
+    """Quantities of a bench outside the validated range, one phrase each.
 
     Args:
         spec: The bench.

@@ -1,12 +1,11 @@
-"""The rig of the payload bench: a gripper on a vertical rail over an object on a post.
+"""Rig of the payload bench: a gripper on a vertical rail over an object on a post.
 
-A rail instead of the arm, because a payload is a property of the gripper: the lift is exactly
-vertical at exactly the acceleration asked for, whatever it weighs, and a probe costs
-milliseconds. The hand is assembled and driven by the same code as on the arm, so that masses,
-finger control and contacts are those of a trial.
+A rail replaces the arm, because the payload is a property of the gripper: the lift is exactly vertical with exactly the
+specified acceleration for any mass, and a probe takes milliseconds. The hand is assembled and driven by the same code
+as on the arm, so that masses, finger control and contacts are those of a trial.
 """
 
-# long file: one rig, built, loaded and watched by one class.
+# long file: one class builds, drives and monitors the rig.
 
 from __future__ import annotations
 
@@ -18,6 +17,7 @@ from types import TracebackType
 
 from rgss.physics import Contacts, open_world
 from rgss.scenes import (
+    ChosenGrasp,
     Cylinder,
     Joint,
     PlaceRegion,
@@ -25,7 +25,6 @@ from rgss.scenes import (
     Robot,
     Scene,
     SceneBody,
-    TakenGrasp,
     Task,
     Workpiece,
     half_extents_m,
@@ -46,7 +45,7 @@ _BLACK = (0.0, 0.0, 0.0, 1.0)
 
 
 class PayloadLimit(str, Enum):
-    """Limit of the payload of a gripper."""
+    """Cause that limits the payload of a gripper."""
 
     SLIP = "slip"
     DAMAGE = "damage"
@@ -56,12 +55,12 @@ class PayloadLimit(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Probe:
-    """One mass, grasped and lifted.
+    """Result of grasping and lifting one mass.
 
     Attributes:
         mass_kg: The object's mass.
-        stopped_by: Why it cannot be carried; None if it was held to the end.
-        slip_m: Displacement of the object in the hand since it was firmly grasped.
+        stopped_by: Cause of the failure; None if it was held to the end.
+        slip_m: Displacement of the object in the hand since the firm grasp.
         creep_m_s: Mean speed of that displacement over the second half of the lift; None if it ended before.
         peak_force_n: Greatest normal force of a finger on the object, averaged over the object's force window.
         grip_margin_min: Least mu ΣN / (m (g + a)) during the lift; None if there was none.
@@ -81,7 +80,7 @@ class Probe:
 
 
 def probe(spec: BenchSpec, mass_kg: float) -> Probe:
-    """Grasp an object of a mass and lift it at the bench's acceleration.
+    """Grasp an object and lift it at the bench's acceleration.
 
     Args:
         spec: The bench.
@@ -107,19 +106,19 @@ def probe(spec: BenchSpec, mass_kg: float) -> Probe:
 
 
 class PayloadRig:
-    """A rig with one object; a context manager that always closes its world.
+    """Rig with one object; a context manager that always closes its world.
 
     Attributes:
-        stopped_by: Why the object cannot be carried; None so far. From then on the rig stands still.
-        slip_m: Displacement of the object in the hand since it was firmly grasped.
+        stopped_by: Cause of the failure, after which the rig no longer moves; None so far.
+        slip_m: Displacement of the object in the hand since the firm grasp.
         peak_force_n: Greatest normal force of a finger on the object so far, averaged over its force window.
         grip_margin_min: Least mu ΣN / (m (g + a)) while the hand moves; None before.
-        height_m: Height of the hand above where it grasped, as commanded.
-        speed_m_s: Upward speed of the hand, as commanded.
+        height_m: Commanded height of the hand above the grasp.
+        speed_m_s: Commanded upward speed of the hand.
     """
 
     def __init__(self, spec: BenchSpec, mass_kg: float) -> None:
-        """Build the rig with the open hand round the object.
+        """Build the rig with the open hand around the object.
 
         Args:
             spec: The bench.
@@ -154,7 +153,7 @@ class PayloadRig:
         return self._world.contacts()
 
     def hand_pose(self) -> Pose:
-        """Transform of the grasp-centre frame to the world at the hand's true pose."""
+        """Transform of the grasp-centre frame to the world, at the hand's true pose."""
         return self._world.tool_pose()
 
     def grasp(self) -> None:
@@ -177,8 +176,8 @@ class PayloadRig:
         """Move the hand along the rail with a constant acceleration, upwards if positive.
 
         Args:
-            acceleration_m_s2: The acceleration; with zero the hand keeps its speed.
-            duration_s: How long.
+            acceleration_m_s2: The acceleration; zero keeps the speed.
+            duration_s: Duration.
         """
         step_s = self._spec.physics.step_s
         needed_n = self._mass_kg * (self._spec.gravity_m_s2 + acceleration_m_s2)
@@ -216,7 +215,7 @@ class PayloadRig:
 
 
 def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
-    """The object on top of a post, the origin at its foot, and the rail above it."""
+    """Scene with the object on top of a post, the origin at the foot of the post, and the rail above."""
     half_m = spec.shape.half_height_m
     radius_m = min(half_extents_m(spec.shape)[:2])
     stands, tool_m, taken = Pose(position_m=(0.0, 0.0, half_m)), half_m, None
@@ -224,7 +223,7 @@ def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
         tool_m += spec.grasp.position_m[2]
         tool = Pose.from_roll_pitch_yaw((0.0, 0.0, tool_m), (math.pi, 0.0, 0.0))
         stands = tool @ spec.grasp.inverse()
-        taken = TakenGrasp(
+        taken = ChosenGrasp(
             id="bench",
             tool_in_object=spec.grasp,
             opening_m=spec.gripper.geometry.largest_opening_m,
@@ -234,8 +233,8 @@ def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
             candidates=1,
             rejected=0,
         )
-    # Thinner than the object, so that low fingers pass it; without friction, because on a rough
-    # post the object can stay wedged between post and hand, and then geared fingers press unevenly.
+    # Thinner than the object, so that low fingers pass it; without friction, because on a rough post the object can jam
+    # between post and hand, and geared fingers then press unevenly.
     post = SceneBody(
         id=_POST,
         shape=Cylinder(radius_m=_POST_SHARE * radius_m, height_m=_POST_HEIGHT_M),
@@ -279,10 +278,9 @@ def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
 
 
 def _rail(flange_height_m: float) -> Robot:
-    """A robot of one prismatic joint that carries the flange, its z pointing down; up is positive.
+    """Robot with one vertical prismatic joint at the flange, whose z points down; up is positive.
 
-    A robot's limits are named as those of revolute joints; here they are metres and newtons, and
-    so far off that they never bind.
+    The limits are in m and N despite their names, and so large that they are never active.
     """
     root = ET.Element("robot", {"name": "rail"})
     ET.SubElement(root, "link", {"name": "rail"})

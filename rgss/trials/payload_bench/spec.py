@@ -24,7 +24,7 @@ from rgss.scenes import (
 )
 
 SAFETY_FACTOR = 1.5
-"""Of a gripper's payload by friction (thesis, eq. 4.8)."""
+"""Safety factor of a gripper's payload by friction (thesis, eq. 4.8)."""
 
 _FINEST_RESOLUTION = 1.0e-6
 _LEAST_RISE = 5.0
@@ -35,16 +35,16 @@ class BenchSettings:
     """Settings of grasping, lifting and slip detection on the bench.
 
     Attributes:
-        firm_share: Share of its force above which a finger counts as pressing firmly.
-        firm_grasp_s: Time for which every finger must press firmly; closing gives a spike.
-        grasp_timeout_s: Time beyond the fingers' travel after which there is no firm grasp.
-        lift_s: Least time for which the hand is accelerated upwards. An object that is heavier than the
-            limit by a share s slides by s (g + a) lift_s² / 2, so a long lift tells close masses apart.
-        largest_slip_m: Displacement of the object in the hand beyond which it slips. Less is the give
-            of the simulated friction while it takes up the load: below the limit by 0.5 % and more it
-            stays under 0.9 mm at 240 Hz, while 0.5 % above it more than 4 mm are slid.
+        firm_share: Share of its force above which a finger counts as firm.
+        firm_grasp_s: Duration for which every finger must be firm; closing causes a force spike.
+        grasp_timeout_s: Timeout of the grasp in addition to the fingers' travel.
+        lift_s: Least duration of the upward acceleration. An object heavier than the limit by a share s slides by s (g
+        + a) lift_s² / 2, so a long lift separates close masses.
+        largest_slip_m: Displacement of the object in the hand that counts as slip. Smaller displacements are the
+        compliance of the simulated friction under load: 0.5 % and more below the limit it is less than 0.9 mm at 240
+        Hz, while 0.5 % above the limit the slip exceeds 4 mm.
         resolution: Width of the final bracket as a share of its upper end.
-        smallest_kg: Mass below which no payload is looked for.
+        smallest_kg: Least mass of the search.
     """
 
     firm_share: float = 0.9
@@ -58,22 +58,21 @@ class BenchSettings:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BenchSpec:
-    """One gripper to be tried with one kind of object under one acceleration.
+    """Payload bench of one gripper with one kind of object under one acceleration.
 
     Attributes:
         gripper: The gripper; the masses, force, velocity and friction of the design.
         shape: The object's solid; an upright cylinder is gripped at its centre.
         object_friction: The object's coefficient; the contact's is the product with the pads'.
         force_limit_n: Normal force of a finger, averaged over the window, above which the object is damaged.
-        force_window_s: The window.
-        gravity_m_s2: Magnitude of gravity.
+        force_window_s: The averaging window. gravity_m_s2: Magnitude of gravity.
         acceleration_m_s2: Acceleration a_m at which the object is lifted.
-        rated_kg: Mass at which the search ends, what the arm may carry.
+        rated_kg: Upper end of the search, the rated payload of the arm.
         physics: Step length and solver.
-        settings: How the bench grasps, lifts, and judges.
+        settings: Settings of grasping, lifting and slip detection.
         grasp: Transform of the grasp-centre frame to the object's frame, from above; None for an upright cylinder.
-        gyration_m2: The object's inertia over its mass; None for that of the homogeneous shape. Its centre of mass is
-            in the middle.
+        gyration_m2: The object's inertia divided by its mass; None for that of the homogeneous shape. Its centre of
+        mass is in the middle.
     """
 
     gripper: Gripper
@@ -101,26 +100,26 @@ class BenchSpec:
 
     @property
     def theory_kg(self) -> float:
-        """Mass that Coulomb's law holds under the acceleration: mu N_f F / (g + a_m)."""
+        """Greatest mass by Coulomb's law under the acceleration: mu N_f F / (g + a_m)."""
         return self.friction * self.total_force_n / (self.gravity_m_s2 + self.acceleration_m_s2)
 
     @property
     def eq_4_8_kg(self) -> float:
-        """The gripper's payload by eq. 4.8, which divides by a safety factor."""
+        """Payload of the gripper by eq. 4.8, which includes a safety factor."""
         return self.theory_kg / SAFETY_FACTOR
 
     @property
     def lift_s(self) -> float:
-        """Time for which the hand is accelerated upwards.
+        """Duration of the upward acceleration in s.
 
-        What cannot be carried stays on the post, so that it slips by as much as the hand rises and no more.
-        The hand rises by several times the largest slip, however small the acceleration.
+        An object that cannot be carried stays on the post and slips by the hand's rise. For any acceleration the hand
+        rises by several times the largest slip.
         """
         least_rise_m = _LEAST_RISE * self.settings.largest_slip_m
         return max(self.settings.lift_s, math.sqrt(2 * least_rise_m / self.acceleration_m_s2))
 
     def physics_for(self, mass_kg: float) -> PhysicsSettings:
-        """Step length and solver with as many iterations as pass the finger force through object and fingers.
+        """Step length and solver with enough iterations to transmit the finger force through object and fingers.
 
         Args:
             mass_kg: The object's mass.
@@ -133,7 +132,7 @@ class BenchSpec:
 
     @property
     def lightest_body_kg(self) -> float:
-        """Mass of a body, finger or object, through which the solver as it is passes the whole finger force."""
+        """Least mass in kg of a body, finger or object, through which the default iterations transmit the force."""
         return self._lightest_body_kg(self.physics.solver_iterations)
 
     def _lightest_body_kg(self, iterations: int) -> float:
@@ -144,24 +143,24 @@ class BenchSpec:
 
     @property
     def first_kg(self) -> float:
-        """The smallest mass that is tried at first, with the solver as it is; a smaller one takes more iterations."""
+        """Smallest mass of the first probes, with the default iterations; a smaller one needs more."""
         return max(self.settings.smallest_kg, self.lightest_body_kg)
 
     @property
     def smallest_kg(self) -> float:
-        """The smallest mass that is tried: through a lighter one the solver passes the finger force too slowly."""
+        """Smallest probed mass: through a lighter one the solver does not transmit the finger force."""
         return min(self.first_kg, max(self.settings.smallest_kg, self._lightest_body_kg(MOST_ITERATIONS)))
 
     def check(self) -> None:
         """Validate the specification.
 
         Raises:
-            DefinitionError: A number is out of range, or the open hand cannot be put over the object.
+            DefinitionError: A number is out of range, or the open hand does not fit over the object.
         """
         if self.gripper.suction is not None:
             raise DefinitionError(
-                f"the payload bench has fingers to try, gripper {self.gripper.geometry.id!r} has a suction cup",
-                hint="what a cup lifts is its normal force less the leak, over gravity and acceleration",
+                f"the payload bench needs fingers, gripper {self.gripper.geometry.id!r} has a suction cup",
+                hint="the payload of a cup is its normal force minus the leak, divided by gravity plus acceleration",
             )
         positive = {
             "the acceleration": self.acceleration_m_s2,
@@ -174,23 +173,26 @@ class BenchSpec:
         }
         for name, value in positive.items():
             if not 0.0 < value < math.inf:
-                raise DefinitionError(f"{name} of a payload bench cannot be {value:g}", hint="give a number above zero")
+                raise DefinitionError(
+                    f"{name} of a payload bench must be positive, got {value:g}", hint="give a number above zero"
+                )
         if not _FINEST_RESOLUTION <= self.settings.resolution < 1.0:
             raise DefinitionError(
-                f"the resolution of a payload bench cannot be {self.settings.resolution:g}",
-                hint=f"give a share from {_FINEST_RESOLUTION:g} to 1",
+                f"the resolution of a payload bench must be from {_FINEST_RESOLUTION:g} to below 1, "
+                f"got {self.settings.resolution:g}",
+                hint="give the width of the final bracket as a share of its upper end",
             )
         lightest_kg = self._lightest_body_kg(MOST_ITERATIONS)
         if self.gripper.driven_mass_kg < lightest_kg:
             raise DefinitionError(
                 f"fingers of {self.gripper.driven_mass_kg:g} kg are too light for the solver to press with "
                 f"{self.gripper.finger_force_n:g} N; it needs {lightest_kg:.3g} kg",
-                hint="state the drive_inertia of the fingers, or give the physics a higher rate",
+                hint="state the drive_inertia of the fingers, or increase the physics rate",
             )
         if self.first_kg >= self.rated_kg:
             raise DefinitionError(
                 f"the smallest mass of {self.first_kg:.3g} kg is not below the rated {self.rated_kg:g} kg",
-                hint="let the payload bench have masses to try",
+                hint="give the bench a rated mass above the smallest one",
             )
         self._check_fit()
 
@@ -200,21 +202,21 @@ class BenchSpec:
             if self.grasp is None:
                 raise DefinitionError(
                     f"gripper {geometry.id!r} has no grasp of the object from above",
-                    hint="take a thinner object or a gripper that opens wider",
+                    hint="use a thinner object or a gripper that opens wider",
                 )
             return
         if self.shape.radius_m >= geometry.largest_opening_m:
             raise DefinitionError(
                 f"an object of radius {self.shape.radius_m:g} m does not fit into gripper {geometry.id!r}, "
                 f"which opens to {geometry.largest_opening_m:g} m",
-                hint="take a thinner object or a gripper that opens wider",
+                hint="use a thinner object or a gripper that opens wider",
             )
         palm_m = geometry.grasp_depth_m - geometry.palm_height_m
         if self.shape.half_height_m >= palm_m:
             raise DefinitionError(
-                f"an object of height {self.shape.height_m:g} m gripped at its centre meets the base of "
-                f"gripper {geometry.id!r}, which is {palm_m:g} m above",
-                hint="take a lower object or a deeper grasp",
+                f"an object of height {self.shape.height_m:g} m gripped at its centre collides with the base "
+                f"of gripper {geometry.id!r}, which is {palm_m:g} m above",
+                hint="use a lower object or a deeper grasp",
             )
 
 
@@ -227,15 +229,15 @@ def bench_spec(
     physics: PhysicsSettings | None = None,
     settings: BenchSettings | None = None,
 ) -> BenchSpec:
-    """The bench of a gripper with the object and the gravity of a scene.
+    """Payload bench of a gripper with the object and the gravity of a scene.
 
     Args:
-        scene: Where the object comes from; its mass and its place do not matter.
+        scene: The scene; its object's mass and place are ignored.
         gripper: The gripper.
         acceleration_m_s2: Acceleration at which the object is lifted.
-        rated_kg: Mass at which the search ends.
-        physics: Step length and solver; the default ones if not given.
-        settings: How the bench judges; the default ones if not given.
+        rated_kg: Upper end of the search.
+        physics: Step length and solver, with defaults.
+        settings: Settings of grasping, lifting and slip detection, with defaults.
     """
     return BenchSpec(
         gripper=gripper,
@@ -255,10 +257,10 @@ def bench_spec(
 
 @lru_cache(maxsize=64)
 def _grasp_from_above(shape: ObjectShape, geometry: GripperGeometry, friction: float) -> Pose | None:
-    """The best grasp from above of an object other than an upright cylinder; None where there is none."""
+    """Best grasp from above of an object other than an upright cylinder; None if there is none."""
     if isinstance(shape, Cylinder):
         return None
-    # Mass properties other than the centre of mass do not count for a grasp.
+    # A grasp depends on no mass property other than the centre of mass.
     sample = Workpiece(
         id="object", shape=shape, mass_kg=1.0, friction=1.0, force_limit_n=1.0, pose=Pose(), colour=(0.0, 0.0, 0.0, 1.0)
     )

@@ -1,11 +1,11 @@
-"""The pieces of a trial, each made once for all variants that share its inputs."""
+"""Pieces of a trial, each computed once for all variants with the same inputs."""
 
 from typing import TYPE_CHECKING
 
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.trials.pieces.assembling import record_under
+    from rgss.trials.pieces.assembling import record_with_plan
     from rgss.trials.pieces.bench_json import bench_from_json
     from rgss.trials.pieces.execution_json import execution_from_json
     from rgss.trials.pieces.input_digests import TrialDigests, digests_of

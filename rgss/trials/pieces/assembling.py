@@ -1,4 +1,4 @@
-"""Record of a trial from a plan that was read off, and the stored pieces that follow from its paths."""
+"""Assembly of a trial's record from a plan under other limits and the stored pieces."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from rgss.trials.trial_spec import TrialSpec
 _READ_KEPT = 512
 
 
-def record_under(spec: TrialSpec, plan: TaskPlan, pieces: Mapping[PieceKind, Piece]) -> TrialRecord:
-    """Put the record of a trial together from a plan and the other pieces.
+def record_with_plan(spec: TrialSpec, plan: TaskPlan, pieces: Mapping[PieceKind, Piece]) -> TrialRecord:
+    """Assemble the record of a trial from a plan and the other pieces.
 
     Args:
         spec: The trial.
-        plan: Its plan, which has the paths that the pieces were made of.
-        pieces: Its timing, its execution and, where its fidelity knows one, its bench.
+        plan: Its plan, with the paths from which the pieces were made.
+        pieces: Its timing, its execution and, if its fidelity has one, its bench.
 
     Raises:
         EvidenceError: A piece is damaged.
@@ -38,7 +38,7 @@ def record_under(spec: TrialSpec, plan: TaskPlan, pieces: Mapping[PieceKind, Pie
     )
 
 
-# One piece serves many trials, and every assumption that is questioned.
+# One piece serves many trials, and all varied assumptions.
 @lru_cache(maxsize=_READ_KEPT)
 def _timing_failures(text: str) -> Mapping[str, tuple[Failure, str]]:
     return timing_from_json(text).failures

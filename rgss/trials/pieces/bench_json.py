@@ -1,4 +1,4 @@
-"""Serialisation of the result of a payload bench, exact to the bit."""
+"""Bit-exact serialisation of the result of a payload bench."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rgss.trials.pieces.plain_values import to_plain
 
 
 def bench_to_json(result: PayloadResult) -> str:
-    """Write the result of a bench as canonical JSON.
+    """Result of a bench as canonical JSON.
 
     Args:
         result: The result.
@@ -19,15 +19,15 @@ def bench_to_json(result: PayloadResult) -> str:
 
 
 def bench_from_json(text: str) -> PayloadResult:
-    """Read the result of a bench that `bench_to_json` wrote.
+    """Result of a bench from the output of `bench_to_json`.
 
     Args:
         text: The text.
 
     Raises:
-        EvidenceError: It is no such text.
+        EvidenceError: The text is not valid.
     """
     result = read_json(text, PayloadResult, "bench")
     if len(result.bracket_kg) != 2:
-        raise EvidenceError("the bench has no bracket of two masses")
+        raise EvidenceError("the bracket of the bench must have two masses")
     return result

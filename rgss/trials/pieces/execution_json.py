@@ -1,4 +1,4 @@
-"""Serialisation of an execution, exact to the bit."""
+"""Bit-exact serialisation of an execution."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class _Execution:
 
 
 def execution_to_json(execution: tuple[PhaseResult, ...]) -> str:
-    """Write an execution as canonical JSON.
+    """Execution as canonical JSON.
 
     Args:
         execution: The phases that ran, in order.
@@ -28,12 +28,12 @@ def execution_to_json(execution: tuple[PhaseResult, ...]) -> str:
 
 
 def execution_from_json(text: str) -> tuple[PhaseResult, ...]:
-    """Read an execution that `execution_to_json` wrote.
+    """Execution from the output of `execution_to_json`.
 
     Args:
         text: The text.
 
     Raises:
-        EvidenceError: It is no such text.
+        EvidenceError: The text is not valid.
     """
     return read_json(text, _Execution, "execution").phases

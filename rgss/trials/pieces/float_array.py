@@ -1,4 +1,4 @@
-"""Arrays of floats in JSON, exact to the bit."""
+"""Bit-exact arrays of floats in JSON."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _KIND = np.dtype("<f8")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FloatArray:
-    """An array as text: half as long as its numbers in decimals, and read ten times as fast.
+    """Array in Base64: half as long as decimal numbers, and parsed ten times as fast.
 
     Attributes:
         shape: Its shape.
@@ -31,7 +31,7 @@ class FloatArray:
 
     @classmethod
     def of(cls, array: Array) -> FloatArray:
-        """Write an array down.
+        """Encode an array.
 
         Args:
             array: Numbers of any shape.

@@ -1,9 +1,10 @@
-"""The digests of exactly the inputs of each piece of a trial.
+"""Digests of exactly the inputs of each piece of a trial.
 
-A trial is cut where its inputs are. The *plan* needs the scene, the gripper's shape, the planner with its parameters
-and the seed; the *timing* needs the plan, the tool speed and how fast the joints may move; the *execution* needs the
-timing, the joints' torques and the gripper's masses, forces and friction; the *bench* needs the gripper and the
-object alone; only the *record* needs the planning limit. Variants that share a piece's digest share the piece.
+A trial is divided into pieces by their inputs. The *plan* needs the scene, the gripper's shape, the planner with its
+parameters and the seed; the *timing* needs the plan, the tool speed and the joints' speed and acceleration limits; the
+*execution* needs the timing, the joints' torques and the gripper's masses, forces and friction; the *bench* needs only
+the gripper and the object; only the *record* needs the planning limit. Variants with the same digest of a piece share
+the piece.
 """
 
 from __future__ import annotations
@@ -26,11 +27,11 @@ from rgss.trials.plants import JointController
 from rgss.trials.timing_settings import TimingSettings
 from rgss.trials.trial_spec import TrialSpec
 
-# Trials of a study share most of their inputs, whose digest is computed once.
+# Trials of a study share most of their inputs; each digest is computed once.
 _KEPT = 512
 _RATES = ("speed_rad_s", "acceleration_rad_s2")
 _JOINED_KEPT = 8192
-# What a step states of its own execution.
+# Settings of a step that affect its execution.
 _EXECUTED = ("reached_rad", "control", "firm_above_n", "firm_s", "opened_m", "near")
 
 
@@ -41,10 +42,10 @@ class TrialDigests:
     Attributes:
         plan: Geometry of the scene, gripper's shape, planner, seed, planning settings.
         timing: The plan, the tool speed and the profile.
-        execution: The timing, the gripper, masses and frictions of the scene, physics and control
-            settings, fidelity, and the controller of the joints where the fidelity simulates it.
-        bench: The gripper, the object, the acceleration and the physics settings; empty where the
-            trial's fidelity knows no bench.
+        execution: The timing, the gripper, masses and frictions of the scene, physics and control settings, fidelity,
+            and the controller of the joints if the fidelity simulates it.
+        bench: The gripper, the object, the acceleration and the physics settings; empty if the trial's fidelity has no
+        bench.
         trial: The execution, the bench, the planning limit and the draws; the variant's number is not an input.
     """
 
@@ -55,18 +56,17 @@ class TrialDigests:
     trial: str
 
     def as_mapping(self) -> dict[str, str]:
-        """The digests by the name of the piece; a piece that the trial does not have is left out."""
+        """Digests by the name of the piece, without pieces that the trial does not have."""
         named = {"plan": self.plan, "timing": self.timing, "execution": self.execution, "bench": self.bench}
         return {**{name: value for name, value in named.items() if value}, "trial": self.trial}
 
 
 def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
-    """The digests of a trial's pieces.
+    """Digests of a trial's pieces.
 
     Args:
         spec: The trial.
-        versions: Versions of the code and the engines, which are inputs like any other; each piece
-            takes those that it depends on.
+        versions: Versions of the code and the engines, which are inputs too; each piece uses those on which it depends.
     """
     used = _version_digests(tuple(sorted(versions.items())))
     conditions = conditions_of(spec)
@@ -91,8 +91,8 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
     execution = _joined(
         timing,
         _digest_of(conditions.true_gripper),
-        _matter_digest(conditions.true_scene),
-        _truth_digest(conditions),
+        _physics_digest(conditions.true_scene),
+        _true_values_digest(conditions),
         _digest_of(spec.settings.physics),
         _digest_of(spec.settings.control),
         *_controller_digest(spec),
@@ -109,17 +109,17 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
 
 
 def bench_digest(spec: BenchSpec, versions: Mapping[str, str]) -> str:
-    """The digest of the inputs of a bench, by which designs with the same gripper share one.
+    """Digest of the inputs of a bench, which designs with the same gripper share.
 
     Args:
         spec: The bench; the name of the gripper's shape is not an input.
-        versions: Versions of the code and the engines; only those that a bench uses are taken.
+        versions: Versions of the code and the engines; only those of a bench are used.
     """
     return _bench_digest(spec, _version_digests(tuple(sorted(versions.items())))["bench"])
 
 
 def physics_inputs(scene: Scene) -> dict[str, Any]:
-    """Inputs of a scene that only the physics needs; colours are left out."""
+    """Inputs of a scene that only the physics needs, without colours."""
     workpiece = scene.workpiece
     return {
         "id": scene.id,
@@ -140,7 +140,7 @@ def physics_inputs(scene: Scene) -> dict[str, Any]:
         ],
         "torques_n_m": [joint.torque_n_m for joint in scene.robot.joints],
         **_stated_inertia(workpiece),
-        # Colours of the other objects are no input.
+        # Colours of the other objects are not inputs.
         **({"others": [_object_inputs(one) for one in scene.others]} if scene.others else {}),
         **({"places": [to_plain(place) for place in scene.places]} if scene.places else {}),
     }
@@ -153,7 +153,7 @@ def _object_inputs(one: SceneObject) -> dict[str, Any]:
 
 
 def _stated_inertia(workpiece: Workpiece) -> dict[str, Any]:
-    """Mass properties other than those of a homogeneous shape."""
+    """Stated mass properties that differ from those of a homogeneous shape."""
     if workpiece.gyration_m2 is None and not any((*workpiece.centre_of_mass_across_m, workpiece.rolling_resistance_m)):
         return {}
     stated = [workpiece.gyration_m2, workpiece.centre_of_mass_across_m, workpiece.rolling_resistance_m]
@@ -161,7 +161,7 @@ def _stated_inertia(workpiece: Workpiece) -> dict[str, Any]:
 
 
 def _choice_digest(conditions: Conditions) -> tuple[str, ...]:
-    """Digest of what the choice of a grasp depends on besides the geometry; nothing where the grasp is stated."""
+    """Digest of the non-geometric inputs of the choice of a grasp; empty for a stated grasp."""
     workpiece = conditions.perceived_scene.workpiece
     if conditions.scene.task.candidates is None:
         return ()
@@ -170,42 +170,42 @@ def _choice_digest(conditions: Conditions) -> tuple[str, ...]:
 
 
 def _potential_digest(spec: TrialSpec) -> float:
-    """Gravity where the planner keeps the work against it low; nothing else of planning depends on it."""
+    """Digest of gravity for a planner that minimises mechanical work; planning does not depend on it otherwise."""
     needs_gravity = spec.planned_by.objective is Objective.MECHANICAL_WORK
     return spec.scene.gravity_m_s2 if needs_gravity else 0.0
 
 
 def _controller_digest(spec: TrialSpec) -> tuple[str, ...]:
-    """Digest of the control of the joints where the trial simulates it."""
+    """Digest of the joint control if the trial simulates it."""
     controller = spec.settings.controller
     simulates_it = spec.fidelity is Fidelity.DYNAMIC or (spec.fidelity is Fidelity.CONTACT and controller.in_contact)
     return _stated(controller) if simulates_it else ()
 
 
 def _stated(settings: TimingSettings | JointController) -> tuple[str, ...]:
-    """Digest of settings that differ from the default, which is not an input: it is what pieces had without them."""
+    """Digest of settings that differ from the default; the default is not an input, for the digests of older pieces."""
     return () if settings == type(settings)() else (_digest_of(settings),)
 
 
 @lru_cache(maxsize=_KEPT)
 def _task_digest(task: TaskProgram) -> str:
-    """Digest of the steps of a task without what only its execution depends on; its name is not an input."""
+    """Digest of the steps of a task without settings that affect only its execution; its name is not an input."""
     steps = [[type(step).__name__, _without(to_plain(step), _EXECUTED)] for step in task.steps]
     return digest([to_plain(task.start), steps])
 
 
 def _execution_of_steps(spec: TrialSpec) -> tuple[str, ...]:
-    """Digest of the thresholds and the control of the steps; nothing where no step states any."""
+    """Digest of the thresholds and the control of the steps; empty if no step states any."""
     stated = _stated_in_steps(spec.task)
     if not stated:
         return ()
-    # How long the end of a move is awaited counts in contact only where a step states when it is reached.
+    # In contact the settling limit is an input only if a step states a tolerance of the end of a move.
     return (digest([stated, spec.settings.controller.settling_limit_s]),)
 
 
 @lru_cache(maxsize=_KEPT)
 def _stated_in_steps(task: TaskProgram) -> tuple[tuple[str, str], ...]:
-    """Name of each step that states thresholds or control, and the digest of these."""
+    """Names of the steps with thresholds or control, and their digests."""
     plain = {step.name: to_plain(step) for step in task.steps}
     stated = {name: {key: one[key] for key in _EXECUTED if one.get(key) is not None} for name, one in plain.items()}
     return tuple((name, digest(values)) for name, values in stated.items() if values)
@@ -222,7 +222,7 @@ def _digest_of(value: Any) -> str:
 
 @lru_cache(maxsize=16)
 def _version_digests(versions: tuple[tuple[str, str], ...]) -> Mapping[str, str]:
-    """A digest of the versions that each piece takes."""
+    """Digest of the versions of each piece."""
     return {piece: digest(versions_of(piece, dict(versions))) for piece in ENTRIES}
 
 
@@ -239,18 +239,18 @@ def _bench_digest(spec: BenchSpec, versions: str) -> str:
 
 
 @lru_cache(maxsize=_KEPT)
-def _matter_digest(scene: Scene) -> str:
+def _physics_digest(scene: Scene) -> str:
     return digest(physics_inputs(scene))
 
 
-def _truth_digest(conditions: Conditions) -> str:
-    """Digest of the true values that planning does not use, and of the robot's beliefs."""
-    true, believed = conditions.true_scene.workpiece, conditions.scene.workpiece
+def _true_values_digest(conditions: Conditions) -> str:
+    """Digest of the true values that planning does not use, and of the properties that the robot assumes."""
+    true, assumed = conditions.true_scene.workpiece, conditions.scene.workpiece
     return digest(
         {
             "pose": to_plain(true.pose),
             "centre_of_mass_m": true.centre_of_mass_m,
-            "believed": [believed.mass_kg, believed.friction, conditions.design_gripper.friction],
+            "assumed": [assumed.mass_kg, assumed.friction, conditions.design_gripper.friction],
             "sensor": [conditions.sensor_noise_n, conditions.sensor_offset_n, conditions.sensor_delay_s],
             "joint_offsets_rad": list(conditions.joint_offsets_rad),
         }
@@ -259,14 +259,14 @@ def _truth_digest(conditions: Conditions) -> str:
 
 @lru_cache(maxsize=_KEPT)
 def _rates_digest(robot: Robot) -> str:
-    """Digest of what timing needs of an arm besides: how fast it may move."""
+    """Digest of the arm's speed and acceleration limits, the further inputs of timing."""
     joints = [[getattr(joint, name) for name in _RATES] for joint in robot.joints]
     return digest([joints, robot.tool_acceleration_m_s2])
 
 
 @lru_cache(maxsize=_KEPT)
 def _geometry_digest(scene: Scene) -> str:
-    """Digest of what planning needs of a scene: where everything is, and where the arm may move."""
+    """Digest of the scene's inputs of planning: poses, shapes and joint ranges."""
     robot = to_plain(scene.robot)
     for name in ("payload_kg", "tool_speed_m_s", "tool_acceleration_m_s2", "calibration"):
         del robot[name]

@@ -1,9 +1,8 @@
-"""Making one piece of a trial from its inputs and the pieces before it: the task of a worker.
+"""Computation of one piece of a trial from its inputs and earlier pieces: the task of a worker.
 
-A task carries its inputs by value and a piece is text, so that it can be made in any process on
-any machine. The functions ``make_plan``, ``make_timing``, ``make_execution``, ``make_bench`` and
-``record_of`` are where the code of each piece begins, which its digest covers: `rgss.trials.code.piece_versions`
-follows what each of them uses.
+A task contains its inputs by value and a piece is text, so that it can be computed in any process on any machine. The
+functions ``make_plan``, ``make_timing``, ``make_execution``, ``make_bench`` and ``record_of`` are the entry points of
+the code digests: `rgss.trials.code.piece_versions` follows the code that each of them uses.
 """
 
 from __future__ import annotations
@@ -33,13 +32,13 @@ _READ_KEPT = 16
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PieceTask:
-    """A piece to be made.
+    """Task to compute a piece.
 
     Attributes:
-        digest: What it will be known by.
-        kind: What it is.
-        spec: One of the trials that it is for; the others have the same inputs as far as it sees them.
-        needs: Digests of the pieces that it is made from.
+        digest: Digest of the piece.
+        kind: Kind of the piece.
+        spec: One of the trials that share the piece; the others have the same inputs of the piece.
+        needs: Digests of the pieces on which it depends.
     """
 
     digest: str
@@ -50,7 +49,7 @@ class PieceTask:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrialTask:
-    """A whole trial to be run by itself.
+    """Task to run a whole trial without shared pieces.
 
     Attributes:
         digest: The trial's key.
@@ -62,7 +61,7 @@ class TrialTask:
 
     @property
     def needs(self) -> tuple[str, ...]:
-        """Empty: a whole trial needs no piece of another one."""
+        """Empty: a whole trial depends on no other piece."""
         return ()
 
 
@@ -71,7 +70,7 @@ Task = PieceTask | TrialTask
 
 
 def tasks_of(spec: TrialSpec, digests: TrialDigests) -> tuple[PieceTask, ...]:
-    """The pieces of a trial, each after those that it needs.
+    """Piece tasks of a trial in topological order.
 
     Args:
         spec: The trial.
@@ -88,19 +87,19 @@ def tasks_of(spec: TrialSpec, digests: TrialDigests) -> tuple[PieceTask, ...]:
 
 
 def make_plan(spec: TrialSpec) -> str:
-    """The plan of a trial, as a piece's text.
+    """Compute the plan of a trial, as text.
 
     Args:
         spec: The trial.
 
     Raises:
-        MotionError: The planner is not there.
+        MotionError: The planner is not available.
     """
     return plan_to_json(plan_of(spec))
 
 
 def make_timing(spec: TrialSpec, plan: str) -> str:
-    """The timing of a trial, as a piece's text.
+    """Compute the timing of a trial, as text.
 
     Args:
         spec: The trial.
@@ -119,13 +118,13 @@ def make_execution(
     observer: StepObserver | None = None,
     checkpoint: Callable[[], None] | None = None,
 ) -> str:
-    """The execution of a trial, as a piece's text.
+    """Compute the execution of a trial, as text.
 
     Args:
         spec: The trial.
         timing: The text of its timing.
-        observer: Looks on after every physics step.
-        checkpoint: Called between two steps; it may wait, or end the execution by raising.
+        observer: Callback after every physics step.
+        checkpoint: Callback between two steps; it may block, or end the execution by raising.
 
     Raises:
         EvidenceError: The timing is damaged.
@@ -135,19 +134,19 @@ def make_execution(
 
 
 def make_bench(spec: TrialSpec, *, bench: Callable[[BenchSpec], PayloadResult] = run_bench) -> str:
-    """The payload bench of a trial's gripper, as a piece's text.
+    """Compute the payload bench of a trial's gripper, as text.
 
     Args:
         spec: The trial.
-        bench: What tries the gripper.
+        bench: Function that runs the bench.
 
     Raises:
-        EvidenceError: The trial's fidelity knows no bench.
+        EvidenceError: The trial's fidelity has no bench.
         SimulationError: The physics engine cannot build the rig.
     """
     asked = bench_of(spec)
     if asked is None:
-        raise EvidenceError(f"a {spec.fidelity.value} trial knows no payload bench")
+        raise EvidenceError(f"a {spec.fidelity.value} trial has no payload bench")
     return bench_to_json(bench(asked))
 
 
@@ -159,22 +158,22 @@ MAKERS: Mapping[PieceKind, Callable[..., str]] = MappingProxyType(
         PieceKind.BENCH: make_bench,
     }
 )
-"""What makes each kind of piece, from the trial and the texts of the pieces that it needs."""
+"""Function of each kind of piece, from the trial and the texts of the pieces on which it depends."""
 
 
 def make_piece(
     task: PieceTask, needed: Mapping[str, Piece], *, makers: Mapping[PieceKind, Callable[..., str]] = MAKERS
 ) -> Piece:
-    """Make a piece.
+    """Compute a piece.
 
     Args:
-        task: The piece to be made.
-        needed: The pieces that it needs, by their digests.
-        makers: What makes each kind, from the trial and the texts that it needs.
+        task: The task.
+        needed: The pieces on which it depends, by digest.
+        makers: Function of each kind of piece.
 
     Raises:
-        EvidenceError: A piece that it needs is damaged.
-        MotionError: The planner is not there.
+        EvidenceError: A piece on which it depends is damaged.
+        MotionError: The planner is not available.
         SimulationError: The physics engine cannot build the world.
     """
     text = makers[task.kind](task.spec, *(needed[digest].text for digest in task.needs))
@@ -182,11 +181,11 @@ def make_piece(
 
 
 def record_of(spec: TrialSpec, pieces: Mapping[PieceKind, Piece]) -> TrialRecord:
-    """Put the record of a trial together from its pieces.
+    """Assemble the record of a trial from its pieces.
 
     Args:
         spec: The trial.
-        pieces: Its pieces by their kind.
+        pieces: Its pieces by kind.
 
     Raises:
         EvidenceError: A piece is damaged.
@@ -201,7 +200,7 @@ def record_of(spec: TrialSpec, pieces: Mapping[PieceKind, Piece]) -> TrialRecord
     )
 
 
-# Trials that share a piece are put together one after another, and it need not be read for each.
+# Records of trials that share a piece are assembled one after another; the cache avoids parsing it for each.
 _plan = lru_cache(maxsize=_READ_KEPT)(plan_from_json)
 _timing = lru_cache(maxsize=_READ_KEPT)(timing_from_json)
 _execution = lru_cache(maxsize=_READ_KEPT)(execution_from_json)

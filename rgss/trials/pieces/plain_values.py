@@ -9,7 +9,7 @@ from typing import Any
 
 
 def to_plain(value: Any) -> Any:
-    """A value of frozen dataclasses as plain mappings, lists, texts and numbers.
+    """Convert a value of frozen dataclasses to plain mappings, lists, texts and numbers.
 
     Args:
         value: A dataclass, an enumeration, a tuple, a list, a mapping, or plain data.

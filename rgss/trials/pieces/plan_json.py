@@ -1,4 +1,4 @@
-"""Serialisation of a plan, exact to the bit."""
+"""Bit-exact serialisation of a plan."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class _Plan:
 
 
 def plan_to_json(plan: TaskPlan) -> str:
-    """Write a plan as canonical JSON.
+    """Plan as canonical JSON.
 
     Args:
         plan: The plan.
@@ -75,13 +75,13 @@ def plan_to_json(plan: TaskPlan) -> str:
 
 
 def plan_from_json(text: str) -> TaskPlan:
-    """Read a plan that `plan_to_json` wrote.
+    """Plan from the output of `plan_to_json`.
 
     Args:
         text: The text.
 
     Raises:
-        EvidenceError: It is no such text.
+        EvidenceError: The text is not valid.
     """
     read = read_json(text, _Plan, "plan")
     moves = {
@@ -105,7 +105,7 @@ def plan_from_json(text: str) -> TaskPlan:
     if len(moves) != len(read.moves) or len(direct) != len(read.direct) or not moves.keys().isdisjoint(direct):
         raise EvidenceError("the plan has two moves of one phase")
     if any((move.path_rad is not None) != (move.outcome is PlanOutcome.SOLVED) for move in moves.values()):
-        raise EvidenceError("the plan has a path where there is none, or none where there is one")
+        raise EvidenceError("each move of the plan must have a path if and only if it is solved")
     return TaskPlan(moves=moves, direct=direct, clock=read.clock)
 
 

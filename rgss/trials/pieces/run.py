@@ -1,4 +1,4 @@
-"""Running trials in this process, piece by piece: alone, or together with others that share pieces."""
+"""Execution of trials in this process, piece by piece, with or without shared pieces."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ _BENCHES_KEPT = 64
 
 
 def run_trial(spec: TrialSpec, *, observer: StepObserver | None = None) -> TrialRecord:
-    """Run one trial by itself; only the bench of its gripper may be known from an earlier one.
+    """Run one trial; only the bench of its gripper is cached across trials.
 
     Args:
         spec: The trial.
-        observer: Looks on after every physics step.
+        observer: Callback after every physics step.
 
     Raises:
         DefinitionError: The limit is longer than the search.
@@ -43,7 +43,7 @@ def run_trial(spec: TrialSpec, *, observer: StepObserver | None = None) -> Trial
 
 
 def require_search(spec: TrialSpec) -> None:
-    """Check that a trial's planning limit can be read off its search.
+    """Require that the search of a trial covers its planning limit.
 
     Args:
         spec: The trial.
@@ -55,15 +55,14 @@ def require_search(spec: TrialSpec) -> None:
         raise DefinitionError(
             f"the planning limit of {spec.planning_limit_s:g} s exceeds the search of "
             f"{spec.settings.planning.search_limit_s:g} s",
-            hint="let the search be as long as the greatest limit",
+            hint="set the search limit to at least the greatest planning limit",
         )
 
 
 class Pieces:
-    """Pieces made so far, so that each is made once.
+    """In-memory cache of pieces.
 
-    A record does not depend on what was made before: a piece depends on exactly the inputs
-    that its digest covers.
+    A record does not depend on earlier ones: a piece depends on exactly the inputs that its digest covers.
     """
 
     def __init__(
@@ -73,12 +72,12 @@ class Pieces:
         checkpoint: Callable[[], None] | None = None,
         bench: Callable[[BenchSpec], PayloadResult] = run_bench,
     ) -> None:
-        """Start without pieces.
+        """Start with an empty cache.
 
         Args:
-            observer: Looks on after every physics step of the executions that are made.
-            checkpoint: Called between two steps of them; it may wait, or end one by raising.
-            bench: What tries a gripper on the payload bench.
+            observer: Callback after every physics step of an execution.
+            checkpoint: Callback between two steps; it may block, or end an execution by raising.
+            bench: Function that runs a payload bench.
         """
         self._makers: dict[PieceKind, Callable[..., str]] = {
             **MAKERS,
@@ -90,18 +89,18 @@ class Pieces:
 
     @property
     def made(self) -> dict[str, int]:
-        """Number of pieces of each kind that were made."""
+        """Number of computed pieces of each kind."""
         kinds = Counter(piece.kind for piece in self._made.values())
         return {kind.value: kinds[kind] for kind in PieceKind}
 
     def prepare(self, spec: TrialSpec) -> None:
-        """Make the plan and the timing of a trial, so that its record only waits for the execution."""
+        """Compute the plan and the timing of a trial in advance of its execution."""
         for task in tasks_of(spec, digests_of(spec, self._versions)):
             if task.kind in (PieceKind.PLAN, PieceKind.TIMING):
                 self._piece(task)
 
     def record(self, spec: TrialSpec) -> TrialRecord:
-        """The record of a trial, making what pieces are missing.
+        """Record of a trial; computes missing pieces.
 
         Raises:
             DefinitionError: The limit is longer than the search.
@@ -118,15 +117,15 @@ class Pieces:
 
 
 def make(task: Task, needed: Mapping[str, Piece]) -> Piece | TrialRecord:
-    """Carry out a task: make a piece, or run a trial by itself.
+    """Run a task: compute a piece, or run a whole trial.
 
     Args:
         task: The task.
-        needed: The pieces that it needs, by their digests.
+        needed: The pieces on which it depends, by digest.
 
     Raises:
-        EvidenceError: A piece that it needs is damaged.
-        MotionError: The planner is not there.
+        EvidenceError: A piece on which it depends is damaged.
+        MotionError: The planner is not available.
         SimulationError: The physics engine cannot build the world.
     """
     return Pieces().record(task.spec) if isinstance(task, TrialTask) else make_piece(task, needed)

@@ -1,4 +1,4 @@
-"""Serialisation of a timing, exact to the bit."""
+"""Bit-exact serialisation of a timing."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class _Timing:
 
 
 def timing_to_json(timing: TaskTiming) -> str:
-    """Write a timing as canonical JSON: the smooth paths and the knots of their motions.
+    """Timing as canonical JSON: the smooth paths and the knots of their motions.
 
     Args:
         timing: The timing.
@@ -73,13 +73,13 @@ def timing_to_json(timing: TaskTiming) -> str:
 
 
 def timing_from_json(text: str) -> TaskTiming:
-    """Read a timing that `timing_to_json` wrote.
+    """Timing from the output of `timing_to_json`.
 
     Args:
         text: The text.
 
     Raises:
-        EvidenceError: It is no such text.
+        EvidenceError: The text is not valid.
     """
     read = read_json(text, _Timing, "timing")
     phases = [*(motion.phase for motion in read.motions), *(entry.phase for entry in read.untimed)]
@@ -106,7 +106,7 @@ def _trajectory(motion: _Motion) -> Trajectory:
         or knots[0] < 2
         or not motion.parameters.shape == motion.rates.shape == knots
     ):
-        raise EvidenceError(f"the motion of {motion.phase} has arrays that do not belong together")
+        raise EvidenceError(f"the motion of {motion.phase} has arrays of inconsistent shapes")
     return Trajectory(
         path=SmoothPath(
             breaks=motion.breaks.array(),

@@ -1,4 +1,4 @@
-"""Planning of a task: its moves, searched for or direct, and the reasons why a waypoint is not served."""
+"""Planning of a task: its planned and direct moves, and the reasons for unreachable waypoints."""
 
 from typing import TYPE_CHECKING
 
@@ -7,11 +7,11 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.trials.planning.direct_moves import direct_move
     from rgss.trials.planning.goal_reasons import GoalReason, Obstacle
-    from rgss.trials.planning.other_limits import plan_under, with_limits_of
+    from rgss.trials.planning.other_limits import plan_with_limits, with_limits_of
     from rgss.trials.planning.plan import plan_of, plan_task
     from rgss.trials.planning.planned_moves import PlannedMove, TaskPlan
     from rgss.trials.planning.planner_searches import searches_of
     from rgss.trials.planning.planning_costs import state_cost
-    from rgss.trials.planning.task_stops import serves_every_stop, unserved_waypoints, waypoint_configurations
+    from rgss.trials.planning.task_stops import every_stop_is_feasible, infeasible_waypoints, waypoint_configurations
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

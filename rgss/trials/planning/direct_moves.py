@@ -1,4 +1,4 @@
-"""Moves without a search: a straight line of the tool, or of the joints, checked state by state."""
+"""Direct moves: straight lines of the tool or in joint space, checked state by state without a search."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ _BREAKS = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DirectMove:
-    """Result of checking a move without a search.
+    """Result of the check of a direct move.
 
     Attributes:
         outcome: Solved, blocked by a collision, unreachable, or out of time.
-        checks: Validity checks, those up to the first state that is not valid.
+        checks: Number of validity checks, up to the first invalid state.
         time_s: Their time by the planning clock.
         path_rad: Configurations (k, n); None unless it is solved.
-        detail: What prevents the move, and where along it; empty if nothing does.
+        detail: Cause and position of the failure along the move; empty if it is solved.
     """
 
     outcome: PlanOutcome
@@ -54,18 +54,18 @@ def direct_move(
     resolution_rad: float,
     limit_s: float,
 ) -> DirectMove:
-    """Check a move that is no search, from its start on.
+    """Check a direct move from its start on.
 
     Every state at the resolution of a planned path is a validity check, charged to the planning clock as those of a
-    search are. There is nothing to simplify.
+    search. There is no simplification.
 
     Args:
         kind: Straight or joint.
         start: Joint positions at its start, shape (n,).
-        goal: Joint positions at its end, where the next move begins, shape (n,).
+        goal: Joint positions at its end and the start of the next move, shape (n,).
         goal_pose: Transform of the tool-centre frame to the world at its end.
         inverse: Inverse kinematics of the arm.
-        model: Bodies that can collide in it.
+        model: Collision model of the move.
         clock: The planning clock.
         resolution_rad: Greatest Euclidean distance in joint space between two checked states.
         limit_s: Longest time by the clock.
@@ -96,7 +96,7 @@ def direct_move(
 def _line(
     kind: MoveKind, start: Array, goal: Array, goal_pose: Pose, inverse: InverseKinematics
 ) -> tuple[Array, float, str]:
-    """Corners of a move as far as it can be followed, the share of it that this is, and what ends it there."""
+    """Corners of a move as far as it can be followed, the fraction reached, and the reason of its end."""
     if kind is MoveKind.JOINT:
         return np.array([start, goal]), 1.0, ""
     line = follow_line(inverse, start, goal_pose, goal_configuration=goal)
@@ -104,20 +104,24 @@ def _line(
     if line.broken is not None:
         return corners, line.fraction, f"{_NAMES[kind]} ends at {_percent(line.fraction)}: {_BREAKS[line.broken]}"
     if np.max(np.abs(corners[-1] - goal)) > _SAME_CONFIGURATION_RAD:
-        return corners, 1.0, f"{_NAMES[kind]} ends in another configuration of the arm than the next move begins in"
+        return (
+            corners,
+            1.0,
+            f"{_NAMES[kind]} ends in a configuration of the arm that differs from the start of the next move",
+        )
     corners[-1] = goal
     return corners, 1.0, ""
 
 
 def _states(corners: Array, resolution_rad: float) -> Array:
-    """Every state of a path at a resolution, the start included, shape (k, n)."""
+    """States of a path at a resolution, including the start, shape (k, n)."""
     parts = [segment_states(first, second, resolution_rad) for first, second in itertools.pairwise(corners)]
     states: Array = np.vstack([corners[:1], *parts])
     return states
 
 
 def _obstacle(model: CollisionModel, q: Array) -> str:
-    """Reason for which a configuration is invalid: two bodies, the tilt of the carried object, or a joint's range."""
+    """Reason why a configuration is invalid: two bodies, the tilt of the carried object, or a joint range."""
     nearest = model.nearest_pair(q)
     if nearest is not None and nearest.room_m < 0.0:
         if nearest.distance_m <= 0.0:

@@ -1,4 +1,4 @@
-"""Reasons for waypoints without a valid configuration: reach, joint range, collision, clearance or tilt."""
+"""Reasons why a waypoint has no valid configuration: reach, joint range, collision, clearance or tilt."""
 
 from __future__ import annotations
 
@@ -29,18 +29,18 @@ class Obstacle(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GoalReason:
-    """Why a pose has no valid configuration, by the configuration that comes nearest to one.
+    """Reason why a pose has no valid configuration, for the configuration nearest to validity.
 
     Attributes:
-        obstacle: What prevents it.
-        configurations: How many configurations reach the pose within the joints' ranges.
+        obstacle: Kind of the obstacle.
+        configurations: Number of configurations that reach the pose within the joint ranges.
         pair: The two bodies of a collision or a clearance; None for other obstacles.
-        distance_m: The distance of the pose from the first axis, or of the two bodies (negative for a
-            depth); NaN for other obstacles.
-        limit_m: The arm's reach, or the clearance to be kept; NaN for other obstacles.
-        joint: The joint that is out of its range; empty for other obstacles.
-        angle_rad: How far it is out of it, or the tilt of what is carried; NaN for other obstacles.
-        is_slide: Whether that joint is prismatic, so that the distance says how far it is out of its range.
+        distance_m: Distance of the pose from the first axis, or of the two bodies (negative for a penetration); NaN for
+        other obstacles.
+        limit_m: The arm's reach, or the required clearance; NaN for other obstacles.
+        joint: The joint out of its range; empty for other obstacles.
+        angle_rad: Its excess, or the tilt of the carried object; NaN for other obstacles.
+        is_slide: True if that joint is prismatic; the excess is then `distance_m`.
     """
 
     obstacle: Obstacle
@@ -78,14 +78,14 @@ class GoalReason:
         return f"the object would be tilted by {math.degrees(self.angle_rad):.0f}°, {best}"
 
 
-def reason_against(
+def infeasibility_reason(
     inverse: InverseKinematics, models: Sequence[CollisionModel], pose: Pose, candidates: Sequence[Array]
 ) -> GoalReason:
-    """Why none of the configurations that reach a pose is valid in all situations that meet there.
+    """Reason why no configuration of a pose is valid in all adjoining moves.
 
     Args:
         inverse: The arm's inverse kinematics.
-        models: The collision models of these situations.
+        models: The collision models of these moves.
         pose: Transform of the tool-centre frame to the world.
         candidates: The configurations that reach it within the joints' ranges.
     """
@@ -97,7 +97,7 @@ def reason_against(
         pairs = [pair for pair in (model.nearest_pair(q) for model in models) if pair is not None]
         worst = min(pairs, key=lambda pair: pair.room_m, default=None)
         tilts += [tilt for tilt in (model.carried_tilt_rad(q) for model in models) if tilt is not None]
-        # Of configurations that come as near, the first, so that rounding cannot choose.
+        # Of equally near configurations the first, so that rounding does not decide.
         if worst is not None and (best is None or worst.room_m > best.room_m + 1e-9):
             best = worst
     if best is None or best.room_m > 0.0:

@@ -1,4 +1,4 @@
-"""Plan under another charge of a check and other limits, read off the searches that were made."""
+"""Derivation of a plan under another check charge and other limits from existing searches."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ from rgss.trials.settings import PlanningSettings
 _WITHOUT_SEARCH = (PlanOutcome.INVALID_START, PlanOutcome.INVALID_GOAL)
 
 
-def plan_under(
+def plan_with_limits(
     plan: TaskPlan, before: PlanningSettings, after: PlanningSettings, *, planned: Sequence[str], limit_s: float
 ) -> TaskPlan | None:
-    """The plan of a trial under other settings, as far as its planning limit lets it go.
+    """Plan of a trial under other settings, up to its planning limit.
 
     A search is a prefix of the same search with a larger budget, and depends on neither the charge of a check nor the
-    limit. So is a simplification whose limit refuses it nothing.
+    limit. The same applies to a simplification whose limit refuses no check.
 
     Args:
-        plan: The plan that was made.
-        before: The settings that it was made with.
-        after: The other settings; they may differ in the charge, the search limit and the simplification limit alone.
+        plan: The existing plan.
+        before: The settings of the existing plan.
+        after: The other settings; they may differ only in the charge, the search limit and the simplification limit.
         planned: Names of the planned moves of the task.
         limit_s: The planning limit of the trial, at most the search limit of `after`.
 
     Returns:
-        The plan; None if the stored searches do not tell: one ended before the limit, the limit of a simplification
-        decides its result, or time is not counted in checks.
+        The plan; None if the existing searches do not determine it: one ended before the limit, the limit of a
+        simplification decides its result, or time is not counted in checks.
     """
     if {before.clock.kind, after.clock.kind} != {ClockKind.COUNTED}:
         return None
@@ -45,7 +45,7 @@ def plan_under(
         if move.outcome is PlanOutcome.BUDGET_SPENT and budget > move.checks:
             return None
         if move.outcome in _WITHOUT_SEARCH or move.outcome is PlanOutcome.BUDGET_SPENT or move.checks > budget:
-            # Nothing comes after it; the plan itself tells what the limit makes of it.
+            # It is the last move; the plan itself has its outcome under the limit.
             moves[phase] = move
             break
         timed = _timed(move, before, after, is_searched=kinds[phase] is MoveKind.PLANNED)
@@ -58,10 +58,10 @@ def plan_under(
 def _timed(
     move: PlannedMove, before: PlanningSettings, after: PlanningSettings, *, is_searched: bool
 ) -> PlannedMove | None:
-    """A move with its times by another clock; None if its path could be another."""
+    """Move with its times by another clock; None if its path could differ."""
     search_s, shortening_s = after.clock.time_s(move.checks), 0.0
     if not is_searched and move.checks == after.search_checks:
-        return None  # Whether the last check of a direct move is in time is a matter of rounding.
+        return None  # Rounding decides whether the last check of a direct move is within the limit.
     if move.outcome is PlanOutcome.SOLVED and is_searched and after.simplification_checks:
         limit = after.clock.checks_within(after.simplification_limit_s)
         if limit != before.clock.checks_within(before.simplification_limit_s):
@@ -73,11 +73,11 @@ def _timed(
 
 
 def with_limits_of(settings: PlanningSettings, other: PlanningSettings) -> PlanningSettings:
-    """The settings with the clock, the search limit and the simplification limit of others.
+    """Settings with the clock, the search limit and the simplification limit of others.
 
     Args:
         settings: The settings.
-        other: Those whose clock and limits are taken.
+        other: The settings with the clock and limits to use.
     """
     return replace(
         settings,

@@ -1,4 +1,4 @@
-"""The plan of a task: one configuration for each waypoint, one search for each planned move."""
+"""Plan of a task: one configuration for each waypoint, one search for each planned move."""
 
 from __future__ import annotations
 
@@ -44,16 +44,16 @@ def plan_task(
 ) -> TaskPlan:
     """Plan every move of the task.
 
-    All planners are given the same configurations at the waypoints, and each move has its own
-    seed, so that planners are compared on the same problems.
+    All planners have the same configurations at the waypoints, and each move has its own seed, so that planners are
+    compared on the same problems.
 
     Args:
         cell: Scene, arm and collision models.
         planner: The planner with its parameters, or the name of one with OMPL's.
         seed: The trial's seed.
         settings: Clock, limit, resolutions.
-        past_failures: Whether the moves after one that finds no path are planned too, as planners are compared.
-        on_graph: Callback with each move that is searched for and the graph of its search.
+        past_failures: True to plan also the moves after one without a path, for comparisons of planners.
+        on_graph: Callback with each planned move and the graph of its search.
     """
     stops = stops_of(cell)
     chosen = PlannerSettings(algorithm=planner) if isinstance(planner, str) else planner
@@ -66,10 +66,10 @@ def plan_task(
             outcome = PlanOutcome.INVALID_START if start is None else PlanOutcome.INVALID_GOAL
             index = leg.start if start is None else leg.goal
             why = too_wide(cell.geometry, leg.scene) or stops.reasons.get(
-                index, "none leads to it from the waypoint before"
+                index, "none is reachable from the previous waypoint"
             )
             name = cell.route.stops[index].name
-            moves[phase] = _ill_posed(phase, outcome, f"no configuration serves {name}: {why}")
+            moves[phase] = _ill_posed(phase, outcome, f"no valid configuration for {name}: {why}")
             break
         if kind is not MoveKind.PLANNED:
             moves[phase] = _direct(leg, kind, start, goal, cell, settings)
@@ -97,19 +97,19 @@ def plan_task(
 
 
 def plan_of(spec: TrialSpec) -> TaskPlan:
-    """The plan of a trial.
+    """Plan of a trial.
 
     Args:
         spec: The trial.
 
     Raises:
-        MotionError: The planner is not there.
+        MotionError: The planner is not available.
     """
     return plan_task(cell_of(spec), spec.planned_by, seed=spec.seed, settings=spec.settings.planning)
 
 
 def _settings_of(step: MoveStep, settings: PlanningSettings) -> PlanningSettings:
-    """The settings with the resolution of the step, where it has its own."""
+    """Settings with the resolution of the step, if it states one."""
     if step.resolution_rad is None:
         return settings
     verification_rad = min(step.resolution_rad, settings.verified_every_rad)
@@ -147,7 +147,7 @@ def _planned(phase: str, result: PlanResult, cell: Workcell, settings: PlanningS
 
 def _unverified_detail(result: PlanResult, settings: PlanningSettings) -> str:
     return (
-        f"the path that was found after {result.checks} validity checks touches something between states "
+        f"the path found after {result.checks} validity checks collides between states "
         f"{settings.resolution_rad:g} rad apart"
     )
 
@@ -155,13 +155,13 @@ def _unverified_detail(result: PlanResult, settings: PlanningSettings) -> str:
 def _direct(
     leg: Leg, kind: MoveKind, start: Array, goal: Array, cell: Workcell, settings: PlanningSettings
 ) -> PlannedMove:
-    """A move without a search, in the place of a planned one."""
+    """Direct move in place of a planned one."""
     stop = cell.route.stops[leg.goal]
     found = direct_move(
         kind,
         start,
         goal,
-        # Where the turn of the tool is free, it is that of the configuration in which the next move begins.
+        # If the rotation of the tool is free, it is that of the configuration at the start of the next move.
         cell.arm.tool_pose(goal) if stop.is_turn_free else goal_pose_of(cell, stop),
         inverse=inverse_at(cell, stop),
         model=cell.planning[leg.step.name],
@@ -176,7 +176,7 @@ def _direct(
 
 
 def _tool_path_length(cell: Workcell, path: Array, resolution_rad: float) -> float:
-    """Length of the way of the tool along a joint path, which between its corners is not a straight line."""
+    """Length in m of the tool path of a joint path; it is curved between the corners."""
     states = [path[:1]]
     for start, end in itertools.pairwise(path):
         states.append(segment_states(start, end, resolution_rad))
@@ -198,5 +198,5 @@ def _ill_posed(phase: str, outcome: PlanOutcome, detail: str) -> PlannedMove:
 
 
 def _move_seed(seed: int, phase: str) -> int:
-    """A seed of its own for each move: 31 bits of a hash, since the planner's seed is a C unsigned long."""
+    """Seed of a move: 31 bits of a hash, since the planner's seed is a C unsigned long."""
     return int.from_bytes(hashlib.sha256(f"{seed}:{phase}".encode()).digest()[:4], "big") >> 1 or 1

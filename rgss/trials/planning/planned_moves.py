@@ -12,22 +12,22 @@ from rgss.trials.reference import Array
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlannedMove:
-    """The planning of one move.
+    """Planning result of one move.
 
     Attributes:
         phase: The move.
-        outcome: How it ended.
+        outcome: The outcome.
         checks: Validity checks of the search, of the verification of its path and of repairs.
-        simplification_checks: Validity checks of shortening the path.
+        simplification_checks: Validity checks of the simplification.
         search_time_s: Time of the search by the planning clock; compared with a limit.
         time_s: Planning time t_sp by the planning clock: search and simplification.
         path_rad: The path's configurations (k, n); None if there is none.
         path_length_m: Length of the tool's path; None if there is none.
-        detail: The obstacle, if the problem itself is ill posed or the path is not valid.
-        verification_checks: Those of `checks` that verified the path.
-        repairs: Motions of the path that were planned anew, because they were not valid.
-        simplification_unlimited_from: A limit of the simplification in checks from which on no limit changes its
-            result; None if its own did.
+        detail: The obstacle, if the problem is ill-posed or the path is not valid.
+        verification_checks: Share of `checks` spent on verifying the path.
+        repairs: Number of invalid motions of the path that were replanned.
+        simplification_unlimited_from: Least limit of the simplification in checks that does not change its result; None
+        if its own limit did.
     """
 
     phase: str
@@ -46,12 +46,12 @@ class PlannedMove:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaskPlan:
-    """The planned moves of a task, and those that are straight lines by definition.
+    """Planned and direct moves of a task.
 
     Attributes:
-        moves: The planned moves; those after a problem that is ill posed are missing.
-        direct: Configurations (k, n) of each move that is a straight line by definition; None if there is none.
-        clock: The clock that the searches were counted by.
+        moves: The planned moves; those after an ill-posed problem are missing.
+        direct: Configurations (k, n) of each move that the task defines as straight; None if it is infeasible.
+        clock: The planning clock of the searches.
     """
 
     moves: Mapping[str, PlannedMove]
@@ -59,13 +59,13 @@ class TaskPlan:
     clock: PlanningClock
 
     def move_within(self, phase: str, limit_s: float) -> PlannedMove:
-        """A move's planning as it would have been under a limit.
+        """Planning result of a move under a shorter limit.
 
-        A search is a prefix of the same search with a longer limit, so the limit is read off it.
+        A search is a prefix of the same search with a longer limit, so the result follows from the longer one.
 
         Args:
             phase: The move.
-            limit_s: The planning limit; at most the one that the search was run with.
+            limit_s: The planning limit; at most that of the search.
         """
         move = self.moves[phase]
         if move.outcome in (PlanOutcome.INVALID_START, PlanOutcome.INVALID_GOAL):

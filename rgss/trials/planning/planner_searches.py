@@ -1,4 +1,4 @@
-"""The searches of a planner for every move of a task, moves after one that finds no path included."""
+"""Searches of a planner for every move of a task, including moves after one without a path."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from rgss.trials.workcell import cell_of
 
 
 def searches_of(spec: TrialSpec) -> TaskPlan:
-    """The plan of a trial, with the moves that come after one which finds no path.
+    """Plan of a trial, including the moves after one without a path.
 
-    All planners are given the same problems, so that they are compared move by move.
+    All planners have the same problems, so that they are compared move by move.
 
     Args:
         spec: The trial.
 
     Raises:
-        MotionError: The planner is not there.
+        MotionError: The planner is not available.
     """
     settings = spec.settings.planning
     return plan_task(cell_of(spec), spec.planned_by, seed=spec.seed, settings=settings, past_failures=True)

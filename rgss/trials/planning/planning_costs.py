@@ -1,4 +1,4 @@
-"""Costs of a state that a planner's objective may keep low."""
+"""State costs of planner objectives."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ _LEAST_CLEARANCE_M = 0.001
 
 
 def state_cost(cell: Workcell, phase: str, objective: Objective | None) -> StateCost | None:
-    """The cost of a state in a move, of which the objective takes the increases along a path.
+    """Cost of a state in a move; the objective sums its increases along a path.
 
-    With d the distance from what moves to what stands, of at least 1 mm, it is 1/d in 1/m for `Objective.CLEARANCE`.
-    For `Objective.MECHANICAL_WORK` it is the potential energy of the arm's links in J; the gripper and what it holds
-    are left out, since a plan is shared by grippers of any mass.
+    With d the distance between moving and fixed parts, at least 1 mm, it is 1/d in 1/m for `Objective.CLEARANCE`. For
+    `Objective.MECHANICAL_WORK` it is the potential energy of the arm's links in J, without gripper and held object,
+    since grippers of any mass share a plan.
 
     Args:
         cell: Scene, arm and collision models.
         phase: The move.
-        objective: What the planner keeps low.
+        objective: The planner's objective.
     """
     if objective is Objective.CLEARANCE:
         clearance_m = cell.planning[phase].clearance_m

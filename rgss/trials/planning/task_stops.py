@@ -1,4 +1,4 @@
-"""Configurations at the stops of a task, and its moves that are straight lines by definition."""
+"""Configurations at the stops of a task, and its straight moves."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from rgss.kinematics import (
 from rgss.motion import segment_states
 from rgss.scenes import Pose
 from rgss.tasks import MoveKind
-from rgss.trials.planning.goal_reasons import GoalReason, reason_against
+from rgss.trials.planning.goal_reasons import GoalReason, infeasibility_reason
 from rgss.trials.reference import Array
 from rgss.trials.route import Leg, Stop
 from rgss.trials.workcell import Workcell
@@ -34,9 +34,9 @@ class TaskStops:
     """One configuration for each stop, the same for every planner and seed.
 
     Attributes:
-        configurations: Joint positions (n,) by the index of the stop; a stop that is not served has none.
-        direct: Configurations (k, n) of each move that is a straight line by definition; None where there is none.
-        reasons: Why a stop is not served, by its index.
+        configurations: Joint positions (n,) by the index of the stop, without stops that have no valid one.
+        direct: Configurations (k, n) of each move that the task defines as straight; None if it is infeasible.
+        reasons: Reason why a stop has no valid configuration, by its index.
     """
 
     configurations: Mapping[int, Array]
@@ -46,7 +46,7 @@ class TaskStops:
 
 @lru_cache(maxsize=4)
 def stops_of(cell: Workcell) -> TaskStops:
-    """One configuration for each stop: collision-free in every move that meets there, least travel.
+    """One configuration for each stop: collision-free in all adjoining moves, with the least joint travel.
 
     Args:
         cell: Scene, arm and collision models.
@@ -58,7 +58,7 @@ def stops_of(cell: Workcell) -> TaskStops:
         for index, stop in enumerate(stops)
     ]
     reasons = _reasons(cell, (index for index, found in enumerate(candidates) if not found))
-    # The task is planned up to the first stop that is not served.
+    # The task is planned up to the first stop without a valid configuration.
     order = list(itertools.takewhile(lambda index: candidates[index], range(len(stops))))
     legs = [pair for pair in pairs if {*pair} <= {*order}]
     if not legs:
@@ -71,8 +71,8 @@ def stops_of(cell: Workcell) -> TaskStops:
     return TaskStops(configurations=found, direct=direct, reasons=reasons)
 
 
-def serves_every_stop(cell: Workcell) -> bool:
-    """True if each stop has a configuration that is valid in every move that meets there; not whether moves are.
+def every_stop_is_feasible(cell: Workcell) -> bool:
+    """True if each stop has a configuration that is valid in all adjoining moves; the moves are not checked.
 
     Args:
         cell: Scene, arm and collision models.
@@ -84,7 +84,7 @@ def serves_every_stop(cell: Workcell) -> bool:
 
 
 def waypoint_configurations(cell: Workcell) -> Mapping[str, Array]:
-    """The configuration of each stop that is served, by its name.
+    """Configuration of each stop by name, without stops that have no valid one.
 
     Args:
         cell: Scene, arm and collision models.
@@ -93,8 +93,8 @@ def waypoint_configurations(cell: Workcell) -> Mapping[str, Array]:
     return {stop.name: found[index] for index, stop in enumerate(cell.route.stops) if index in found}
 
 
-def unserved_waypoints(cell: Workcell) -> dict[str, GoalReason]:
-    """Why stops have no configuration that is valid in every move that meets there, by their names.
+def infeasible_waypoints(cell: Workcell) -> dict[str, GoalReason]:
+    """Reasons why stops have no configuration that is valid in all adjoining moves, by name.
 
     Args:
         cell: Scene, arm and collision models.
@@ -114,7 +114,7 @@ def goal_pose_of(cell: Workcell, stop: Stop) -> Pose:
 
 
 def inverse_at(cell: Workcell, stop: Stop) -> InverseKinematics:
-    """Inverse kinematics of what a stop asks of the tool.
+    """Inverse kinematics for a stop, with or without free rotation about the tool's axis.
 
     Args:
         cell: Scene, arm and collision models.
@@ -139,12 +139,12 @@ def _reasons(cell: Workcell, among: Iterable[int]) -> dict[int, GoalReason]:
         stop, meeting = cell.route.stops[index], _meeting(cell, index)
         reached = _solutions(cell, stop)
         if not any(all(model.is_valid(q) for model in meeting) for q in reached):
-            found[index] = reason_against(inverse_at(cell, stop), meeting, goal_pose_of(cell, stop), reached)
+            found[index] = infeasibility_reason(inverse_at(cell, stop), meeting, goal_pose_of(cell, stop), reached)
     return found
 
 
 def _direct_moves(cell: Workcell, found: dict[int, Array]) -> dict[str, Array | None]:
-    """The straight moves in order; one that is the first to reach its goal decides the configuration there."""
+    """Straight moves in order; the first one to reach a stop determines the configuration there."""
     direct: dict[str, Array | None] = {}
     reached = {cell.route.legs[0].start}
     for leg in cell.route.legs:
@@ -161,7 +161,7 @@ def _direct_moves(cell: Workcell, found: dict[int, Array]) -> dict[str, Array | 
 
 
 def _line(cell: Workcell, leg: Leg, found: Mapping[int, Array], *, is_new: bool) -> Array | None:
-    """A straight move, if it is valid and ends in the configuration in which the next begins."""
+    """Straight move, if it is valid and ends in the configuration at the start of the next move."""
     stop, model = cell.route.stops[leg.goal], cell.planning[leg.step.name]
     start, goal = found[leg.start], found[leg.goal]
     if leg.step.mode is MoveKind.JOINT:
@@ -181,6 +181,6 @@ def _line(cell: Workcell, leg: Leg, found: Mapping[int, Array], *, is_new: bool)
 
 
 def _line_to(cell: Workcell, stop: Stop, start: Array, goal: Array) -> Array | None:
-    """A straight line of the tool that is led to a configuration, whose turn about the tool's axis it ends with."""
+    """Straight line of the tool to a configuration, which determines the rotation about the tool's axis."""
     line = follow_line(inverse_at(cell, stop), start, cell.arm.tool_pose(goal), goal_configuration=goal)
     return line.configurations_rad if line.broken is None else None

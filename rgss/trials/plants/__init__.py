@@ -1,4 +1,4 @@
-"""Plants that a task runs on: kinematic and dynamic, and what they share with that of contact."""
+"""Plants: the kinematic and the dynamic plant, and common parts of all plants."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""Observations of the arm over a phase: loads, work and speeds of the joints, and how the tool followed its path."""
+"""Observations of the arm over a phase: loads, work and speeds of the joints, and tracking of the tool."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def tool_metrics(positions_m: Array, targets_m: Array, velocities: Array, accele
 
     Args:
         positions_m: Positions of the tool in the world, shape (n, 3).
-        targets_m: Where it should have been, shape (n, 3).
+        targets_m: Its target positions, shape (n, 3).
         velocities: Its velocities in m/s, shape (m, 3).
         accelerations: Magnitudes of its acceleration in m/s², shape (k,).
     """
@@ -33,11 +33,11 @@ def tool_metrics(positions_m: Array, targets_m: Array, velocities: Array, accele
 
 
 def tool_metrics_by_differences(positions_m: Array, targets_m: Array, *, step_s: float) -> dict[str, float]:
-    """The same with velocities and accelerations by differences of the positions.
+    """Tracking metrics with velocities and accelerations by differences of the positions.
 
     Args:
         positions_m: Positions of the tool in the world at the start and after each step, shape (n + 1, 3).
-        targets_m: Where it should have been, shape (n + 1, 3).
+        targets_m: Its target positions, shape (n + 1, 3).
         step_s: Length of a step.
     """
     velocities = np.diff(positions_m, axis=0) / step_s
@@ -46,10 +46,10 @@ def tool_metrics_by_differences(positions_m: Array, targets_m: Array, *, step_s:
 
 
 class ArmObservations:
-    """Loads, work and speeds of the joints of a phase, and the metrics of its tool, for any plant with torques."""
+    """Accumulator of loads, work and speeds of the joints in a phase, for any plant with torques."""
 
     def __init__(self, joints: Sequence[Joint], step_s: float) -> None:
-        """Begin at rest.
+        """Start at rest.
 
         Args:
             joints: The arm's joints with their limits.
@@ -72,19 +72,19 @@ class ArmObservations:
             self._motion.note_all(torques_n_m, speeds_rad_s, self._step_s)
 
     def note_tool(self, metrics: Mapping[str, Metric]) -> None:
-        """Take the metrics of the tool that followed a path, as of `tool_metrics`."""
+        """Store the metrics of the tool, in the form of `tool_metrics`."""
         self._tool = metrics
 
     def tracking_failure(self, error_m: float) -> str:
-        """Detail of a failure to track, with the joints that reached their limit.
+        """Detail of a tracking failure, with the joints that reached their limit.
 
         Args:
-            error_m: Distance of the tool from where it should be.
+            error_m: Tracking error of the tool.
         """
-        return f"the tool was {error_m * 1e3:.2f} mm from where it should be{self._load.words()}"
+        return f"the tool was {error_m * 1e3:.2f} mm from its target{self._load.words()}"
 
     def metrics(self) -> dict[str, Metric]:
-        """The observations by name with unit."""
+        """Metrics by name with unit."""
         load, motion = self._load.metrics(), self._motion.metrics()
         return {**self._tool, **load, **motion, **governing_joint(load, motion)}
 

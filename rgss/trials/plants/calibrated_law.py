@@ -1,4 +1,4 @@
-"""Control law of joints whose servos were fitted to a recording: gains, friction, and commands that arrive late."""
+"""Control law of calibrated servos: gains, friction and delayed commands."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _STABLE = 1.0 + 1.0e-9
 
 
 class CalibratedLaw:
-    """Acceleration that calibrated servos give the joints over a step, their friction included.
+    """Joint accelerations of calibrated servos over a step, including friction.
 
-    Under position control the servos are commanded the target and its speed. Under velocity control they are
-    commanded v_c = v_target + k (q_target - q), clipped to the speeds of the joints, and k acts on what arrives late
-    too. A command arrives after the servo's delay, which need not be a multiple of the step: its speed holds over a
-    step, its position rises evenly, as in `rgss.identification`.
+    Under position control the servos are commanded the target and its speed. Under velocity control they are commanded
+    v_c = v_target + k (q_target - q), clipped to the speeds of the joints, and k acts on the delayed command too. A
+    command arrives after the servo's delay, which need not be a multiple of the step: its speed is constant over a
+    step, its position linear, as in `rgss.identification`.
     """
 
     def __init__(
@@ -35,12 +35,12 @@ class CalibratedLaw:
         position_gain_1_s: Array,
         step_s: float,
     ) -> None:
-        """Begin at rest.
+        """Start at rest.
 
         Args:
             servos: The servo of each joint.
-            fastest_rad_s: Speed of each joint that no command exceeds, shape (joints,).
-            control: The command under which the servos were fitted.
+            fastest_rad_s: Speed limit of each joint's command, shape (joints,).
+            control: The command interface of the fit.
             position_gain_1_s: k of each joint, under velocity control; shape (joints,).
             step_s: Time between two commands.
         """
@@ -51,17 +51,17 @@ class CalibratedLaw:
         under = [replace(servo, position_gain_hz2=0.0) for servo in servos] if self._by_speed else servos
         self._loop = VelocityLoop(under, step_s)
         delays = np.array([servo.delay_s for servo in servos]) / step_s
-        self._late = _LateCommands(delays, step_s)
+        self._late = _DelayedCommands(delays, step_s)
 
     def __call__(self, target: Array, speed: Array, acceleration: Array, q: Array, dq: Array) -> Array:
         """Acceleration over the coming step, each of shape (joints,).
 
         Args:
-            target: Target positions now.
-            speed: Target speeds of the step before.
-            acceleration: Change of the target speeds to the coming step, over its length.
-            q: Positions now.
-            dq: Speeds now.
+            target: Present target positions.
+            speed: Target speeds of the previous step.
+            acceleration: Change of the target speeds to the coming step, divided by its length.
+            q: Present positions.
+            dq: Present speeds.
         """
         command = speed + self._step_s * acceleration
         if self._by_speed:
@@ -72,11 +72,11 @@ class CalibratedLaw:
         return wanted
 
 
-class _LateCommands:
-    """The commands of the last steps, read with the delay of each joint."""
+class _DelayedCommands:
+    """Delay line of commands, with the delay of each joint."""
 
     def __init__(self, delays: Array, step_s: float) -> None:
-        """Begin without commands.
+        """Start without commands.
 
         Args:
             delays: Delays in steps, shape (joints,).
@@ -94,10 +94,10 @@ class _LateCommands:
         self._joints = np.arange(len(delays))
 
     def after(self, target: Array, speed: Array) -> tuple[Array, Array]:
-        """Position at the middle of the coming step, and mean speed over it, as they arrive.
+        """Delayed position at the middle of the coming step, and delayed mean speed over it.
 
         Args:
-            target: Commanded positions now, shape (joints,).
+            target: Present commanded positions, shape (joints,).
             speed: Commanded speeds from now on, shape (joints,).
         """
         if not self._positions:
@@ -113,13 +113,13 @@ class _LateCommands:
 
 
 def is_stable(servo: JointServo, *, control: ServoControl, position_gain_1_s: float, step_s: float) -> bool:
-    """Whether the error of a joint does not grow; Coulomb friction and limits aside.
+    """True if the closed loop of a joint is stable, without Coulomb friction and limits.
 
-    The greatest size of the eigenvalues of a step, whose states are position, speed and the commands under way.
+    By the spectral radius of the transition over a step, whose states are position, speed and the delayed commands.
 
     Args:
         servo: The servo.
-        control: The command under which it was fitted.
+        control: The command interface of the fit.
         position_gain_1_s: Gain of the position error under velocity control.
         step_s: Length of a step.
     """

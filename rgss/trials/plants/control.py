@@ -1,4 +1,4 @@
-"""Thresholds of the task's control: when a grasp is firm, an object dropped, a release complete."""
+"""Thresholds of the task program: firm grasp, dropped object, complete release."""
 
 from __future__ import annotations
 
@@ -10,31 +10,28 @@ class ControlSettings:
     """Waiting times and thresholds of the task program.
 
     Attributes:
-        firm_grasp_s: Time for which every finger must hold above its threshold. Closing gives
-            a spike whose height depends on the step length, so one step is not enough.
-        grasp_timeout_s: Time beyond the fingers' travel after which a grasp has failed.
-        force_window_s: Time over which the fingers' forces are averaged before they are compared with the load, as a
-            force sensor's filter does.
-        holding_share: Share of the design's finger force with which an object is first held.
-        tighten_below: Grip margin (friction available over friction needed) below which the
-            fingers are commanded to close further.
-        tightening_share: Share of the design's finger force that each such command adds, up to
-            the whole.
+        firm_grasp_s: Duration for which every finger must exceed its threshold. Closing causes a force spike whose
+        height depends on the step length, so one step is not enough.
+        grasp_timeout_s: Timeout of a grasp in addition to the fingers' travel.
+        force_window_s: Averaging window of the fingers' forces for the comparison with the load, like a force sensor's
+        filter.
+        holding_share: Share of the design's finger force of the initial grip.
+        tighten_below: Grip margin (friction available over friction needed) below which the commanded force is
+        increased.
+        tightening_share: Share of the design's finger force added by each increase, up to the full force.
         lost_contact_s: Time without two fingers on the object after which it counts as dropped.
         largest_slip_m: Displacement in the gripper beyond which the object counts as dropped.
-        largest_tracking_error_m: Distance of the tool from its commanded position beyond which
-            a move has failed.
-        settled_speed_m_s: Mean speed below which a released object counts as standing.
-        settled_s: Time over which that is the mean.
-        settling_timeout_s: Longest wait for it.
-        displaced_m: Displacement before the grasp beyond which the object was knocked.
-        observation_rate_hz: Rate at which the pose of a held object is observed; contacts, torques and
-            the tool are read at every step.
-        acceleration_window_s: Time over which the tool's acceleration is averaged, as an
-            accelerometer's filter does; from one step to the next it shows the solver's noise.
-        grasp_rate_hz: Rate at which the grasp of a carried object is analysed; also at the end of
-            every phase, and there with what the grasp resists (Q_SMW and the load), which takes ten
-            times as long.
+        largest_tracking_error_m: Tracking error of the tool beyond which a move fails.
+        settled_speed_m_s: Mean speed below which a released object counts as settled.
+        settled_s: Averaging time of that speed.
+        settling_timeout_s: Timeout of settling.
+        displaced_m: Displacement before the grasp beyond which the object counts as displaced.
+        observation_rate_hz: Rate at which the pose of a held object is observed; contacts, torques and the tool are
+        observed at every step.
+        acceleration_window_s: Averaging window of the tool's acceleration, like an accelerometer's filter; differences
+        of single steps show the solver's noise.
+        grasp_rate_hz: Rate at which the grasp of a carried object is analysed; also at the end of every phase, there
+        with the strength (Q_SMW and the load factor), which takes ten times as long.
     """
 
     firm_grasp_s: float = 0.05

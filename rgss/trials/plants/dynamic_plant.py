@@ -1,7 +1,7 @@
 """Plant of the middle fidelity: the arm under joint torques, without contact.
 
-It gives the torques that the task needs, the tracking error under them, and the joints that reach their limits.
-The object is a load of the flange from the grasp to the release; no force on it and no slip is recorded.
+It gives the required torques, the tracking error, and the joints that reach their limits. The object is a load of the
+flange from the grasp to the release; forces on it and slip are not modelled.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from rgss.trials.reference import Array, Reference
 
 
 class DynamicPlant:
-    """The arm under the control of its joints; a Boolean hand."""
+    """Arm under joint control, with a Boolean hand."""
 
     def __init__(
         self,
@@ -40,7 +40,7 @@ class DynamicPlant:
         *,
         task: TaskProgram,
         controller: JointController | None = None,
-        believed: Sequence[Workpiece] = (),
+        assumed: Sequence[Workpiece] = (),
         checkpoint: Callable[[], None] | None = None,
     ) -> None:
         """Prepare the plant.
@@ -53,9 +53,9 @@ class DynamicPlant:
             settings: Step length.
             control: Thresholds of the task program.
             controller: Mode and gains; computed torque by default.
-            believed: Objects as the controller's model has them; those of the scene by default.
-            checkpoint: Called before each step; it may wait, or end the task by raising.
-            task: The task, which says what is gripped when.
+            assumed: Objects of the controller's model; those of the scene by default.
+            checkpoint: Callback before each step; it may block, or end the task by raising.
+            task: The task.
         """
         self._machine = machine
         self._arm = arm
@@ -70,7 +70,7 @@ class DynamicPlant:
         self._checkpoint = checkpoint
         self._limits = np.array([joint.torque_n_m for joint in scene.robot.joints])
         opening_m = gripper.geometry.largest_opening_m
-        self._believed = {one.id: one for one in believed}
+        self._assumed = {one.id: one for one in assumed}
         self._grips = GripSequence(task, scene, gripper.geometry)
         empty = gripper_loads(gripper, opening_m)
         self._empty = ArmDynamics(scene.robot, empty, gravity_m_s2=scene.gravity_m_s2)
@@ -81,11 +81,11 @@ class DynamicPlant:
 
     @property
     def followed(self) -> Mapping[str, Array]:
-        """Joint positions (k + 1, n) at each step of the moves that ran, settling included; the first at the start."""
+        """Joint positions (k + 1, n) at each step of the moves that ran, including settling; the first at the start."""
         return {phase: np.array(positions) for phase, positions in self._followed.items()}
 
     def start(self, configuration_rad: Sequence[float]) -> None:
-        """Stand at rest at a configuration."""
+        """Put the arm at rest at a configuration."""
         self._at_rad = np.array(configuration_rad)
         self._machine.reset(configuration_rad, 0.0)
 
@@ -96,7 +96,7 @@ class DynamicPlant:
         log.positions_rad.append(np.array(self._machine.state()[0]))
         self._followed[phase] = log.positions_rad
         target = reference.positions_rad
-        # The engine adds an acceleration to the speed of the step before, and that speed to the position.
+        # The engine adds an acceleration to the speed of the previous step, and that speed to the position.
         speeds = np.vstack([np.zeros((1, target.shape[1])), reference.velocities_rad_s])
         accelerations = np.diff(speeds, axis=0) / self._step_s
         actual = [
@@ -118,7 +118,7 @@ class DynamicPlant:
         return self._result(phase, log, failure, detail, {})
 
     def grasp(self, phase: str | None = None) -> PhaseResult:
-        """Close: the arm holds still for the fingers' travel and the time of a firm grasp."""
+        """Close: the arm rests for the fingers' travel and the duration of a firm grasp."""
         name = phase or self._grips.first_grip
         view = self._grips.view_of(name)
         misfit = self._hand.misfit(view)
@@ -132,7 +132,7 @@ class DynamicPlant:
         return result
 
     def place(self, phase: str | None = None) -> PhaseResult:
-        """Open: the arm holds still for the fingers' travel."""
+        """Open: the arm rests for the fingers' travel."""
         name = phase or self._grips.first_release
         self._machine.detach()
         self._machine.hold_fingers(0.0)
@@ -141,29 +141,29 @@ class DynamicPlant:
         return self._wait(name, opening_s, {"opening_s": opening_s})
 
     def wait(self, phase: str, duration_s: float) -> PhaseResult:
-        """Hold the configuration with what is held."""
+        """Hold the configuration with the held object."""
         return self._wait(phase, duration_s, {})
 
     def check(self, step: CheckStep) -> PhaseResult:
-        """Take the conditions for granted: nothing is known of objects that are not held."""
+        """Assume that the conditions hold: objects that are not held are not modelled."""
         return self._result(step.name, self._log(), None, "", {})
 
     def _law_of(self, controller: JointController) -> ControlLaw:
         return control_law(controller, self._scene.robot.joints, step_s=self._step_s, tool=self._arm)
 
     def _enter(self, phase: str) -> None:
-        """Begin a step: under its own control, or under that of the study; a law that changes begins at rest."""
+        """Begin a step with its own control or that of the study; a new control law starts at rest."""
         own = self._grips.control_in(phase)
         if own != self._own_control:
             self._own_control = own
             self._law = self._law_of(self._controller if own is None else stated_in_step(self._controller, own))
 
     def _loaded_with(self, view: Scene) -> ArmDynamics:
-        """Dynamics of the arm as the controller knows them with the object of a scene in the hand."""
+        """Dynamics of the arm in the controller's model, with the object of a scene in the hand."""
         workpiece = view.workpiece
         if workpiece.id not in self._loaded:
             gripper = self._gripper
-            known = self._believed.get(workpiece.id, workpiece)
+            known = self._assumed.get(workpiece.id, workpiece)
             loads, at = gripper_loads(gripper, grasp_opening_m(view, gripper.geometry)), _held_at(view)
             centre = gripper.geometry.grasp_centre
             held = workpiece_load(known, centre if at is None else centre @ at)
@@ -194,7 +194,7 @@ class DynamicPlant:
         )
 
     def _drive(self, target: Array, speed: Array, acceleration: Array, log: _Log) -> Array:
-        """One step of the controller; returns where the joints are after it."""
+        """One step of the controller; returns the joint positions after it."""
         if self._checkpoint is not None:
             self._checkpoint()
         q, dq = (np.array(values) for values in self._machine.state())
@@ -221,13 +221,13 @@ class DynamicPlant:
 
 
 def _held_at(view: Scene) -> Pose | None:
-    """Transform of the held object to the grasp centre; None for a cylinder that is held down its axis."""
+    """Transform of the held object to the grasp-centre frame; None for a cylinder gripped along its axis from above."""
     return None if view.grasp_in_object is None else view.grasp_in_object.inverse()
 
 
 @dataclass(slots=True)
 class _Log:
-    """Observations of one phase, and how many steps it took."""
+    """Observations of one phase, and its number of steps."""
 
     arm: ArmObservations
     steps: int = 0

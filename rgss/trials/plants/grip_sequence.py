@@ -1,13 +1,13 @@
-"""What each step of a task states: the object that it concerns, how far the hand opens, thresholds and control."""
+"""Object, hand opening, thresholds and control of each step of a task."""
 
 from __future__ import annotations
 
-from rgss.scenes import GripperGeometry, Scene, grasp_opening_m, initial_standings, scene_about
+from rgss.scenes import GripperGeometry, Scene, grasp_opening_m, initial_placements, scene_about
 from rgss.tasks import CheckStep, GripStep, MoveStep, Step, StepControl, TaskProgram, stages_of
 
 
 class GripSequence:
-    """What each step of a task concerns and states.
+    """Lookup of object, hand opening, thresholds and control by step.
 
     Attributes:
         first_grip: Name of the first step that closes the hand; empty if there is none.
@@ -19,13 +19,13 @@ class GripSequence:
 
         Args:
             task: The task.
-            scene: The scene, whose workpiece is the object of steps that name none.
+            scene: The scene; its workpiece is the default object of steps.
             geometry: The gripper's shape.
         """
-        standings = initial_standings(scene)
+        placements = initial_placements(scene)
         views = {
-            name: scene if name == scene.workpiece.id else scene_about(scene, name, place="", standings=standings)
-            for name in standings
+            name: scene if name == scene.workpiece.id else scene_about(scene, name, place="", placements=placements)
+            for name in placements
         }
         self._views = {stage.step.name: views[stage.object] for stage in stages_of(task, scene.workpiece.id)}
         self._steps: dict[str, Step] = {step.name: step for step in task.steps}
@@ -34,7 +34,7 @@ class GripSequence:
         self.first_release = next(iter(task.releases), "")
 
     def control_in(self, phase: str) -> StepControl | None:
-        """The control of the joints that a step states; None if it states none.
+        """Joint control of a step; None for that of the study.
 
         Args:
             phase: Name of the step.
@@ -43,7 +43,7 @@ class GripSequence:
         return None if isinstance(step, CheckStep) else step.control
 
     def reached_rad(self, phase: str) -> float | None:
-        """Error of any joint up to which the end of a move counts as reached; None if the move does not state it.
+        """Greatest joint error at which the end of a move counts as reached; None if the move does not state it.
 
         Args:
             phase: Name of the step.
@@ -52,17 +52,17 @@ class GripSequence:
         return step.reached_rad if isinstance(step, MoveStep) else None
 
     def firm_s(self, phase: str, common_s: float) -> float:
-        """Time for which the fingers must hold an object for a firm grasp.
+        """Required duration of a firm grasp in s.
 
         Args:
             phase: Name of the step.
-            common_s: That of steps that state none.
+            common_s: Default of steps that state none.
         """
         step = self._steps[phase]
         return step.firm_s if isinstance(step, GripStep) and step.firm_s is not None else common_s
 
     def view_of(self, phase: str) -> Scene:
-        """The scene with the object of a step as its workpiece.
+        """Scene with the object of a step as its workpiece.
 
         Args:
             phase: Name of the step.
@@ -70,7 +70,7 @@ class GripSequence:
         return self._views[phase]
 
     def travel_m(self, phase: str) -> float:
-        """Travel of a finger from open to where it holds the object of a step.
+        """Travel in m of a finger from open to contact with the object of a step.
 
         Args:
             phase: Name of the step.

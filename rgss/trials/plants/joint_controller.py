@@ -1,4 +1,4 @@
-"""Control of the joints: modes, gains, and the acceleration that is commanded."""
+"""Joint control: modes, gains and commanded acceleration."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 class ControlMode(str, Enum):
-    """Mode of the control of the joints."""
+    """Mode of joint control."""
 
     POSITION = "position"
     VELOCITY = "velocity"
@@ -31,7 +31,7 @@ class ControlMode(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JointGains:
-    """Gains of one joint; None where it has those of all joints.
+    """Gains of one joint; None for the common gains.
 
     Attributes:
         joint: Its name.
@@ -58,7 +58,7 @@ class JointController:
         position:               2 ζ ω ė + ω² e
         velocity:         g (q̇_c - q̇)  with the commanded velocity  q̇_c = q̇_d + k e
 
-        tool tracking:    g (q̇_c - q̇)  with the q̇_c that moves the tool with the target's velocity and k times its error
+        tool tracking:    g (q̇_c - q̇)  with the q̇_c that gives the tool the target's velocity plus k times its error
         calibrated:       that of the servos of the robot's calibration, with their delay and friction
 
     and inverse dynamics turns it into torques. ω² and 2 ζ ω are the gains k_p and k_d of a servo. The commanded
@@ -71,12 +71,12 @@ class JointController:
         damping_ratio: ζ.
         position_gain_1_s: k, of the velocity mode, of tool tracking, and of a calibration under velocity control.
         velocity_gain_1_s: g, of the velocity mode and of tool tracking.
-        joints: Gains of single joints, in place of those.
-        reached_rad: Error of any joint up to which the end of a move counts as reached.
-        settling_limit_s: Longest wait for that after a move.
-        in_contact: Whether contact physics drives the joints along the motion that they make under this control, and
-            not along their targets.
-        calibration: The robot's servos, in the mode that needs them.
+        joints: Gains of single joints, which override the common ones.
+        reached_rad: Greatest joint error at which the end of a move counts as reached.
+        settling_limit_s: Timeout of settling after a move.
+        in_contact: True if contact physics drives the joints along their motion under this control, False if along
+        their targets.
+        calibration: The robot's servos, in the calibrated mode.
     """
 
     mode: ControlMode = ControlMode.COMPUTED_TORQUE
@@ -92,17 +92,17 @@ class JointController:
 
     @property
     def origin(self) -> str:
-        """The mode, and what it was calibrated on."""
+        """Mode and provenance of the calibration, as a phrase."""
         mode = self.mode.value.replace("_", " ")
         return mode if self.calibration is None else f"{mode} on {self.calibration.origin}"
 
 
 def stated_in_step(controller: JointController, stated: StepControl) -> JointController:
-    """The controller of a step that states some of its settings; gains that it states are those of all joints.
+    """Controller of a step, with the settings that it states; stated gains apply to all joints.
 
     Args:
         controller: The controller of the study.
-        stated: What the step states.
+        stated: The settings of the step.
     """
     gains: dict[str, Any] = {
         name: value
@@ -116,13 +116,13 @@ def stated_in_step(controller: JointController, stated: StepControl) -> JointCon
 
 
 ControlLaw = Callable[[Array, Array, Array, Array, Array], Array]
-"""Commanded acceleration of target position, velocity and acceleration, and of present position and velocity."""
+"""Commanded acceleration from target position, velocity, acceleration, and present position and velocity."""
 
 
 def control_law(
     controller: JointController, joints: Sequence[Joint], *, step_s: float, tool: ToolFrames | None = None
 ) -> ControlLaw:
-    """The law of a controller for the joints of an arm.
+    """Control law of a controller for the joints of an arm.
 
     Args:
         controller: Mode and gains.
@@ -131,13 +131,12 @@ def control_law(
         tool: Kinematics of the tool, which tool tracking needs.
 
     Raises:
-        DefinitionError: The mode is calibrated and a joint has no servo, or the tool is to be tracked without its
-            kinematics.
+        DefinitionError: A joint has no servo in the calibrated mode, or tool tracking has no kinematics.
     """
     names = [joint.name for joint in joints]
     if controller.mode is ControlMode.TOOL_TRACKING:
         if tool is None:
-            raise DefinitionError("tool tracking needs the kinematics of the tool")
+            raise DefinitionError("tool tracking needs the kinematics of the tool, got none")
         return ToolTrackingLaw(
             tool,
             joints,
@@ -179,10 +178,10 @@ def servo_gains(controller: JointController, joints: Sequence[str]) -> tuple[Arr
 
 
 def least_stable_rate_hz(controller: JointController, joints: Sequence[str]) -> float:
-    """The rate above which the error decays, where the command is held over a step.
+    """Least rate in Hz at which the error decays, with the command held over a step.
 
-    With k_p and k_d of `servo_gains`, a step h gives z² - (2 - k_d h - k_p h²) z + 1 - k_d h, as the speed of a step
-    is added to the position; its roots are within the unit circle if 2 k_d h + k_p h² < 4 (Jury's criterion).
+    With k_p and k_d of `servo_gains`, a step h gives z² - (2 - k_d h - k_p h²) z + 1 - k_d h, as the speed of a step is
+    added to the position; its roots are within the unit circle if 2 k_d h + k_p h² < 4 (Jury's criterion).
 
     Args:
         controller: Mode and gains.
@@ -197,7 +196,7 @@ def _calibrated_law(controller: JointController, joints: Sequence[Joint], step_s
     if calibration is None or not {*names} <= {name for name, _ in calibration.servos}:
         raise DefinitionError(
             "the calibrated mode needs a servo of every joint",
-            hint="name a calibration with all joints in the robot's file, or choose another control.mode",
+            hint="name a calibration with all joints in the robot's file, or use another control.mode",
         )
     servos = dict(calibration.servos)
     return CalibratedLaw(

@@ -14,15 +14,15 @@ _AT_THE_LIMIT = 1.0 - 1.0e-6
 
 
 class JointLoad:
-    """The torques of a phase, step by step.
+    """Accumulator of the joint torques of a phase.
 
     Attributes:
-        saturated: The joints that reached their limit, in the order in which they did. The first is
-            the cause; the others may have followed it.
+        saturated: The joints that reached their limit, in order of time. The first is the cause; the others may be
+        consequences.
     """
 
     def __init__(self, joints: Sequence[Joint]) -> None:
-        """Begin with no load.
+        """Start without load.
 
         Args:
             joints: The arm's joints with their limits.
@@ -39,7 +39,7 @@ class JointLoad:
         """Add one step.
 
         Args:
-            torques_n_m: Torque of each joint: what its motor gave, or what its controller commanded.
+            torques_n_m: Torque of each joint: actual or commanded.
             step_s: Length of the step.
         """
         self.note_all(np.array([torques_n_m]), step_s)
@@ -61,13 +61,13 @@ class JointLoad:
         self.saturated.extend(sorted(new, key=lambda joint: int(first[joint])))
 
     def words(self) -> str:
-        """Names of the joints that reached their limit, for the detail of a failure; empty if there are none."""
+        """Text with the joints that reached their limit, for the detail of a failure; empty if there are none."""
         if not self.saturated:
             return ""
         return f"; at its torque limit: {', then '.join(self._names[index] for index in self.saturated)}"
 
     def metrics(self) -> dict[str, Metric]:
-        """The observations by name with unit; a joint's torque is never above its limit, and joints count from 1."""
+        """Metrics by name with unit; torques are clipped to the limits, and joints are numbered from 1."""
         given = tuple(min(peak, limit) for peak, limit in zip(self._peak.tolist(), self._limits, strict=True))
         ratios = [peak / limit for peak, limit in zip(given, self._limits, strict=True)]
         return {

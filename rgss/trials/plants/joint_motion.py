@@ -1,4 +1,4 @@
-"""Joint work and joint speeds of a phase: mechanical energy, and which joint came nearest to its speed limit."""
+"""Joint work and joint speeds of a phase: mechanical energy, and the joint nearest to its speed limit."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 
 def speed_metrics(peaks_rad_s: Array, joints: Sequence[Joint]) -> dict[str, Metric]:
-    """Greatest share of its speed limit that a joint reached, and the number of that joint, from 1.
+    """Greatest joint speed as a share of its limit, and the number of that joint, from 1.
 
     Args:
         peaks_rad_s: Greatest speed of each joint, shape (joints,).
@@ -28,13 +28,13 @@ def speed_metrics(peaks_rad_s: Array, joints: Sequence[Joint]) -> dict[str, Metr
 class JointMotion:
     """Accumulator of joint work and joint speeds over the steps of a phase.
 
-    The work of a step is τ q̇ Δt with the torque that the motor gave in the step and the speed after it. An
-    engine that integrates semi-implicitly moves the joint by q̇ Δt, so that this is the exact work of a torque
-    that is constant over the step.
+    The work of a step is τ q̇ Δt with the motor's torque in the step and the speed after it. An engine with
+    semi-implicit integration moves the joint by q̇ Δt, so that this is the exact work of a torque that is constant over
+    the step.
     """
 
     def __init__(self, joints: Sequence[Joint]) -> None:
-        """Begin at rest.
+        """Start at rest.
 
         Args:
             joints: The arm's joints with their limits.
@@ -49,8 +49,7 @@ class JointMotion:
         """Add steps.
 
         Args:
-            torques_n_m: Torque of each joint in each step, shape (steps, joints); what a controller asks for
-                beyond a joint's limit is not given.
+            torques_n_m: Torque of each joint in each step, shape (steps, joints); clipped to the joints' limits.
             speeds_rad_s: Speed of each joint after each step, shape (steps, joints).
             step_s: Length of a step.
         """
@@ -60,7 +59,7 @@ class JointMotion:
         self._peak = np.maximum(self._peak, np.abs(speeds_rad_s).max(axis=0))
 
     def metrics(self) -> dict[str, Metric]:
-        """The observations by name with unit."""
+        """Metrics by name with unit."""
         return {
             "joint_work_j": math.fsum(self._absolute_j),
             "joint_net_work_j": math.fsum(self._net_j),

@@ -1,7 +1,6 @@
-"""Plant of the lowest fidelity: joints that follow with a given response, a hand that opens and closes.
+"""Plant of the lowest fidelity: joints with a given response, and a hand that opens and closes.
 
-It knows how long a task takes and where the tool goes. It knows nothing of forces, of the object
-or of contact, and records none of these.
+It gives the duration of a task and the motion of the tool. Forces, the object and contacts are not modelled.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ class JointResponse:
     Attributes:
         natural_frequency_rad_s: ω.
         damping_ratio: ζ; 1 is critical.
-        reached_rad: Deviation of any joint below which the end of a move counts as reached.
+        reached_rad: Greatest joint deviation at which the end of a move counts as reached.
     """
 
     natural_frequency_rad_s: float = 100.0
@@ -44,7 +43,7 @@ class JointResponse:
 
 
 class KinematicPlant:
-    """A motion model of the arm and a Boolean hand."""
+    """Kinematic model of the arm with a Boolean hand."""
 
     def __init__(
         self,
@@ -63,10 +62,10 @@ class KinematicPlant:
             tool: Kinematics of the tool.
             joints: The arm's joints with their limits.
             gripper: The hand; its fingers move at their velocity.
-            grips: What the hand grips in which step, and how far it opens round it.
+            grips: Object and hand opening of each step.
             control: Thresholds of the task program.
             step_s: Time between two targets.
-            response: How the joints follow.
+            response: Response of the joints.
         """
         self._tool = tool
         self._joints = joints
@@ -77,7 +76,7 @@ class KinematicPlant:
         self._response = response or JointResponse()
 
     def start(self, configuration_rad: Sequence[float]) -> None:
-        """Stand at a configuration; the model has no state between moves, as each ends at rest."""
+        """Put the arm at a configuration; the model has no state between moves, since each ends at rest."""
 
     def move(self, phase: str, reference: Reference) -> PhaseResult:
         """Follow the targets with the joints' response and wait until the end is reached."""
@@ -99,7 +98,7 @@ class KinematicPlant:
         )
 
     def grasp(self, phase: str | None = None) -> PhaseResult:
-        """Close: the travel at the finger velocity, then the time for which a grasp must be firm."""
+        """Close: the travel at the finger velocity, then the duration of a firm grasp."""
         name = phase or self._grips.first_grip
         view = self._grips.view_of(name)
         misfit = self._hand.misfit(view)
@@ -119,7 +118,7 @@ class KinematicPlant:
         return self._result(phase, duration_s, {})
 
     def check(self, step: CheckStep) -> PhaseResult:
-        """Take the conditions for granted: nothing is known of objects."""
+        """Assume that the conditions hold: objects are not modelled."""
         return self._result(step.name, 0.0, {})
 
     def _deviation(self, positions_rad: Array, reached_rad: float | None) -> Array:
@@ -129,7 +128,7 @@ class KinematicPlant:
 
         Args:
             positions_rad: The targets, shape (k, n).
-            reached_rad: Deviation below which the end counts as reached; None for that of the response.
+            reached_rad: Greatest deviation at which the end counts as reached; None for that of the response.
         """
         step, response = self._step_s, self._response
         omega, zeta = response.natural_frequency_rad_s, response.damping_ratio
@@ -163,8 +162,8 @@ def _oscillator(omega: float, zeta: float, step_s: float) -> tuple[Array, Array]
 def _response(transition: Array, drive: Array, acceleration: Array) -> Array:
     """Deviations (n + 1, joints) of an oscillator from rest under accelerations (n, joints) of its target.
 
-    The state's recurrence x' = A x - b u is one of the second order in the deviation alone, by Cayley and
-    Hamilton: e'' = tr A e' - det A e - b₀ u' - (A₀₁ b₁ - A₁₁ b₀) u, a triangular system of three bands.
+    By the Cayley-Hamilton theorem the state's recurrence x' = A x - b u is a second-order recurrence in the deviation:
+    e'' = tr A e' - det A e - b₀ u' - (A₀₁ b₁ - A₁₁ b₀) u, a triangular system of three bands.
     """
     from scipy.linalg.lapack import dtbtrs
 

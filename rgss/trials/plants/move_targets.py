@@ -1,4 +1,4 @@
-"""Targets of a move in contact physics: those of its timed motion, then its end until the joints are there."""
+"""Targets of a move in contact physics: those of its timed motion, then its end until the joints settle."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ class MoveTargets:
     """Position, velocity, position after the step, load in m/s² and tool arc in m of each step of a move.
 
     Attributes:
-        tool_m: Where the tool should be, at the start and after each step, the longest wait included; shape (k, 3).
-        shortfall: What is missing if the joints were not at the end in time; empty if they were.
+        tool_m: Target positions of the tool, at the start and after each step, including the longest wait; shape (k,
+        3).
+        shortfall: Message if the joints did not settle in time; empty if they did.
     """
 
     def __init__(
@@ -35,10 +36,10 @@ class MoveTargets:
 
         Args:
             reference: The timed motion.
-            reached_rad: Error of any joint up to which the end counts as reached; None if it is not awaited.
-            positions_rad: Positions of the joints now.
+            reached_rad: Greatest joint error at which the end counts as reached; None for no wait.
+            positions_rad: Present positions of the joints.
             gravity_m_s2: Gravity, the load of an object at rest.
-            longest_wait_steps: Steps after which a joint that is not there has failed.
+            longest_wait_steps: Timeout of settling in steps.
         """
         self._reference = reference
         self._reached_rad = reached_rad
@@ -49,7 +50,7 @@ class MoveTargets:
         self.shortfall = ""
 
     def __iter__(self) -> Iterator[Row]:
-        """The targets in order; those after the motion depend on where the joints are."""
+        """Targets in order; their number after the motion depends on the present positions."""
         reference = self._reference
         positions, velocities = reference.positions_rad.tolist(), reference.velocities_rad_s.tolist()
         load, arc = reference.load_m_s2.tolist(), reference.arc_m.tolist()

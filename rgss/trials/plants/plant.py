@@ -1,4 +1,4 @@
-"""Interface of the machine that runs the task program, at any fidelity."""
+"""Interface of the plant of the task program, at any fidelity."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from rgss.trials.reference import Reference
 
 
 class Plant(Protocol):
-    """A machine with an arm and a hand, real or simulated at some fidelity."""
+    """Plant with an arm and a hand, real or simulated at any fidelity."""
 
     def start(self, configuration_rad: Sequence[float]) -> None:
-        """Stand at rest at a configuration, the hand open."""
+        """Put the arm at rest at a configuration, with the hand open."""
 
     def move(self, phase: str, reference: Reference) -> PhaseResult:
         """Follow a timed motion."""
@@ -26,7 +26,7 @@ class Plant(Protocol):
         """Open the hand and leave the object."""
 
     def wait(self, phase: str, duration_s: float) -> PhaseResult:
-        """Hold the configuration for a time, with what is held."""
+        """Hold the configuration for a time, with the held object."""
 
     def check(self, step: CheckStep) -> PhaseResult:
-        """Check what must hold, as far as the plant knows of it."""
+        """Evaluate the conditions of a check step, as far as the plant models them."""

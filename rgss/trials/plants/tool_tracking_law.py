@@ -1,4 +1,4 @@
-"""Control law that tracks a pose of the tool by differential inverse kinematics."""
+"""Tool-tracking control law by differential inverse kinematics."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ class ToolFrames(Protocol):
 
 
 class ToolTrackingLaw:
-    """Commanded acceleration g (q̇_c - q̇), with q̇_c that moves the tool with V_d + k e.
+    """Commanded acceleration g (q̇_c - q̇), with the q̇_c that gives the tool the velocity V_d + k e.
 
-    V_d is the velocity of the tool at the target, e the error of its pose: a displacement, and the rotation vector that
-    turns the tool to the target. What the tool leaves open, as in a redundant arm, is decided by the speeds of the
-    target and k times the error of the joints. Joint speeds and ranges are kept by the inverse itself.
+    V_d is the velocity of the tool at the target, e the error of its pose: a displacement, and the rotation vector from
+    the tool to the target. Redundancy is resolved by the joint speeds of the target plus k times the joint error. The
+    differential inverse keeps joint speeds and ranges within their limits.
     """
 
     def __init__(
@@ -43,7 +43,7 @@ class ToolTrackingLaw:
         velocity_gain_1_s: Array,
         step_s: float,
     ) -> None:
-        """Take the gains.
+        """Set the gains.
 
         Args:
             tool: Kinematics of the tool.
@@ -62,11 +62,11 @@ class ToolTrackingLaw:
         """Acceleration over the coming step, each of shape (n,).
 
         Args:
-            target: Target positions now.
-            speed: Target speeds of the step before.
-            acceleration: Change of the target speeds to the coming step, over its length.
-            q: Positions now.
-            dq: Speeds now.
+            target: Present target positions.
+            speed: Target speeds of the previous step.
+            acceleration: Change of the target speeds to the coming step, divided by its length.
+            q: Present positions.
+            dq: Present speeds.
         """
         ahead = speed + self._step_s * acceleration
         there, here = self._tool.tool_matrix(target), self._tool.tool_matrix(q)
@@ -79,7 +79,7 @@ class ToolTrackingLaw:
 
 
 def _rotation_vector(rotation: Array) -> Array:
-    """Axis times angle of a rotation matrix, shape (3,)."""
+    """Rotation vector, axis times angle in rad, of a rotation matrix, shape (3,)."""
     from scipy.spatial.transform import Rotation
 
     found: Array = Rotation.from_matrix(rotation).as_rotvec()

@@ -1,4 +1,4 @@
-"""Replay of a trial: what is seen, where it is over time, contacts, planned paths and the planner's graph."""
+"""Replay of a trial: rendered bodies and their motion, contacts, planned paths and the planner's graph."""
 
 from typing import TYPE_CHECKING
 

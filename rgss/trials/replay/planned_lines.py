@@ -1,4 +1,4 @@
-"""Planned paths of a trial and the graphs of their searches, as the tool would run along them."""
+"""Planned paths of a trial and the graphs of their searches, as lines of the tool."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.workcell import Workcell, cell_of
 
 MOST_EDGES = 3000
-"""Most edges of a graph that are shown; of more, every second, third, and so on."""
+"""Greatest number of shown edges of a graph; larger graphs are thinned evenly."""
 
 _RESOLUTION_RAD = 0.05
 
 
 def planned_lines(spec: TrialSpec) -> tuple[Line, ...]:
-    """Plan a trial once more, and keep what its planner tried.
+    """Plan a trial again, with the graphs of its searches.
 
-    A move that no search solves has a graph and no path.
+    A move without a solution has a graph but no path.
 
     Args:
         spec: The trial.
 
     Raises:
-        MotionError: The planner is not there.
+        MotionError: The planner is not available.
     """
     cell = cell_of(spec)
     graphs: dict[str, SearchGraph] = {}
@@ -53,7 +53,7 @@ def _graph_points(cell: Workcell, graph: SearchGraph) -> NDArray[np.float64]:
 
 
 def _path_points(cell: Workcell, path: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Tool positions along a joint path, which between its corners is not a straight line."""
+    """Tool positions along a joint path; the line is curved between the corners."""
     states = [path[:1]]
     for start, end in itertools.pairwise(path):
         states.append(segment_states(start, end, _RESOLUTION_RAD))

@@ -1,4 +1,4 @@
-"""Samples of a trial for its replay: the postures of arm and fingers, every object, and the force of each finger."""
+"""Recorder of a trial for its replay: postures of arm and fingers, object poses, and finger forces."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _NO_CONTACT: Row = (math.nan,) * 6
 
 
 class ReplayRecorder:
-    """Observer that samples the world at a fixed rate; it changes nothing."""
+    """Observer that samples the world at a fixed rate, without side effects."""
 
     def __init__(self, objects: tuple[str, ...], *, fingers: int, step_s: float, rate_hz: float) -> None:
         """Start without samples.
@@ -45,7 +45,7 @@ class ReplayRecorder:
         grip_margin: float | None,
         commanded_force_n: float | None,
     ) -> None:
-        """Take a sample, if one is due."""
+        """Take a sample, if due."""
         del phase, grip_margin, commanded_force_n
         due = self._steps % self._stride == 0
         self._steps += 1
@@ -84,7 +84,7 @@ class ReplayRecorder:
 
         Args:
             name: The object.
-            count: How many samples.
+            count: Number of samples.
         """
         place = self._objects.index(name)
         return [poses[place] for poses in self._poses[:count]]

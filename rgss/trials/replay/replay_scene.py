@@ -1,4 +1,4 @@
-"""Scene of a trial over time, as a viewer in three dimensions shows it."""
+"""Scene of a trial over time, for a three-dimensional viewer."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Series = NDArray[np.float64]
 
 
 class NodeKind(str, Enum):
-    """Kind of what a node carries."""
+    """Kind of a node."""
 
     BODY = "body"
     LINK = "link"
@@ -35,10 +35,10 @@ class NodeTrack:
 
     Attributes:
         name: Name of the link, the object or the body.
-        kind: What it is.
+        kind: Its kind.
         solids: Its solids; their poses are transforms to this node.
         positions_m: Positions of its frame in the world, shape (n, 3), or (1, 3) if it never moves.
-        quaternions_xyzw: Its orientations, shape (n, 4) or (1, 4), scalar last; neighbours lie on one half sphere.
+        quaternions_xyzw: Its orientations, shape (n, 4) or (1, 4), scalar last, with continuous signs.
     """
 
     name: str
@@ -66,7 +66,7 @@ class ContactForce:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Line:
-    """Line of tool positions that belongs to a move.
+    """Line of tool positions of a move.
 
     Attributes:
         phase: The move.
@@ -94,15 +94,15 @@ class PerceivedOffset:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ReplayScene:
-    """What a viewer shows of a trial; n samples in simulated time without planning.
+    """Scene of a replay; n samples in simulated time without planning.
 
     Attributes:
         time_s: Times of the samples, shape (n,).
-        nodes: Everything that is seen.
+        nodes: The rendered bodies.
         contacts: The force of each finger.
         lines: Planned paths and graphs of the planner.
         perceived: Error of the perceived pose of the first object.
-        middle_m: A point between grasp and place in the world, at which a viewer looks first.
+        middle_m: Point between grasp and place in the world, the initial target of the viewer.
     """
 
     time_s: Series

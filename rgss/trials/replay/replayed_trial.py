@@ -1,4 +1,4 @@
-"""Running a trial for its replay."""
+"""Execution of a trial with a replay."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from rgss.trials.workcell import cell_of, with_grasp_of
 REPLAY_RATE_HZ = 60.0
 
 MOST_SAMPLES = 2400
-"""Most samples of a replay; a longer trial is sampled less often, so that its file stays small."""
+"""Greatest number of samples of a replay; longer trials are sampled at a lower rate, to limit the file size."""
 
 _ABOVE_M = 0.10
 _PERCEIVED_COLOUR = (0.55, 0.25, 0.75, 0.35)
@@ -33,12 +33,12 @@ _PERCEIVED_COLOUR = (0.55, 0.25, 0.75, 0.35)
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ReplayedTrial:
-    """A trial with its course and what a viewer shows of it.
+    """Trial with its trace and replay.
 
     Attributes:
-        record: What came out of it: the same as without a replay.
-        trace: Its course; None if nothing moved.
-        scene: What is seen of it; None if nothing moved.
+        record: Its record, the same as without a replay.
+        trace: Its trace; None if nothing moved.
+        scene: Scene of the replay; None if nothing moved.
     """
 
     record: TrialRecord
@@ -47,7 +47,7 @@ class ReplayedTrial:
 
 
 def run_replayed_trial(spec: TrialSpec) -> ReplayedTrial:
-    """Run one trial of contact fidelity and gather its replay.
+    """Run one trial of contact fidelity and record its replay.
 
     Args:
         spec: The trial.
@@ -68,7 +68,7 @@ def run_replayed_trial(spec: TrialSpec) -> ReplayedTrial:
 
 
 class _Observers:
-    """Several observers as one."""
+    """Composite observer."""
 
     def __init__(self, observers: tuple[StepObserver, ...]) -> None:
         self._observers = observers
@@ -81,7 +81,7 @@ class _Observers:
         grip_margin: float | None,
         commanded_force_n: float | None,
     ) -> None:
-        """Let each one take note of a step."""
+        """Pass a step to each observer."""
         for observer in self._observers:
             observer.after_step(world, phase, contacts, grip_margin, commanded_force_n)
 
@@ -93,7 +93,7 @@ def _scene_of(spec: TrialSpec, recorder: ReplayRecorder, end_s: float) -> Replay
     every = -(-total // MOST_SAMPLES)
     chosen = np.unique(np.append(np.arange(0, total, every), total - 1))
     joints = recorder.joints_rad(total)[chosen]
-    if offsets := conditions.joint_offsets_rad:  # what is seen is where the arm is, not what it reports
+    if offsets := conditions.joint_offsets_rad:  # the replay shows the true positions of the arm, not the reported ones
         joints = joints + np.array(offsets)
     nodes = _machine_nodes(true_scene, spec, joints, recorder.travel_m(total)[chosen])
     for one in true_scene.objects:
@@ -120,7 +120,7 @@ def _scene_of(spec: TrialSpec, recorder: ReplayRecorder, end_s: float) -> Replay
 def _machine_nodes(
     scene: Scene, spec: TrialSpec, joints: NDArray[np.float64], travel: NDArray[np.float64]
 ) -> list[NodeTrack]:
-    """The fixed bodies, and the links of arm and gripper over time."""
+    """Nodes of the fixed bodies, and of the links of arm and gripper over time."""
     stage = Stage(scene, spec.gripper)
     try:
         solids = stage.solids()
@@ -152,10 +152,10 @@ def _object_node(
 
 
 def _node(name: str, kind: NodeKind, solids: tuple[SeenSolid, ...], poses: list[Pose]) -> NodeTrack:
-    """A node; one that never moves has a single sample."""
+    """Node; a single sample if it never moves."""
     positions = np.array([pose.position_m for pose in poses])
     quaternions = np.array([pose.quaternion_xyzw for pose in poses])
-    # A quaternion and its negative are one rotation; from sample to sample the nearer one is taken.
+    # A quaternion and its negative are the same rotation; the one nearer to the previous sample is used.
     turns = np.sum(quaternions[1:] * quaternions[:-1], axis=1)
     quaternions[1:] *= np.cumprod(np.where(turns < 0.0, -1.0, 1.0))[:, np.newaxis]
     if np.ptp(positions, axis=0).max() == 0.0 and np.ptp(quaternions, axis=0).max() == 0.0:

@@ -32,7 +32,7 @@ def test_a_disk_that_fills_is_a_failure_of_the_run_and_loses_nothing(rgss, rgss_
     assert (full.returncode, full.stdout) == (3, "")
     (line,) = full.stderr.splitlines()
     assert line.startswith("rgss: the evidence store ")
-    hint = "(free some space on the disk or look for its health; what was put before is kept)"
+    hint = "(free space on the disk or check its health; earlier entries are stored)"
     assert line.endswith(f"cannot be used: disk I/O error {hint}")
     with EvidenceStore.open(path) as store:
         kept = {trial.record.seed for trial in store.all()}
@@ -58,4 +58,4 @@ def test_a_store_that_cannot_be_a_store_is_bad_input_still(rgss, folder):
     told = rgss("sweep", "--project", folder, *WORDS, 1)
 
     assert (told.status, told.output) == (2, "")
-    assert told.complaint.endswith("(choose another file; this one is left as it is)")
+    assert told.complaint.endswith("(use another file; this one is unchanged)")

@@ -18,7 +18,7 @@ WORDS = ("--fidelity", "kinematic", "--only", "57", "--jobs", "1", "--replicates
     ("loss", "words"),
     [
         (lambda path: path.unlink(), "was removed"),
-        (lambda path: path.write_bytes(b""), "was cut from"),
+        (lambda path: path.write_bytes(b""), "was truncated from"),
     ],
     ids=["removed", "cut"],
 )
@@ -38,7 +38,7 @@ def test_a_store_that_is_lost_is_one_line_and_status_3(rgss, folder, monkeypatch
     told = rgss("sweep", "--project", folder, *WORDS)
     assert (told.status, told.output) == (3, "")
     assert f"evidence.sqlite {words}" in told.complaint
-    assert "are saved in evidence.sqlite.rescued beside it (remove what is left of evidence.sqlite" in told.complaint
+    assert "are saved in evidence.sqlite.rescued beside it (remove the rest of evidence.sqlite" in told.complaint
 
     # As the line says: then the sweep goes on from what was saved.
     monkeypatch.setattr(EvidenceStore, "put_many", put_many)

@@ -153,7 +153,7 @@ def test_damaged_rows_are_told_line_by_line_and_mended(rgss, spoilt):
     assert one.endswith(": its record cannot be unpacked")
     assert other.endswith(": its key is none")
     assert "\x1b" not in told.output
-    assert ledger.endswith(": ledger trials: the 216 rows are not those that were put")
+    assert ledger.endswith(": ledger trials: the 216 rows are not those that were stored")
     assert summary == "3 damages; sound: 214 trials, 0 pieces, 0 inputs, 0 failures."
     assert advice == (
         "To repair it: 'rgss evidence verify --mend' removes these rows, and 'rgss sweep' makes them again."
@@ -177,8 +177,8 @@ def test_rows_that_were_deleted_are_told_by_every_command_until_they_are_mended(
         told = rgss(*words, "--project", spoilt)
         assert (told.status, told.output) == (2, "")
         assert told.complaint.endswith(
-            " was changed outside rgss: table trials: 216 rows were put, 215 are there "
-            "('rgss evidence verify' shows the damage, with --mend it keeps what is sound)"
+            " was changed outside rgss: table trials: 216 rows were stored, 215 are present "
+            "(run 'rgss evidence verify' to see the damage, and with --mend to keep the valid rows)"
         )
     told = rgss("evidence", "verify", "--project", spoilt)
     assert told.status == 1
@@ -199,7 +199,7 @@ def test_a_store_that_was_cut_to_nothing_is_not_taken_for_a_new_one(rgss, spoilt
     for words in (["sweep", "--only", "7"], ["measure"], ["evidence", "gc", "--apply"]):
         told = rgss(*words, "--project", spoilt)
         assert (told.status, told.output) == (2, "")
-        assert "is empty, which no evidence store is: it was cut to nothing" in told.complaint
+        assert "is empty: an evidence store is never empty, so it was truncated" in told.complaint
     told = rgss("evidence", "verify", "--project", spoilt)
     assert told.status == 1
     assert "pages: the file is empty" in told.output
@@ -279,7 +279,7 @@ def test_an_export_to_another_ending(rgss, with_evidence, tmp_path):
 
     assert (told.status, told.output) == (2, "")
     assert told.complaint == (
-        f"rgss: {tmp_path / 'trials.xlsx'} ends in neither .parquet nor .csv (the ending chooses the format)"
+        f"rgss: {tmp_path / 'trials.xlsx'} must end in .parquet or .csv (the suffix selects the format)"
     )
 
 
@@ -370,7 +370,7 @@ def test_a_store_in_use_is_not_cleared_up(rgss, spoilt, monkeypatch):
         assert len(store) == 216
 
     assert (told.status, told.output) == (2, "")
-    assert told.complaint.endswith(" open (wait until the sweep is done)")
+    assert told.complaint.endswith(" open (wait until the sweep has finished)")
 
 
 def test_a_csv_file_is_one_that_spreadsheets_read(rgss, with_evidence, tmp_path):

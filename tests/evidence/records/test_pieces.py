@@ -70,7 +70,7 @@ def test_another_content_of_the_same_inputs_is_non_determinism(store, other):
         store.put_many(pieces=[other])
     assert str(caught.value) == (
         f"non-determinism: {other.kind.value} {'a' * 12} has another result than before (the same inputs must give "
-        f"the same content; {text_digest(PLAN.text)[:12]} is kept, {text_digest('{}')[:12]} is not)"
+        f"the same content; {text_digest(PLAN.text)[:12]} is stored, {text_digest('{}')[:12]} is not)"
     )
     assert store.piece(PLAN.digest) == PLAN
 
@@ -78,7 +78,7 @@ def test_another_content_of_the_same_inputs_is_non_determinism(store, other):
 @pytest.mark.parametrize(
     ("piece", "message"),
     [
-        (replace(PLAN, digest="a"), "'a' is not the digest of a piece (it is a SHA-256 of its inputs)"),
+        (replace(PLAN, digest="a"), "the digest of a piece must be a SHA-256, got 'a' (use the SHA-256 of its inputs)"),
         (replace(PLAN, text="x" * (16 * 1024 * 1024 + 1)), "the piece has 16777217 bytes; at most 16777216 are kept"),
         (replace(PLAN, text="\ud800"), "the piece cannot be written as UTF-8: surrogates not allowed"),
     ],
@@ -143,7 +143,7 @@ def test_a_trial_cannot_refer_to_inputs_that_are_not_kept(store, record, provena
     with pytest.raises(EvidenceError) as caught:
         store.put(key(1), record(), replace(provenance, inputs_digest="c" * 64))
     assert str(caught.value) == (
-        f"trial {key(1)[:12]} of variant 1, seed 7 refers to inputs that are not kept (put its inputs first)"
+        f"trial {key(1)[:12]} of variant 1, seed 7 refers to inputs that are not stored (store its inputs first)"
     )
 
 
@@ -196,10 +196,10 @@ def test_a_failure_is_one_line_of_bounded_length(store):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"key": "k"}, "'k' is not the key of a trial or piece (it is a SHA-256)"),
-        ({"attempts": 0}, "a run cannot fail after 0 attempts"),
-        ({"attempts": True}, "a run cannot fail after True attempts"),
-        ({"attempts": 2**31}, "a run cannot fail after 2147483648 attempts"),
+        ({"key": "k"}, "the key of a trial or piece must be a SHA-256, got 'k' (use the digest of its inputs)"),
+        ({"attempts": 0}, "the number of attempts must be from 1 to 2147483647, got 0"),
+        ({"attempts": True}, "the number of attempts must be from 1 to 2147483647, got True"),
+        ({"attempts": 2**31}, "the number of attempts must be from 1 to 2147483647, got 2147483648"),
     ],
 )
 def test_a_failure_that_cannot_be_kept(store, changes, message):
@@ -229,5 +229,5 @@ def test_a_tampered_failure_is_refused(path, change, statement, problem):
 
 @pytest.mark.parametrize("use", ["piece", "inputs", "has_pieces", "failures"])
 def test_a_malformed_digest_is_refused(store, use):
-    with pytest.raises(EvidenceError, match="is not the key of a trial"):
+    with pytest.raises(EvidenceError, match="the key of a trial must be"):
         getattr(store, use)("k" if use in ("piece", "inputs") else ["k"])

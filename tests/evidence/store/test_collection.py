@@ -126,7 +126,9 @@ def test_a_store_that_is_in_use_is_left_alone(used, key, monkeypatch):
     with EvidenceStore.open(used) as store:
         with pytest.raises(EvidenceError) as caught:
             collect_garbage(used, trials=frozenset(), pieces=frozenset(), label="it")
-        assert str(caught.value) == ("another process has the evidence store it open (wait until the sweep is done)")
+        assert str(caught.value) == (
+            "another process has the evidence store it open (wait until the sweep has finished)"
+        )
         assert len(store) == TRIALS
     assert content(used) == before
     assert collect_garbage(used, trials=frozenset(), pieces=frozenset(), label="it").shrunk
@@ -141,8 +143,8 @@ def test_a_file_that_cannot_be_written_anew_keeps_its_size(used, key, monkeypatc
         finally:
             connection.execute("ROLLBACK")
 
-    give_back = collecting._give_back
-    monkeypatch.setattr(collecting, "_give_back", hindered)
+    give_back = collecting._compact
+    monkeypatch.setattr(collecting, "_compact", hindered)
     size = used.stat().st_size
     done = collect_garbage(used, trials={key(0)}, pieces=frozenset(), label="it")
     assert not done.shrunk
@@ -157,7 +159,7 @@ def test_a_damaged_trial_that_is_to_stay_is_told(used, change, key):
         collect_garbage(used, trials={key(3)}, pieces=frozenset(), label="it")
     assert str(caught.value) == (
         f"it: trial {key(3)[:12]} is damaged: its provenance cannot be unpacked "
-        "('rgss evidence verify --mend' takes it away)"
+        "(run 'rgss evidence verify --mend' to remove it)"
     )
     # One that is to go may be damaged as it likes.
     assert len(collect_garbage(used, trials={key(4)}, pieces=frozenset(), label="it").garbage.trials) == TRIALS - 1

@@ -110,11 +110,11 @@ def test_a_process_killed_while_it_gives_space_back_loses_nothing(path, record, 
     program = (
         "import os, signal, sys; from pathlib import Path; import rgss.evidence.store.collection as collection\n"
         "from rgss.evidence import trial_key; keep = {trial_key({'trial': number}) for number in range(50)}\n"
-        "give_back = collection._give_back\n"
+        "give_back = collection._compact\n"
         "def killed(connection):\n"
         "    connection.set_progress_handler(lambda: os.kill(os.getpid(), signal.SIGKILL), int(sys.argv[2]))\n"
         "    give_back(connection)\n"
-        "collection._give_back = killed\n"
+        "collection._compact = killed\n"
         "collection.collect_garbage(Path(sys.argv[1]), trials=keep, pieces=frozenset(), label='store')"
     )
     for steps in (1, 10, 100, 300):

@@ -239,7 +239,7 @@ def test_a_text_that_is_half_a_character_is_marked(record, provenance, tmp_path)
         ({"metrics": {"item_1_n": 1.0, "n": (2.0,)}}, "two columns of the table would have the name 'item_1_n'"),
         (
             {"metrics": {f"metric_{number}": 1.0 for number in range(2000)}},
-            "the trials have more than 2000 different values; no table is that wide",
+            "the number of columns must be at most 2000",
         ),
     ],
 )
@@ -254,7 +254,7 @@ def test_what_no_table_can_hold_is_refused(record, provenance, tmp_path, changes
 def test_another_ending_is_refused(tmp_path, name):
     with pytest.raises(EvidenceError) as caught:
         require_exportable(tmp_path / name)
-    assert str(caught.value) == (f"{tmp_path / name} ends in neither .parquet nor .csv (the ending chooses the format)")
+    assert str(caught.value) == (f"{tmp_path / name} must end in .parquet or .csv (the suffix selects the format)")
 
 
 def test_parquet_without_its_library_is_told_in_one_line(tmp_path, monkeypatch, trials):

@@ -49,7 +49,7 @@ def limited(body, path, text, size, *words):
 
 FULL = (
     "the evidence store it cannot be used: disk I/O error "
-    "(free some space on the disk or look for its health; what was put before is kept)"
+    "(free space on the disk or check its health; earlier entries are stored)"
 )
 
 

@@ -20,7 +20,7 @@ from tests.fixtures.stored_inputs import put_inputs
 
 DAMAGED = (
     "evidence.sqlite: trial {} is damaged: {} "
-    "('rgss evidence verify --mend' takes it away, and the next sweep makes it anew)"
+    "(run 'rgss evidence verify --mend' to remove it; the next sweep computes it again)"
 )
 
 
@@ -88,7 +88,7 @@ def test_a_record_under_the_key_of_another_is_refused(filled, change, key):
 def test_a_row_under_no_key_is_refused(filled, change, key):
     change(filled, "UPDATE trials SET key = 'k' WHERE key = ?", key(2))
     assert refusal(filled) == DAMAGED.format("'k'", "its key is none")
-    with EvidenceStore.open(filled) as store, pytest.raises(EvidenceError, match="filed under no proper key"):
+    with EvidenceStore.open(filled) as store, pytest.raises(EvidenceError, match="a trial has an invalid key"):
         contents_of(store.database)
 
 
@@ -158,16 +158,16 @@ def test_a_key_that_is_not_unicode_is_refused(filled, change, key):
 @pytest.mark.parametrize(
     ("statement", "problem"),
     [
-        ("UPDATE trials SET fidelity = 'divine'", "a trial is filed under no proper key, variant, seed or fidelity"),
-        ("UPDATE trials SET seed = 1.5", "a trial is filed under no proper key, variant, seed or fidelity"),
-        ("INSERT INTO pieces VALUES ('d', CAST(x'ff' AS TEXT), 'c', 's', x'00')", "a piece is of no known kind"),
+        ("UPDATE trials SET fidelity = 'divine'", "a trial has an invalid key, variant, seed or fidelity"),
+        ("UPDATE trials SET seed = 1.5", "a trial has an invalid key, variant, seed or fidelity"),
+        ("INSERT INTO pieces VALUES ('d', CAST(x'ff' AS TEXT), 'c', 's', x'00')", "a piece has an unknown kind"),
     ],
 )
 def test_a_summary_of_what_is_no_sound_store_is_refused(filled, change, statement, problem):
     change(filled, statement)
     with EvidenceStore.open(filled, label="it") as store, pytest.raises(EvidenceError) as caught:
         contents_of(store.database)
-    assert str(caught.value) == f"it: {problem} ('rgss evidence verify' shows which, with --mend it takes it away)"
+    assert str(caught.value) == f"it: {problem} (run 'rgss evidence verify' to find it, and with --mend to remove it)"
 
 
 @pytest.mark.parametrize(
@@ -229,9 +229,7 @@ def test_tampered_inputs_are_refused(path, change, content, problem):
 )
 def test_a_schema_with_surprises_is_refused(filled, change, statement):
     change(filled, statement)
-    assert refusal(filled) == (
-        "evidence.sqlite has a schema that is not its own (move the file away and run the sweep again)"
-    )
+    assert refusal(filled) == ("evidence.sqlite has a foreign schema (move the file away and run the sweep again)")
 
 
 TRIGGER = "CREATE TRIGGER sqlite_t AFTER INSERT ON trials BEGIN DELETE FROM trials; END"
@@ -296,7 +294,7 @@ def test_a_file_of_something_else_is_refused_and_left_as_it_is(path, content):
     path.write_bytes(content)
     message = (
         "the evidence store evidence.sqlite cannot be used: file is not a database "
-        "(choose another file; this one is left as it is)"
+        "(use another file; this one is unchanged)"
     )
     assert refusal(path) == message
     with pytest.raises(EvidenceError) as caught:
@@ -308,7 +306,7 @@ def test_a_file_of_something_else_is_refused_and_left_as_it_is(path, content):
 def test_the_database_of_another_program_is_refused_and_left_as_it_is(path, change):
     change(path, "CREATE TABLE addresses (name TEXT)")
     content = path.read_bytes()
-    assert refusal(path) == "evidence.sqlite is not an evidence store (choose another file; this one is left as it is)"
+    assert refusal(path) == "evidence.sqlite is not an evidence store (use another file; this one is unchanged)"
     assert path.read_bytes() == content
 
 
@@ -325,7 +323,7 @@ def test_a_truncated_file_is_refused(filled):
     filled.write_bytes(filled.read_bytes()[:9000])
     assert refusal(filled) == (
         "the evidence store evidence.sqlite cannot be used: database disk image is malformed "
-        "('rgss evidence verify' shows what is left of it)"
+        "(run 'rgss evidence verify' to see what can be recovered)"
     )
 
 

@@ -225,5 +225,5 @@ def test_a_sound_row_in_the_place_of_another_is_found_by_the_checksum_alone(stoc
         connection.execute("DELETE FROM failures WHERE rowid = 2")
         connection.execute("INSERT INTO failures SELECT * FROM other.failures LIMIT 1")
     assert [str(damage) for damage in verify(stocked, label="it").damages] == [
-        "ledger failures: the 6 rows are not those that were put"
+        "ledger failures: the 6 rows are not those that were stored"
     ]

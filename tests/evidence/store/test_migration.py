@@ -105,7 +105,7 @@ def test_an_old_schema_with_surprises_is_refused_and_left_as_it_is(old, change, 
     change(old, statement)
     with pytest.raises(EvidenceError) as caught:
         EvidenceStore.open(old, label="evidence.sqlite")
-    assert caught.value.message == "evidence.sqlite has a schema that is not its own"
+    assert caught.value.message == "evidence.sqlite has a foreign schema"
     assert raw(old)[0] == 1
 
 

@@ -21,7 +21,7 @@ def raising(number):
 @pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT, errno.EMFILE, errno.ENFILE])
 def test_no_room_for_a_folder_is_a_failure_of_the_run(path, monkeypatch, number):
     monkeypatch.setattr("pathlib.Path.mkdir", raising(number))
-    with pytest.raises(StorageError, match=rf"^the folder of it cannot be made: {os.strerror(number)} \(free some"):
+    with pytest.raises(StorageError, match=rf"^the folder of it cannot be created: {os.strerror(number)} \(free space"):
         EvidenceStore.open(path, label="it")
 
 
@@ -49,7 +49,7 @@ def test_what_sqlite_does_not_tell_is_asked_of_the_system(path, monkeypatch, num
             EvidenceStore.open(path, label="it")
     assert str(caught.value) == (
         f"the evidence store it cannot be used: {os.strerror(number)} "
-        "(free some space on the disk, or raise the limit; what was put before is kept)"
+        "(free space on the disk, or raise the limit; earlier entries are stored)"
     )
 
 

@@ -126,7 +126,7 @@ def test_a_log_without_its_index_is_refused(stored, trial):
         look(stored)
     assert str(caught.value) == (
         "the evidence store it cannot be used: its log has no index "
-        "(run 'rgss evidence' where the file can be written, which takes its log into it)"
+        "(run 'rgss evidence' with write access to the file, which merges its log)"
     )
     with EvidenceStore.open(stored, create=False) as store:
         assert variants(store) == [0, 1, 2, 7]

@@ -95,7 +95,7 @@ def test_an_older_store_is_not_brought_to_this_schema(frozen, as_ordinary_user):
             EvidenceStore.open(path, create=False, label="it")
         assert str(caught.value) == (
             "it has the older schema 1 and cannot be written "
-            "(make the file and its folder writable, so that it can be brought to the present schema)"
+            "(make the file and its folder writable, so that it can be migrated to the present schema)"
         )
 
 

@@ -81,7 +81,9 @@ def test_a_store_that_could_not_be_made_is_left_empty(tmp_path, monkeypatch):
     path = tmp_path / "evidence.sqlite"
     with monkeypatch.context() as patch:
         patch.setattr(schema, "_TABLES", (*schema._TABLES, ("trials", "CREATE TABLE more (key TEXT, key TEXT)")))
-        with pytest.raises(EvidenceError, match=r"cannot be used: duplicate column name: key \('rgss evidence verify'"):
+        with pytest.raises(
+            EvidenceError, match=r"cannot be used: duplicate column name: key \(run 'rgss evidence verify'"
+        ):
             EvidenceStore.open(path)
     with EvidenceStore.open(path) as store:
         assert len(store) == 0
@@ -101,7 +103,8 @@ def test_damage_that_only_a_check_of_the_pages_shows_is_refused(tmp_path):
     with pytest.raises(EvidenceError) as caught:
         EvidenceStore.open(path, label="evidence.sqlite")
     assert str(caught.value) == (
-        "evidence.sqlite is damaged: NULL value in inputs.content ('rgss evidence verify' shows what is left of it)"
+        "evidence.sqlite is damaged: NULL value in inputs.content "
+        "(run 'rgss evidence verify' to see what can be recovered)"
     )
 
 

@@ -72,7 +72,7 @@ def test_another_result_of_the_same_inputs_is_non_determinism(store, record, pro
     kept, other = record_digest(record()), record_digest(record(metrics={"slip_m": 1e-300}))
     assert str(caught.value) == (
         f"non-determinism: trial {key(1)[:12]} of variant 1, seed 7 has another result than before "
-        f"(the same inputs must give the same content; {kept[:12]} is kept, {other[:12]} is not)"
+        f"(the same inputs must give the same content; {kept[:12]} is stored, {other[:12]} is not)"
     )
     assert store.get(key(1)).record == record()
 
@@ -82,7 +82,9 @@ def test_a_malformed_key_is_refused(store, record, provenance, wrong):
     for use in (store.get, lambda name: store.has([name]), lambda name: store.put(name, record(), provenance)):
         with pytest.raises(EvidenceError) as caught:
             use(wrong)
-        assert str(caught.value) == f"{shown(wrong)} is not the key of a trial (keys are made by trial_key)"
+        assert (
+            str(caught.value) == f"the key of a trial must be a SHA-256, got {shown(wrong)} (compute it with trial_key)"
+        )
 
 
 def test_what_cannot_be_written_leaves_nothing_behind(store, record, provenance, key):
@@ -116,8 +118,8 @@ def test_an_empty_file_is_not_taken_for_a_new_store(path):
     path.touch()
     for create in (True, False):
         assert refusal(path, create=create) == (
-            "evidence.sqlite is empty, which no evidence store is: it was cut to nothing "
-            "(put a copy of it back, or remove the file to begin anew)"
+            "evidence.sqlite is empty: an evidence store is never empty, so it was truncated "
+            "(restore a copy of it, or remove the file to start again)"
         )
     assert path.stat().st_size == 0
     path.unlink()
@@ -148,7 +150,7 @@ def test_a_folder_is_no_store(tmp_path):
 def test_a_folder_that_cannot_be_made_is_named(tmp_path):
     (tmp_path / "file").touch()
     assert refusal(tmp_path / "file" / "evidence.sqlite") == (
-        "the folder of evidence.sqlite cannot be made: File exists (choose a folder that can be written)"
+        "the folder of evidence.sqlite cannot be created: File exists (use a writable folder)"
     )
 
 
@@ -217,7 +219,7 @@ def test_a_full_disk_is_named(store, record, provenance, key):
         fill()
     assert str(caught.value) == (
         "the evidence store evidence.sqlite cannot be used: database or disk is full "
-        "(free some space on the disk; what was put before is kept)"
+        "(free space on the disk; earlier entries are stored)"
     )
     assert sorted(trial.record.variant for trial in store.all()) == put
 

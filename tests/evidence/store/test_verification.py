@@ -7,7 +7,7 @@ import pytest
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Piece, PieceKind, RunFailure, RunFailureKind
-from rgss.evidence.store.verification import Damage, salvage, take_away, verify
+from rgss.evidence.store.verification import Damage, remove_damaged_rows, salvage, verify
 from tests.fixtures.stored_inputs import put_inputs
 
 
@@ -75,7 +75,7 @@ def test_every_damaged_row_is_told_in_a_line_and_taken_away(whole, change, key):
     assert not found.pages_are_damaged
     assert found.sound["trial"] == 16
 
-    assert take_away(whole, found, label="it") == len(found.damages)
+    assert remove_damaged_rows(whole, found, label="it") == len(found.damages)
     again = verify(whole, label="it")
     assert again.damages == ()
     # If it was the inputs of the trials that were damaged, the trials go with them.
@@ -88,8 +88,8 @@ def test_trials_whose_inputs_are_gone_are_damaged(whole, change, key):
     assert len(found.damages) == 20
     assert found.damages[0].what == "trial"
     assert found.damages[0].problem.startswith("its inputs ")
-    assert found.damages[0].problem.endswith(" are not there")
-    assert take_away(whole, found, label="it") == 20
+    assert found.damages[0].problem.endswith(" are missing")
+    assert remove_damaged_rows(whole, found, label="it") == 20
     assert verify(whole, label="it").damages == ()
 
 
@@ -98,19 +98,19 @@ def test_rows_that_were_deleted_are_told_and_mended_by_a_new_ledger(whole, tampe
         tamper(whole, f"DELETE FROM {table}")  # noqa: S608 - a table's name
     found = verify(whole, label="it")
     assert [str(damage) for damage in found.damages[:3]] == [
-        "ledger pieces: 3 rows were put, 0 are there",
-        "ledger inputs: 2 rows were put, 0 are there",
-        "ledger failures: 1 rows were put, 0 are there",
+        "ledger pieces: 3 rows were stored, 0 are present",
+        "ledger inputs: 2 rows were stored, 0 are present",
+        "ledger failures: 1 rows were stored, 0 are present",
     ]
     assert not found.pages_are_damaged
     with pytest.raises(EvidenceError) as caught:
         EvidenceStore.open(whole, label="it")
     assert str(caught.value) == (
-        "it was changed outside rgss: table pieces: 3 rows were put, 0 are there "
-        "('rgss evidence verify' shows the damage, with --mend it keeps what is sound)"
+        "it was changed outside rgss: table pieces: 3 rows were stored, 0 are present "
+        "(run 'rgss evidence verify' to see the damage, and with --mend to keep the valid rows)"
     )
     # The trials had inputs that are gone.
-    assert take_away(whole, found, label="it") == 20
+    assert remove_damaged_rows(whole, found, label="it") == 20
     assert verify(whole, label="it").damages == ()
     with EvidenceStore.open(whole) as store:
         assert len(store) == 0
@@ -119,8 +119,8 @@ def test_rows_that_were_deleted_are_told_and_mended_by_a_new_ledger(whole, tampe
 def test_an_empty_file_has_nothing_left(whole, tmp_path):
     whole.write_bytes(b"")
     found = verify(whole, label="it")
-    assert [str(damage) for damage in found.damages] == ["pages: the file is empty, which no evidence store is"]
-    with pytest.raises(EvidenceError, match="nothing of it can be read any more"):
+    assert [str(damage) for damage in found.damages] == ["pages: the file is empty, but an evidence store never is"]
+    with pytest.raises(EvidenceError, match="nothing of it can be read"):
         salvage(whole, found, tmp_path / "saved.sqlite", label="it")
     assert whole.stat().st_size == 0
 
@@ -154,7 +154,7 @@ def test_damaged_pages_are_told_and_the_sound_rows_saved(whole, tmp_path, key):
     assert whole.read_bytes() == bytes(content)
     with pytest.raises(EvidenceError) as caught:
         salvage(whole, found, saved, label="it")
-    assert str(caught.value) == f"{saved} is there already (move it away first)"
+    assert str(caught.value) == f"{saved} already exists (move it away first)"
 
 
 def test_a_file_that_was_cut_short_gives_what_is_before_the_cut(whole, tmp_path):
@@ -180,8 +180,7 @@ def test_a_file_without_its_first_page_is_lost(whole, tmp_path, length):
     with pytest.raises(EvidenceError) as caught:
         salvage(whole, found, tmp_path / "saved.sqlite", label="it")
     assert str(caught.value) == (
-        "nothing of it can be read any more "
-        "(move it away with the files beside it that begin with its name, and run the sweep again)"
+        "nothing of it can be read (move it and the files beside it that begin with its name, and run the sweep again)"
     )
     assert not (tmp_path / "saved.sqlite").exists()
 

@@ -10,7 +10,7 @@ import pytest
 from scipy.optimize import linprog
 
 from rgss.grasping.candidates import contact_points, ranked_grasps, symmetric_turns
-from rgss.grasping.candidates.ranking import Unfit
+from rgss.grasping.candidates.ranking import FrameRejection
 from rgss.scenes import (
     Approach,
     Box,
@@ -87,7 +87,7 @@ def test_every_candidate_resists_every_unit_wrench(name, fingers):
 def test_two_fingers_on_frictionless_faces_hold_nothing():
     found = ranked_grasps(piece(BOX), hand(2), EVERY, friction=0.0)
     assert found.grasps == ()
-    assert found.unfit[Unfit.NO_FORCE_CLOSURE] > 0
+    assert found.rejected_frames[FrameRejection.NO_FORCE_CLOSURE] > 0
 
 
 @pytest.mark.parametrize("fingers", [2, 3])
@@ -121,12 +121,12 @@ def test_the_best_grasp_of_a_lopsided_box_is_over_its_centre_of_mass():
 def test_what_is_wider_than_the_hand_has_no_candidate_and_says_so():
     found = ranked_grasps(piece(Box(size_m=(0.2, 0.3, 0.2))), hand(2), GraspCandidates(), friction=0.7)
     assert found.grasps == ()
-    assert found.unfit[Unfit.TOO_WIDE] > 0
+    assert found.rejected_frames[FrameRejection.TOO_WIDE] > 0
 
 
 def test_what_is_thinner_than_the_closed_hand_is_too_narrow():
     found = ranked_grasps(piece(Box(size_m=(0.03, 0.03, 0.03))), hand(2), GraspCandidates(), friction=0.7)
-    assert found.unfit[Unfit.TOO_NARROW] > 0
+    assert found.rejected_frames[FrameRejection.TOO_NARROW] > 0
 
 
 def test_a_given_grasp_is_a_candidate_by_its_name():

@@ -11,7 +11,7 @@ import pytest
 from scipy.optimize import linprog
 
 from rgss.grasping.candidates import given_suction_point, ranked_suction, suction_points, weight_share
-from rgss.grasping.candidates.ranking import Unfit
+from rgss.grasping.candidates.ranking import FrameRejection
 from rgss.scenes import (
     Approach,
     Box,
@@ -97,7 +97,7 @@ def test_a_mesh_that_is_round_bears_no_cup():
     sphere = MeshShape(parts_m=(tuple(ball),), sha256="ball")
 
     assert suction_points(sphere, RADIUS_M, CENTRE) == ()
-    assert ranked(sphere, gyration_m2=(1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0)).unfit == {Unfit.SEAL: 1}
+    assert ranked(sphere, gyration_m2=(1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0)).rejected_frames == {FrameRejection.SEAL: 1}
 
 
 def test_a_face_that_another_part_covers_bears_no_cup():
@@ -205,7 +205,7 @@ def test_given_points_are_candidates_and_those_without_a_seal_are_counted():
     ]
     found = ranked(BOX, grasps=tuple(given))
 
-    assert found.unfit[Unfit.SEAL] == 1
+    assert found.rejected_frames[FrameRejection.SEAL] == 1
     (label,) = [grasp for grasp in found.grasps if grasp.id == "label:00"]
     assert label.quality_1 == pytest.approx(RADIUS_M / (0.005 + RADIUS_M))
     assert isinstance(label.suction, SuctionPoint)

@@ -93,7 +93,7 @@ def test_what_comes_first_replaces_quantities_and_the_groups_that_share_one():
                 "(give it in m or a multiple of it)"
             ),
         ),
-        ("sd: 5 mm", "sd: ¦0 mm", "uncertainty.spread sd must be greater than zero (a known value is a constant)"),
+        ("sd: 5 mm", "sd: ¦0 mm", "uncertainty.spread sd must be greater than zero (use a constant for a known value)"),
         ("low: -5 deg", "low: ¦5 deg", "uncertainty.ends low must be less than high"),
         (
             "{constant: 0.2 N, rationale: data sheet}",
@@ -132,7 +132,7 @@ def test_what_comes_first_replaces_quantities_and_the_groups_that_share_one():
         (
             "values: [20 ms, 10 ms]",
             "values: ¦[10 ms, 10 ms]",
-            "uncertainty.values a value stands twice (give it both weights)",
+            "uncertainty.values a value is listed twice (add both weights)",
         ),
         (
             "values: [20 ms, 10 ms]",
@@ -145,7 +145,7 @@ def test_what_comes_first_replaces_quantities_and_the_groups_that_share_one():
         (
             "quantities: [perception.x, workpiece.mass]",
             "quantities: ¦[perception.x, perception.x]",
-            "uncertainty.group a quantity is in a group twice (put all that go together in one group)",
+            "uncertainty.group a quantity is in a group twice (put all correlated quantities in one group)",
         ),
         (
             "quantities: [perception.x, workpiece.mass]",
@@ -160,12 +160,12 @@ def test_what_comes_first_replaces_quantities_and_the_groups_that_share_one():
         (
             "matrix: [[1, 0.5], [0.5, 1]]",
             "matrix: ¦[[1, 0.5], [0.4, 1]]",
-            "uncertainty.group a correlation matrix is symmetric, with ones on its diagonal",
+            "uncertainty.group a correlation matrix must be symmetric, with ones on its diagonal",
         ),
         (
             "matrix: [[1, 0.5], [0.5, 1]]",
             "matrix: ¦[[1, 1], [1, 1]]",
-            "uncertainty.group no quantities have these correlations: the matrix is not positive definite (lower them)",
+            "uncertainty.group the correlation matrix must be positive definite (lower the correlations)",
         ),
     ],
 )
@@ -245,7 +245,10 @@ def test_a_quantity_of_each_joint_goes_together_with_no_other(kitchen):
     kitchen.change("kitchen.yaml", "[perception.x, workpiece.mass]", "¦[perception.x, robot.joint_offset]")
 
     assert kitchen.findings("scene") == [
-        f"{kitchen.marks()[0]} uncertainty.group a quantity of each joint goes together with others of each joint alone"
+        (
+            f"{kitchen.marks()[0]} uncertainty.group a quantity of each joint "
+            "can be correlated only with others of each joint"
+        )
     ]
 
 

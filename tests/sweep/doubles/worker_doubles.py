@@ -128,7 +128,7 @@ def plot_and_hang() -> None:
 
 def refuse() -> None:
     """Raise an error of ours, which another attempt would raise again."""
-    raise SimulationError("the workpiece cannot have the mass 0", hint="give it some")
+    raise SimulationError("the mass of the workpiece must be positive, got 0", hint="give it some")
 
 
 def fail() -> None:

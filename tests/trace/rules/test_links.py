@@ -44,7 +44,7 @@ def test_two_measures_of_one_id(project):
     assert project.findings() == [
         (
             "requirements/measures.yaml:4:5: error: id 'P_g' is already declared at requirements/measures.yaml:3:5 "
-            "(give it an id of its own) [trace.duplicate-id]"
+            "(use a unique id) [trace.duplicate-id]"
         )
     ]
 
@@ -54,7 +54,7 @@ def test_a_measure_with_the_id_of_a_block(project):
     assert project.findings() == [
         (
             "requirements/measures.yaml:4:5: error: id 'BLK-1' is already declared at "
-            "requirements/architecture.yaml:2:10 (give it an id of its own) [trace.duplicate-id]"
+            "requirements/architecture.yaml:2:10 (use a unique id) [trace.duplicate-id]"
         )
     ]
 

@@ -61,7 +61,7 @@ def test_the_environment_overrules_what_a_machine_has_set(on_x86):
         ("OPENBLAS_CORETYPE", "Haswell", "OPENBLAS_CORETYPE is Haswell instead of Nehalem"),
         ("OPENBLAS_CORETYPE", None, "OPENBLAS_CORETYPE is not set instead of Nehalem"),
         ("OPENBLAS_NUM_THREADS", "2", "OPENBLAS_NUM_THREADS is 2 instead of 1"),
-        ("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA", "GLIBC_TUNABLES leaves the C library its choice"),
+        ("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA", "GLIBC_TUNABLES does not restrict the C library's kernels"),
         ("NPY_DISABLE_CPU_FEATURES", None, "NPY_DISABLE_CPU_FEATURES is not set"),
     ],
 )

@@ -19,7 +19,7 @@ def test_the_payload_bench_has_no_cups(spec_of, tmp_path):
     spec = replace(spec_of(), gripper=gripper_of(tmp_path, "vacuum"))
 
     assert bench_of(spec) is None
-    with pytest.raises(DefinitionError, match="the payload bench has fingers to try, gripper 'cup' has a suction cup"):
+    with pytest.raises(DefinitionError, match="the payload bench needs fingers, gripper 'cup' has a suction cup"):
         run_bench(payload_bench(spec))
 
 
@@ -28,7 +28,7 @@ def test_there_is_no_bench_for_an_object_that_the_gripper_cannot_hold(spec_of, t
 
 
 def test_mujoco_has_no_cups(spec_of, tmp_path):
-    with pytest.raises(DefinitionError, match="MuJoCo's world has fingers alone, gripper 'cup' has a suction cup"):
+    with pytest.raises(DefinitionError, match="MuJoCo's world supports only fingers, gripper 'cup' has a suction cup"):
         open_world(spec_of().scene, gripper_of(tmp_path, "vacuum"), mujoco_settings())
 
 

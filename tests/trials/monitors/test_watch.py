@@ -116,7 +116,7 @@ def test_nothing_happens(world):
         (
             contacts(3.0, 2.4 * 40.5),  # in one of the 2.4 steps of 10 ms
             Failure.OBJECT_DAMAGED,
-            "a finger pressed with 40.50 N over 10 ms, the object bears 40 N",
+            "a finger pressed with 40.50 N over 10 ms, above its limit of 40 N",
         ),
     ],
 )
@@ -279,7 +279,7 @@ def test_a_tool_that_strays_is_a_failure(world):
     follow(world, watch, (0.1, 0.2, 0.3025))
     assert (watch.failure, watch.detail) == (
         Failure.TRACKING_ERROR,
-        "the tool was 2.50 mm from where it should be",
+        "the tool was 2.50 mm from its target",
     )
 
 
@@ -293,9 +293,7 @@ def test_a_tool_that_strays_because_joints_are_at_their_limit_names_them(world):
     follow(world, watch, (0.1, 0.2, 0.4))
 
     assert watch.failure is Failure.TRACKING_ERROR
-    assert watch.detail == (
-        f"the tool was 100.00 mm from where it should be; at its torque limit: {names[2]}, then {names[0]}"
-    )
+    assert watch.detail == (f"the tool was 100.00 mm from its target; at its torque limit: {names[2]}, then {names[0]}")
     metrics = watch.metrics()
     step_s = world.settings.step_s
     assert metrics["joint_saturated_s"] == pytest.approx((4 * step_s, 0.0, 7 * step_s, 0.0, 0.0, 0.0))

@@ -203,5 +203,5 @@ def test_the_rig_closes_its_world(spec):
 
 
 def test_a_mass_that_no_body_has_is_refused(spec):
-    with pytest.raises(SimulationError, match="the workpiece cannot have the mass 0 kg"):
+    with pytest.raises(SimulationError, match="the mass of the workpiece must be positive, got 0 kg"):
         probe(spec, 0)

@@ -163,22 +163,31 @@ def changed_settings(**changes):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"acceleration_m_s2": 0.0}, "the acceleration of a payload bench cannot be 0 (give a number above zero)"),
-        ({"acceleration_m_s2": float("nan")}, "the acceleration of a payload bench cannot be nan"),
-        ({"rated_kg": float("inf")}, "the rated mass of a payload bench cannot be inf"),
-        (changed_settings(lift_s=-1.0), "the time of the lift of a payload bench cannot be -1"),
-        (changed_settings(smallest_kg=0.0), "the smallest mass of a payload bench cannot be 0"),
-        (changed_settings(largest_slip_m=0.0), "the largest slip of a payload bench cannot be 0"),
-        (changed_gripper(finger_force_n=0.0), "the force of a finger of a payload bench cannot be 0"),
-        (changed_gripper(finger_velocity_m_s=0.0), "the velocity of a finger of a payload bench cannot be 0"),
+        (
+            {"acceleration_m_s2": 0.0},
+            "the acceleration of a payload bench must be positive, got 0 (give a number above zero)",
+        ),
+        ({"acceleration_m_s2": float("nan")}, "the acceleration of a payload bench must be positive, got nan"),
+        ({"rated_kg": float("inf")}, "the rated mass of a payload bench must be positive, got inf"),
+        (changed_settings(lift_s=-1.0), "the time of the lift of a payload bench must be positive, got -1"),
+        (changed_settings(smallest_kg=0.0), "the smallest mass of a payload bench must be positive, got 0"),
+        (changed_settings(largest_slip_m=0.0), "the largest slip of a payload bench must be positive, got 0"),
+        (changed_gripper(finger_force_n=0.0), "the force of a finger of a payload bench must be positive, got 0"),
+        (
+            changed_gripper(finger_velocity_m_s=0.0),
+            "the velocity of a finger of a payload bench must be positive, got 0",
+        ),
         (
             changed_settings(resolution=1.0),
-            "the resolution of a payload bench cannot be 1 (give a share from 1e-06 to 1)",
+            "the resolution of a payload bench must be from 1e-06 to below 1, got 1",
         ),
-        (changed_settings(resolution=0.0), "the resolution of a payload bench cannot be 0"),
+        (changed_settings(resolution=0.0), "the resolution of a payload bench must be from 1e-06 to below 1, got 0"),
         (
             {"rated_kg": 0.04},
-            "the smallest mass of 0.0417 kg is not below the rated 0.04 kg (let the payload bench have masses to try)",
+            (
+                "the smallest mass of 0.0417 kg is not below the rated 0.04 kg "
+                "(give the bench a rated mass above the smallest one)"
+            ),
         ),
         (
             changed_gripper(finger_mass_kg=0.001),
@@ -186,11 +195,14 @@ def changed_settings(**changes):
         ),
         (
             {"shape": Cylinder(radius_m=0.07, height_m=0.1)},
-            "an object of radius 0.07 m does not fit into gripper 'hand', which opens to 0.07 m (take a thinner",
+            "an object of radius 0.07 m does not fit into gripper 'hand', which opens to 0.07 m (use a thinner",
         ),
         (
             {"shape": Cylinder(radius_m=0.035, height_m=0.12)},
-            "an object of height 0.12 m gripped at its centre meets the base of gripper 'hand', which is 0.06 m above",
+            (
+                "an object of height 0.12 m gripped at its centre collides with the base of gripper 'hand', "
+                "which is 0.06 m above"
+            ),
         ),
     ],
 )
@@ -258,7 +270,7 @@ def test_engine_and_code_are_in_the_digest(name):
 def test_outside_of_its_validated_range_the_bench_gives_no_answer(changes, sentence):
     spec = replace(SPEC, **changes)
     assert any(found.startswith(sentence) for found in outside(spec))
-    with pytest.raises(DefinitionError, match="the payload bench is not validated for a "):
+    with pytest.raises(DefinitionError, match="the payload bench is not validated for "):
         run_bench(spec, probe_mass=failing_above(0.9, PayloadLimit.SLIP))
 
 

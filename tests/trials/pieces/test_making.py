@@ -175,7 +175,7 @@ def test_a_planner_that_is_not_there_is_an_error(spec_of):
 def test_a_bench_of_a_trial_that_knows_none_is_an_error(spec_of):
     spec = replace(spec_of(65), fidelity=Fidelity.DYNAMIC)
 
-    with pytest.raises(EvidenceError, match="a dynamic trial knows no payload bench"):
+    with pytest.raises(EvidenceError, match="a dynamic trial has no payload bench"):
         make_piece(PieceTask(digest="a" * 64, kind=PieceKind.BENCH, spec=spec), {})
 
 
@@ -217,8 +217,16 @@ def changed(text: str, change) -> str:
     ("kind", "change", "problem"),
     [
         (PieceKind.PLAN, lambda plan: plan["moves"].append(plan["moves"][0]), "two moves of one phase"),
-        (PieceKind.PLAN, lambda plan: plan["moves"][0].update(path_rad=None), "a path where there is none"),
-        (PieceKind.PLAN, lambda plan: plan["moves"][0].update(outcome="budget_spent"), "a path where there is none"),
+        (
+            PieceKind.PLAN,
+            lambda plan: plan["moves"][0].update(path_rad=None),
+            "must have a path if and only if it is solved",
+        ),
+        (
+            PieceKind.PLAN,
+            lambda plan: plan["moves"][0].update(outcome="budget_spent"),
+            "must have a path if and only if it is solved",
+        ),
         (
             PieceKind.PLAN,
             lambda plan: plan["direct"][0]["path_rad"].update(shape=[2, 3, 4]),
@@ -230,16 +238,16 @@ def changed(text: str, change) -> str:
         (
             PieceKind.TIMING,
             lambda timing: timing["motions"][1].update(rates=timing["motions"][0]["breaks"]),
-            "the motion of lift has arrays that do not belong together",
+            "the motion of lift has arrays of inconsistent shapes",
         ),
         (
             PieceKind.TIMING,
             lambda timing: timing["motions"][1].update(curved=[]),
-            "the motion of lift has arrays that do not belong together",
+            "the motion of lift has arrays of inconsistent shapes",
         ),
         (PieceKind.EXECUTION, lambda execution: execution["phases"][0].update(phase=1), "phase"),
         (PieceKind.EXECUTION, lambda execution: execution.update(more=1), "unknown 'more'"),
-        (PieceKind.BENCH, lambda bench: bench.update(bracket_kg=[1.0]), "no bracket of two masses"),
+        (PieceKind.BENCH, lambda bench: bench.update(bracket_kg=[1.0]), "must have two masses"),
         (PieceKind.BENCH, lambda bench: bench["probes"][0].update(stopped_by="magic"), "stopped_by"),
     ],
 )

@@ -206,7 +206,7 @@ def test_a_joint_that_is_too_weak_is_named(planned, dynamic, joint):
     record = planned.record(torque_shares={joint: 0.7 * needed / limit})
     assert (record.success, record.failure) == (False, Failure.TRACKING_ERROR)
     found = re.fullmatch(
-        r"the tool was (\d+\.\d\d) mm from where it should be; at its torque limit: (.+)", record.failure_detail
+        r"the tool was (\d+\.\d\d) mm from its target; at its torque limit: (.+)", record.failure_detail
     )
     assert found is not None
     assert float(found[1]) > 2.0
@@ -229,7 +229,7 @@ def test_a_tracking_error_without_saturation_names_no_joint(planned):
     spec = replace(spec, settings=replace(spec.settings, control=strict))
     *_, last = execute(spec, planned.cell, planned.timing)
     assert (last.phase, last.failure) == (Phase.MOVE_TO_GRASP, Failure.TRACKING_ERROR)
-    assert last.detail == "the tool was 0.00 mm from where it should be"
+    assert last.detail == "the tool was 0.00 mm from its target"
 
 
 def test_an_end_that_is_not_reached_is_a_failure_after_half_a_second(planned):

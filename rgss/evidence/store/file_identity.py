@@ -1,7 +1,7 @@
-"""Custody of an open store: whether the files under its name are still those that SQLite has open.
+"""Identity check of an open store: the files under its name must be those that SQLite has open.
 
-A file that is deleted or replaced stays readable and writable for a process that has it open, so that writes succeed
-and are lost at the end. A file that is cut is noticed by SQLite only when it reads the pages.
+A deleted or replaced file stays readable and writable for a process that has it open, so that writes succeed but are
+lost at the end. SQLite detects a truncated file only when it reads the pages.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ from pathlib import Path
 _LOGS = {"-wal": "write-ahead log", "-shm": "index of its log"}
 
 
-class Custody:
+class FileIdentity:
     """Identity (device and inode) and least size of the files of an open store."""
 
     def __init__(self, path: Path) -> None:
-        """Record the present state of the files; nothing is opened, which would end the locks of SQLite.
+        """Record the present state of the files, without opening them, which would release the locks of SQLite.
 
         Args:
             path: The file, which is open and has been read.
 
         Raises:
-            OSError: It was removed already.
+            OSError: The file was removed.
         """
-        # A later change of the working folder must not lead to another file.
+        # Absolute, so that a change of the working directory does not matter.
         self.path = path.absolute()
         self._identity, self._size = _looked_up(self.path)
         self._logs: dict[str, tuple[int, int]] = {}
@@ -39,9 +39,9 @@ class Custody:
             return "was removed" if removed else f"cannot be reached: {error.strerror}"
         if identity != self._identity:
             return "was replaced by another file"
-        # Only a rewriting of the whole file makes it smaller, which needs it to be open nowhere else.
+        # Only rewriting the whole file makes it smaller, which needs exclusive access.
         if size < self._size:
-            return f"was cut from {self._size} to {size} bytes"
+            return f"was truncated from {self._size} to {size} bytes"
         for ending, before in self._logs.items():
             if _identity_or_none(self._beside(ending)) != before:
                 return f"lost its {_LOGS[ending]}"
@@ -50,12 +50,12 @@ class Custody:
         return ""
 
     def discard_orphaned_logs(self) -> None:
-        """Remove the logs of a file that has no longer this name: SQLite would apply them to the next that gets it."""
+        """Remove the logs of a file that was renamed: SQLite would apply them to the next file of that name."""
         try:
             if _looked_up(self.path)[0] == self._identity:
                 return
         except OSError:
-            # It was removed.
+            # The file was removed.
             pass
         for ending, before in self._logs.items():
             place = self._beside(ending)
@@ -64,7 +64,7 @@ class Custody:
                     place.unlink()
 
     def _note_logs(self) -> None:
-        """Record the logs as soon as they exist: SQLite keeps them until the last connection ends."""
+        """Record the logs as soon as they exist: SQLite keeps them until the last connection closes."""
         for ending in _LOGS:
             identity = _identity_or_none(self._beside(ending))
             if identity is not None:

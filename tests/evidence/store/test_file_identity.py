@@ -9,7 +9,7 @@ from rgss.errors import EvidenceError, StorageError
 from rgss.evidence import EvidenceStore, Piece, PieceKind, trial_key
 from rgss.evidence.store.verification import verify
 
-HINT = "(remove what is left of evidence.sqlite, rename {0} to evidence.sqlite and run the sweep again)"
+HINT = "(remove the rest of evidence.sqlite, rename {0} to evidence.sqlite and run the sweep again)"
 
 
 @pytest.fixture
@@ -56,7 +56,7 @@ def test_a_store_that_is_lost_is_saved_as_a_whole(place, put, loss, noticed_by):
     with pytest.raises(StorageError) as caught:
         put(store, 5) if noticed_by == "put" else store.confirm()
     rows = 12 if noticed_by == "put" else 10
-    saved = f"{rows} rows, with all that could be read, are saved in evidence.sqlite.rescued beside it"
+    saved = f"{rows} readable rows are saved in evidence.sqlite.rescued beside it"
     assert caught.value.message == f"the evidence store it {words} while it was in use; {saved}"
     assert str(caught.value).endswith(HINT.format("evidence.sqlite.rescued"))
     # Said again, and not saved again.
@@ -90,7 +90,7 @@ def test_a_store_that_is_cut_is_noticed_and_what_can_be_read_is_saved(place, put
     os.truncate(place, keep)
     with pytest.raises(StorageError) as caught:
         put(store, 100)
-    assert f"the evidence store it was cut from {size} to {keep} bytes while it was in use; " in str(caught.value)
+    assert f"the evidence store it was truncated from {size} to {keep} bytes while it was in use; " in str(caught.value)
     store.close()
     # What was in hand is saved, whatever else is.
     with EvidenceStore.open(place.with_name("evidence.sqlite.rescued")) as rescued:
@@ -110,7 +110,7 @@ def test_an_older_copy_in_the_same_file_is_noticed_in_the_end(place, put):
     store.database.connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
     with place.open("r+b") as file:
         file.write(older.ljust(place.stat().st_size, b"\0"))
-    with pytest.raises(StorageError, match=r"^the evidence store it (cannot be read back|does not have)"):
+    with pytest.raises(StorageError, match=r"^the evidence store it (cannot be read back|lacks)"):
         store.confirm()
     store.close()
 
@@ -120,7 +120,7 @@ def test_a_row_that_another_has_deleted_is_noticed_in_the_end(place, put, change
     put(store, 0)
     put(store, 1)
     change(place, "DELETE FROM trials WHERE variant = 1")
-    with pytest.raises(StorageError, match="does not have 1 of 4 rows that were written"):
+    with pytest.raises(StorageError, match="lacks 1 of 4 written rows"):
         store.confirm()
     store.close()
 
