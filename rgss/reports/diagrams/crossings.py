@@ -8,7 +8,8 @@ from rgss.reports.diagrams.canvas import Point
 from rgss.reports.diagrams.graph import Graph, Node, Shape
 from rgss.reports.diagrams.labels import flattened
 
-_INSET = 1.0
+_CLEARANCE = 3.0
+"""Distance in pixels within which an edge seems to touch a node."""
 
 
 def edges_are_clear(
@@ -35,8 +36,8 @@ def edges_are_clear(
 
 
 def _is_within(point: Point, node: Node, centre: Point, size: tuple[float, float]) -> bool:
-    across = abs(point[0] - centre[0]) / max(size[0] / 2 - _INSET, _INSET)
-    down = abs(point[1] - centre[1]) / max(size[1] / 2 - _INSET, _INSET)
+    across = abs(point[0] - centre[0]) / max(size[0] / 2 + _CLEARANCE, 1.0)
+    down = abs(point[1] - centre[1]) / max(size[1] / 2 + _CLEARANCE, 1.0)
     if node.shape is Shape.DIAMOND:
         return across + down < 1
     if node.shape is Shape.ELLIPSE:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -30,6 +31,7 @@ from rgss.reports.diagrams.text import text_width, wrapped
 _SPACINGS = (1.0, 1.4, 2.0, 3.0)
 """Distances between nodes that are tried, as multiples of the usual ones."""
 _MARGIN = 14.0
+_SHORT = 4.5
 _NARROW = 110.0
 """Width in pixels of the lines of labels that find no free place otherwise."""
 
@@ -209,11 +211,20 @@ def _ends(
 def _draw_edge(canvas: Canvas, edge: Edge, points: tuple[Point, ...]) -> None:
     with canvas.group(f"{edge.source} → {edge.target} {' '.join(edge.labels)}".strip()):
         canvas.curve(points, "line dashed" if edge.dashed else "line")
-        canvas.arrow(points[-1], points[-2], edge.head)
+        canvas.arrow(points[-1], _behind(points), edge.head)
         if edge.flows:
             way = flattened(points)
             middle = len(way) // 2
             canvas.arrow(way[middle], way[middle - 1], "filled")
+
+
+def _behind(points: tuple[Point, ...]) -> Point:
+    """Where an edge comes from as its head shows it; a last piece shorter than half a head has no direction."""
+    tip = points[-1]
+    if math.dist(tip, points[-2]) >= _SHORT:
+        return points[-2]
+    far = (point for point in reversed(flattened(points)) if math.dist(tip, point) >= _SHORT)
+    return next(far, points[0])
 
 
 def _draw_label(canvas: Canvas, edge: Edge, centre: Point | None) -> None:

@@ -119,3 +119,22 @@ def test_no_text_of_a_generated_activity_is_crossed(seed):
     drawing = activity_diagram(made_activity(Flow(nodes=tuple(nodes), edges=tuple(edges))), blocks)
 
     assert crossings(drawing.to_svg(), STYLE) == []
+
+
+def test_heads_of_edges_to_final_nodes_point_down():
+    """Edges of upright and level lines end with pieces too short to have a direction."""
+    architecture = load_requirements(ROOT / "requirements").architecture
+    (activity,) = (one for one in architecture.behaviours if one.id == "ACT-pause-simulation")
+    root = ET.fromstring(activity_diagram(activity, {}).to_svg())  # noqa: S314 - our own
+    finals = {node.id for node in activity.flow.nodes if node.kind is FlowNodeKind.FINAL}
+    checked = 0
+    for group in root.iter(f"{SVG}g"):
+        title = group.find(f"{SVG}title").text
+        if "→" in title and title.split("→")[1].split()[0] in finals:
+            tip, left, right = (
+                tuple(map(float, place.split(","))) for place in group.find(f"{SVG}polygon").get("points").split()
+            )
+            assert max(left[1], right[1]) < tip[1] - 5, title
+            assert abs((left[0] + right[0]) / 2 - tip[0]) < 1, title
+            checked += 1
+    assert checked == len(finals)
