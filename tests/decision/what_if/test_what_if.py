@@ -256,3 +256,15 @@ def test_the_last_weights_have_no_proportions(shipped):
     assert suppose(only, ["weight.C_total=0.5", "weight.S=0.5"]).project.study.trade_off.weighting.weights["S"] == 0.5
     with pytest.raises(DefinitionError, match=r"given sum to 0.5 \(give weights that sum to 1, or omit one\)"):
         suppose(shipped, [f"weight.{name}=0.1" for name in ("P_max", "C_total", "t_e", "t_p", "S")])
+
+
+def test_what_is_simulated_is_known_without_engines(shipped, monkeypatch):
+    def refuse(purpose):
+        raise DefinitionError(f"{purpose} needs engines")
+
+    monkeypatch.setattr("rgss.trials.code.piece_versions.missing_engines", lambda: ("ompl",))
+    monkeypatch.setattr("rgss.trials.code.piece_versions.require_engines", refuse)
+    monkeypatch.setattr("rgss.trials.code.piece_versions._assumed", {})
+
+    assert suppose(shipped, ["catalogue.ka-58.mass=1 kg"]).simulated == ("catalogue.ka-58.mass",)
+    assert suppose(shipped, ["prices=1.5"]).simulated == ()
