@@ -4,6 +4,8 @@ const replays = (() => {
   const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
   const SHOWN = [["forces", "Contact forces"], ["path", "Planned path"], ["graph", "Planner's tree"], ["perceived", "Perceived pose"]];
   const STEP_S = 0.1;
+  // A slow machine, or a page that was out of sight, plays slowly; it leaves nothing out.
+  const LONGEST_FRAME_S = 0.25;
 
   const made = (name, attributes = {}, ...children) => {
     const one = document.createElement(name);
@@ -140,7 +142,7 @@ const replays = (() => {
       let before = performance.now();
       const advance = (now) => {
         if (!this.playing) return;
-        this.seek(this.time + Math.max(0, now - before) / 1000 * this.speed);
+        this.seek(this.time + Math.min(LONGEST_FRAME_S, Math.max(0, now - before) / 1000) * this.speed);
         before = now;
         if (this.time >= this.end) this.pause(); else requestAnimationFrame(advance);
       };
