@@ -19,8 +19,8 @@ _MOST_COMPARED = 18
 _MOST_MEASURES = 6
 _MOST_FILMS = 2
 _LONGEST = 160
-_LONGEST_REASON = 230
-"""Characters of a reason or a caution, which have half a page of their own."""
+_REASON_ROOM = 1300
+"""Characters of reasons and cautions that half a page holds; where they have more, each line is cut."""
 
 
 def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictures] = (), tornado: str = "") -> str:
@@ -50,6 +50,8 @@ def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictur
         [(name, _short(str(value))) for name, value in document["provenance"]["study"]],
     )
     failed = [one for one in pictures if one.failed]
+    room = sum(map(len, (*decision["reasons"], *decision["cautions"])))
+    longest = _REASON_ROOM if room <= _REASON_ROOM else _LONGEST
     return render_page(
         "study/board.html.j2",
         styles=[template_text(f"study/{name}") for name in ("report.css", "tool.css", "board.css")],
@@ -60,8 +62,8 @@ def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictur
         glance=glance,
         glance_picture=chosen_picture(decision["chosen"], pictures),
         open=[] if glance is None else _cut(_open_lines(glance)),
-        reasons=_cut(decision["reasons"], _LONGEST_REASON),
-        cautions=_cut(decision["cautions"], _LONGEST_REASON),
+        reasons=_cut(decision["reasons"], longest),
+        cautions=_cut(decision["cautions"], longest),
         comparison=compared[:_MOST_COMPARED],
         comparison_more=_more(compared, _MOST_COMPARED, "rows"),
         compared_heads=[

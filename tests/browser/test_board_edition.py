@@ -44,6 +44,14 @@ def test_it_has_at_most_five_pages_whatever_it_holds(reader, study, pictures, tm
         reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
 
 
+def test_a_caution_is_whole_where_there_is_room(study):
+    caution = LONG[:300].strip()
+    decision = study.document["decision"] | {"reasons": ["It leads."], "cautions": [caution]}
+    assert caution in board_to_html(study.document | {"decision": decision})
+    decision |= {"cautions": [caution] * 5}
+    assert caution not in board_to_html(study.document | {"decision": decision})
+
+
 def test_assumptions_that_change_the_choice_come_first(study):
     cells = ["prices", "as stated", "1.5", "variant 2", "yes"]
     rows = [{"cells": [f"same-{index}", *cells[1:]], "changes": False} for index in range(20)]
