@@ -188,7 +188,7 @@ class _Places:
         entry = self.document.data.get("workpiece") if isinstance(self.document.data, dict) else None
         key = "height" if isinstance(entry, dict) and "height" in entry else "id"
         message = (
-            f"{self._workpiece} is too tall for {', '.join(grippers)}: held at its middle, its top is "
+            f"{self._workpiece} is too tall for {', '.join(sorted(grippers))}: held at its middle, its top is "
             f"{tall.top_m * 1e3:.4g} mm above the grasp, and the palm leaves {tall.most_m * 1e3:.4g} mm"
         )
         hint = (

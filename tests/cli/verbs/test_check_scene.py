@@ -151,7 +151,7 @@ def test_an_object_too_tall_for_the_hand_is_named_with_what_would_fit(check_with
 
 
 def test_an_object_that_just_fits_is_not_too_tall(check_with):
-    status, findings, _ = check_with(("height: 100 mm", "height: 104 mm"))
+    status, findings, _ = check_with(("height: 100 mm", "height: 103.9 mm"))
 
     assert (status, findings) == (0, [])
 
