@@ -18,7 +18,7 @@ import pytest
 
 # The fixture `record_testsuite_property` reaches no file where tests run in several processes.
 from _pytest.junitxml import xml_key
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from rgss.trials.code.kernel_environment import is_in_force, numeric_environment
 
@@ -29,7 +29,14 @@ PROJECT = Path(__file__).parents[1]
 
 pytest_plugins = ["tests.fixtures.shipped_project"]
 
-settings.register_profile("repeatable", derandomize=True, database=None, deadline=None)
+# On a busy machine examples are drawn as slowly as anything else, which is no mistake of a test.
+settings.register_profile(
+    "repeatable",
+    derandomize=True,
+    database=None,
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow],
+)
 settings.load_profile("repeatable")
 
 
