@@ -61,14 +61,14 @@ class Driver(Protocol):
         """Rate at which it takes set points."""
 
     def connect(self) -> None:
-        """Open the connection and make the robot ready for set points; nothing moves.
+        """Open the connection and prepare the robot for set points, without motion.
 
         Raises:
-            DriverError: There is no connection, or the robot is not ready.
+            DriverError: The connection failed, or the robot is not ready.
         """
 
     def read(self) -> Estimate:
-        """The latest report of the controller; the one before, with its stamp, if there is no new one.
+        """Latest report of the controller; the previous one with its time stamp if there is no new one.
 
         Raises:
             DriverError: The connection is closed.

@@ -28,7 +28,7 @@ class ToolPositions(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotLimits:
-    """Limits of what may be commanded.
+    """Limits of commands.
 
     Attributes:
         names: Names of the joints from base to flange.
@@ -81,10 +81,10 @@ class Guard:
     """Comparison of each set point with the limits and with the two set points before it."""
 
     def __init__(self, limits: RobotLimits, tool: ToolPositions, *, period_s: float) -> None:
-        """Prepare the guard; nothing is admitted before `begin`.
+        """Prepare the guard; no command is accepted before `begin`.
 
         Args:
-            limits: What must be kept.
+            limits: The limits.
             tool: Kinematics of the tool.
             period_s: Period of the set points.
         """

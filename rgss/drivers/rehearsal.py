@@ -1,4 +1,4 @@
-"""Rehearsal: the stream of a task into a driver that reports what it is sent, to list what would be sent."""
+"""Rehearsal: dry run of a task's stream with a driver that records the set points."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rgss.drivers.task import TimedTask
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SegmentSummary:
-    """What would be sent in one segment.
+    """Summary of the set points of one segment.
 
     Attributes:
         name: Name of the phase.
@@ -39,12 +39,12 @@ class SegmentSummary:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rehearsal:
-    """What would be sent.
+    """Result of a rehearsal.
 
     Attributes:
-        start_rad: Where the robot must be.
-        segments: The segments in their order.
-        refusal: Why the task would be refused; empty if it would not.
+        start_rad: Required start configuration.
+        segments: The segments in order.
+        refusal: Reason why the task would be rejected; empty if it would not.
     """
 
     start_rad: tuple[float, ...]
@@ -64,10 +64,10 @@ def rehearse(
 
     Args:
         task: The task.
-        limits: What must be kept.
+        limits: The limits.
         tool: Kinematics of the tool.
         settings: Speed and tolerances.
-        rate_hz: Rate of the driver that is meant.
+        rate_hz: Rate of the intended driver.
     """
     echo = _Echo(task.start_rad, rate_hz)
     result = stream(echo, task, Guard(limits, tool, period_s=1.0 / rate_hz), echo, settings)
@@ -118,7 +118,7 @@ class _Echo:
         return self._time_s
 
     def wait_until(self, time_s: float) -> None:
-        """Let the time pass."""
+        """Advance the simulated time."""
         self._time_s = time_s
 
 

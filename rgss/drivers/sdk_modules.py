@@ -34,11 +34,11 @@ def import_sdk(module: str, *, distribution: str, extra: str) -> ModuleType:
 
 @contextlib.contextmanager
 def sdk_errors(message: str, *, hint: str = "") -> Iterator[None]:
-    """Turn what an SDK raises, which may be a bare ``Exception``, into an error of the driver.
+    """Context that translates exceptions of an SDK, including a bare ``Exception``, into errors of the driver.
 
     Args:
-        message: What could not be done.
-        hint: How to mend it.
+        message: The failed operation.
+        hint: How to resolve it.
 
     Raises:
         DriverError: The SDK raised.

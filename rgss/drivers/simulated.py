@@ -1,4 +1,4 @@
-"""Simulated robot as a driver: the arm under joint torques, which lags and sags as a controller lets it."""
+"""Simulated robot as a driver: the arm under joint torques, with the tracking errors of its controller."""
 
 from __future__ import annotations
 
@@ -45,13 +45,13 @@ class SimulatedDriver:
         start_rad: tuple[float, ...],
         gains: ServoGains | None = None,
     ) -> None:
-        """Take the robot; the world is built by `connect`.
+        """Store the robot; the world is built by `connect`.
 
         Args:
             scene: The robot, gravity and the object.
             gripper: The hand.
             settings: Step length and solver.
-            start_rad: Where the arm stands.
+            start_rad: Start configuration of the arm.
             gains: Gains of the controller.
         """
         self._scene, self._gripper, self._settings = scene, gripper, settings

@@ -17,7 +17,7 @@ _ROUNDING_MS = 1e-6
 
 
 class StreamOutcome(str, Enum):
-    """How a stream ended; in every case the robot was stopped."""
+    """Outcome of a stream; the robot is stopped in every case."""
 
     COMPLETED = "completed"
     REFUSED = "refused"
@@ -101,7 +101,7 @@ def stream(
     *,
     is_interrupted: Callable[[], bool] = lambda: False,
 ) -> StreamResult:
-    """Run a task on a driver; it is stopped and disconnected afterwards, whatever happens.
+    """Run a task on a driver, which is stopped and disconnected afterwards in every case.
 
     Args:
         driver: The robot, not connected.

@@ -78,11 +78,11 @@ class UrDriver:
         return self._settings.rate_hz
 
     def connect(self) -> None:
-        """Connect; the program that takes set points is started only if the robot is ready to move.
+        """Connect; the set-point program is started only if the robot is ready to move.
 
         Raises:
             DefinitionError: The SDK is not installed.
-            DriverError: There is no connection, or the robot is not ready.
+            DriverError: The connection failed, or the robot is not ready.
         """
         self._receive = self._open("RTDE receive", self._open_receive, self._address, self.rate_hz)
         mode, safety = self._receive.getRobotMode(), self._receive.getSafetyMode()

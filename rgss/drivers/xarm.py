@@ -52,7 +52,7 @@ class XarmDriver:
 
         Raises:
             DefinitionError: The SDK is not installed.
-            DriverError: There is no connection, an error is pending, or the arm has another number of joints.
+            DriverError: The connection failed, an error is pending, or the arm has another number of joints.
         """
         with sdk_errors(f"no xArm controller answers at {self._address}", hint="check its address and network"):
             self._api = self._open_api(self._address)

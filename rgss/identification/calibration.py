@@ -1,4 +1,4 @@
-"""Text of a calibration file: what was determined, and the recording that it was determined on."""
+"""Text of a calibration file: identified parameters, and the recording of the identification."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rgss.identification.recording import Recording
 
 
 def calibration_text(recording: Recording, fits: Sequence[ServoFit], *, file: str) -> str:
-    """A calibration file with the determined parameters; what is not determined is a comment with the reason.
+    """Text of a calibration file with the identified parameters; others are comments with the reason.
 
     Args:
         recording: The recording.

@@ -153,7 +153,7 @@ def _robot_findings(entry: ExcitationDocument, document: Document, robot: Robot)
 
 
 def _kind_findings(entry: ExcitationDocument, document: Document, robot: Robot) -> Iterator[Finding]:
-    """Excited joints for whose kind there is no signal."""
+    """Findings about excited joints of a kind without a signal."""
     for joint in robot.joints:
         if joint.name in chosen_joints(entry, robot) and not any(signals(entry, joint.kind)):
             unit = "m/s" if joint.kind is JointKind.PRISMATIC else "rad/s"

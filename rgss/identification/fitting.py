@@ -1,4 +1,4 @@
-"""Fit of a joint's servo to a recording by least squares, with intervals and what the recording cannot tell."""
+"""Least-squares fit of a joint's servo to a recording, with confidence intervals and identifiability."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _ALIKE = 0.9
 
 
 class FitStatus(str, Enum):
-    """What the recording says of a parameter."""
+    """Identifiability of a parameter from the recording."""
 
     DETERMINED = "determined"
     NEAR_ZERO = "not distinguishable from zero"
@@ -43,10 +43,10 @@ class FittedParameter:
 
     Attributes:
         name: The field of `JointServo`.
-        status: What the recording says of it.
-        value: The least-squares value; None if the recording does not contain it.
-        interval: Ends of its 95 % interval, infinite where the recording does not bound it.
-        reason: Why it is not determined; empty if it is.
+        status: Its identifiability.
+        value: The least-squares value; None if not identifiable.
+        interval: Ends of its 95 % interval, infinite if the recording does not bound it.
+        reason: Reason why it is not identified; empty if it is.
     """
 
     name: str

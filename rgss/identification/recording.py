@@ -53,12 +53,12 @@ class Recording:
 
     Attributes:
         robot: Name of the robot.
-        recorded: When or how it was made, as its file says.
-        control: What was commanded.
+        recorded: Date or circumstances, as stated in its file.
+        control: The command interface.
         joints: Names of the joints.
         segments: The segments in the order of time.
         digest: SHA-256 of its file; empty if it was not read from one.
-        slides: Those of the joints that slide, whose positions are in m.
+        slides: The prismatic joints, whose positions are in m.
     """
 
     robot: str

@@ -43,7 +43,7 @@ def write_recording(path: Path, recording: Recording) -> None:
 
     Args:
         path: The file.
-        recording: What was recorded.
+        recording: The recording.
 
     Raises:
         OSError: The file cannot be written.

@@ -1,4 +1,4 @@
-"""Guarding metrics against a baseline: the statistics, the baseline's file, and what is said of both."""
+"""Regression guard of metrics: statistics, baseline file and report."""
 
 from typing import TYPE_CHECKING
 

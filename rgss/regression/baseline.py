@@ -71,17 +71,16 @@ class DecisionState:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BaselineOrigin:
-    """Origin of the values.
+    """Provenance of a baseline.
 
     Attributes:
-        revision: Revision of the code; empty if it is not known.
-        machine: What it ran on.
-        engines: Version of each engine, and whatever else the trials' provenance names beside code and inputs,
-            such as numerics.
+        revision: Revision of the code; empty if unknown.
+        machine: The machine.
+        engines: Version of each engine, and other items of the trials' provenance, such as numerics.
         code: A digest of the source of each piece of a trial.
         inputs: SHA-256 of each input file.
         modules: A digest of each module that makes a piece of a trial.
-        constants: Every number that such a module or a class of it is given by name, as text.
+        constants: Named numeric constants of these modules and their classes, as text.
     """
 
     revision: str
@@ -95,11 +94,11 @@ class BaselineOrigin:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
-    """Why a baseline was made or changed.
+    """Reason of a new or changed baseline.
 
     Attributes:
-        reason: What the user said.
-        revision: Revision of the code; empty if it is not known.
+        reason: Text of the user.
+        revision: Revision of the code; empty if unknown.
     """
 
     reason: str
@@ -190,7 +189,7 @@ def read_baseline(path: Path, *, label: str) -> Baseline:
 
 
 def _add_empty_values(data: dict[str, Any]) -> None:
-    """Bring a baseline of an earlier schema into the present form, where its parts are what they should be."""
+    """Migrate a baseline of an earlier schema, if well-formed."""
     data.setdefault("phase_record", {})
     if data["schema"] != _WITHOUT_VALUES:
         return

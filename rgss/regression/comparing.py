@@ -76,7 +76,7 @@ class Guard:
         return "neither" if self.both_ways else "higher" if self.higher_is_better else "lower"
 
     def for_baseline(self, mean: float | None) -> Guard:
-        """The same with the margin that a baseline's mean gives it.
+        """Copy with the margin derived from a baseline's mean.
 
         Args:
             mean: The mean of the baseline's values; None if there are none.
@@ -88,15 +88,15 @@ class Guard:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Pairs:
-    """The trials of baseline and now with the same variant and seed in which both tell the metric.
+    """Paired trials of the baseline and the present, by variant and seed, with the metric in both.
 
     Attributes:
-        worsening: For each seed, by how much it is worse on the mean of its variants, shape (n,).
-        net: For each seed of a success, on how many variants it is worse less on how many better.
-        worse_seeds: How many seeds are worse on some variant.
-        better_seeds: How many seeds are better on some variant.
-        count: How many pairs there are.
-        lost: Pairs that the baseline contains and the present does not.
+        worsening: Mean deterioration of each seed over its variants, shape (n,).
+        net: For success, number of worse minus better variants of each seed.
+        worse_seeds: Number of seeds that are worse on some variant.
+        better_seeds: Number of seeds that are better on some variant.
+        count: Number of pairs.
+        lost: Number of pairs of the baseline that are missing now.
         baseline_mean: Mean of the baseline's values in the pairs.
         current_mean: Mean of the present ones.
     """
@@ -113,25 +113,25 @@ class Pairs:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Comparison:
-    """A metric against its baseline.
+    """Comparison of a metric with its baseline.
 
     Attributes:
         subject: Compared quantity: a metric of a run at a phase.
-        guard: How it may move.
-        outcome: What is said of it.
-        worsening: By how much it is worse, in its unit; negative if better; None where unknown. If neither
-            direction is better, by how much it is higher.
+        guard: Its guard.
+        outcome: The outcome.
+        worsening: Deterioration in its unit; negative if better; None if unknown. Without a preferred direction, the
+        increase.
         low: Lower end of a 95 % interval of that.
         high: Upper end.
         baseline_mean: The baseline's mean over the pairs.
         current_mean: The present mean.
-        pairs: How many trials were compared.
-        lost: How many of the baseline's values have none now.
-        seeds: How many seeds they have.
-        look: At which look it was decided, or the last.
-        identical: Whether every trial of its run is the same bit by bit, which needs no statistics.
-        p_values: The adjusted p-values it was decided by; empty if there are none. If neither direction is
-            better, ``worse`` is that of being higher.
+        pairs: Number of compared trials.
+        lost: Number of missing values of the baseline.
+        seeds: Number of seeds.
+        look: The deciding look, or the last.
+        identical: True if every trial of its run is bitwise equal, which needs no statistics.
+        p_values: The adjusted p-values; empty if there are none. Without a preferred direction, ``worse`` is that of an
+        increase.
     """
 
     subject: Subject

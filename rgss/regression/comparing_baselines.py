@@ -1,4 +1,4 @@
-"""Behaviour, completeness and decision against the baseline: what needs no statistics."""
+"""Comparison of behaviour, completeness and decision with the baseline, without statistics."""
 
 from __future__ import annotations
 
@@ -50,14 +50,14 @@ def schema_notes(baseline: Baseline, record: Mapping[str, str]) -> Iterator[str]
 def run_failings(
     name: str, before: BaselineRun | None, *, fidelity: str, variants: Sequence[int], seeds: Sequence[int]
 ) -> Iterator[Failing]:
-    """Failings of a run that has less than its baseline.
+    """Failures of a run that is incomplete compared with its baseline.
 
     Args:
         name: The run.
         before: Its baseline; None if there is none.
-        fidelity: How much physics it has now.
-        variants: Its variants now.
-        seeds: All seeds that it may take now.
+        fidelity: Its present fidelity.
+        variants: Its present variants.
+        seeds: All its present seeds.
     """
     if before is None:
         yield Failing(trouble=FailureCause.CHANGED_SCHEMA, text=f"run {name} is not in the baseline")
@@ -87,7 +87,7 @@ def changed_trials(
     seeds: Sequence[int],
     phases: Sequence[str],
 ) -> Iterator[ChangedTrial]:
-    """The trials whose records are not what they were.
+    """Trials with changed records.
 
     Args:
         name: The run.
@@ -108,7 +108,7 @@ def changed_trials(
 def unchanged_phases(
     before: BaselineRun, now: Mapping[int, Mapping[int, str]], seeds: Sequence[int], phases: Sequence[str]
 ) -> frozenset[str]:
-    """The phases, and ``trial``, whose records are what they were in every trial.
+    """Phases, and ``trial``, with unchanged records in every trial.
 
     Args:
         before: The run's baseline.

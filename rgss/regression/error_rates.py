@@ -38,13 +38,12 @@ def holm_adjusted(p_values: Sequence[float], weights: Sequence[float] | None = N
 
 
 def level_of_look(look: int, looks: int, level: float) -> float:
-    """The part of an error rate that one look may spend.
+    """Share of an error rate for one look (alpha spending).
 
-    The power family of spending functions (Kim and DeMets, "Design and analysis of group
-    sequential tests based on the type I error spending rate function", 1987) allows
-    ``level * (k / K)**2`` up to look k of K; each look gets what that adds. As the parts sum to the
-    level, the error over all looks is at most the level, whatever the looks have in common: no
-    joint distribution is assumed, and what is given away for that is small.
+    The power family of spending functions (Kim and DeMets, "Design and analysis of group sequential tests based on the
+    type I error spending rate function", 1987) allows ``level * (k / K)**2`` up to look k of K; each look gets the
+    increment. Since the parts sum to the level, the error over all looks is at most the level for any dependence
+    between looks; the loss of power is small.
 
     Args:
         look: Which look, from 1.

@@ -109,7 +109,7 @@ def origin_changes(then: BaselineOrigin, now: BaselineOrigin, *, with_values: bo
 
 
 def _compared(text: str) -> tuple[str, ...]:
-    """Compared part of a version: where its names end with a digest of what it computes, that digest alone."""
+    """Compared part of a version: only the digest of results if it ends with one."""
     found = set()
     for part in text.split(" | "):
         names, _, last = part.rpartition(" ")

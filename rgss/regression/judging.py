@@ -25,12 +25,12 @@ LEAST_LOSS = 0.5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PValues:
-    """Probabilities of what is seen at the edge of each hypothesis.
+    """P-values of the null hypotheses of a comparison.
 
     Attributes:
-        worse: Against it not being worse by more than the margin.
-        better: Against it not being better by more than the margin.
-        same: Against it having moved by the margin or more, in either direction.
+        worse: Of not being worse by more than the margin.
+        better: Of not being better by more than the margin.
+        same: Of a change by the margin or more, in either direction.
     """
 
     worse: float
@@ -41,8 +41,7 @@ class PValues:
 def pair(baseline: Series, current: Series, seeds: Sequence[int], guard: Guard) -> Pairs:
     """Pair the trials by variant and seed.
 
-    The variants of a seed are taken together to their mean difference: they share plans, and so
-    are no more than one draw of chance.
+    The variants of a seed are averaged: they share plans, and so are one statistical unit.
     """
     worsening, net, worse_seeds, better_seeds, lost = [], [], 0, 0, 0
     before: list[float] = []
@@ -79,9 +78,9 @@ def pair(baseline: Series, current: Series, seeds: Sequence[int], guard: Guard) 
 def _p_values(one: Candidate, pairs: Pairs, mean_of: PairedMean | None) -> PValues:
     """The p-values of one comparison.
 
-    A mean is tested against its margin. A success is worse if it fell at all, significantly, and on average by
-    at least `LEAST_LOSS` of its margin: required to have fallen by the whole margin, a loss of exactly that size
-    would be missed every other time, whatever the number of seeds.
+    A mean is compared with its margin. A success is worse if it fell at all, significantly, and on average by at least
+    `LEAST_LOSS` of its margin: if a loss of the whole margin were required, a true loss of that size would be missed
+    every other time for any number of seeds.
     """
     if one.identical:
         return PValues(worse=1.0, better=1.0, same=0.0)
@@ -104,10 +103,10 @@ def _p_values(one: Candidate, pairs: Pairs, mean_of: PairedMean | None) -> PValu
 
 
 def weights_of(candidates: Sequence[Candidate]) -> tuple[float, ...]:
-    """The share of the error rate that each comparison begins with under Holm's weighted rule.
+    """Initial share of the error rate of each comparison in Holm's weighted procedure.
 
-    What is the same bit by bit cannot be a false alarm and takes none. The success of whole trials, which
-    everything else serves, has `PRIMARY_SHARE` to itself.
+    Bitwise equal results cannot cause a false alarm and get none. The success of whole trials, the primary metric, gets
+    `PRIMARY_SHARE`.
     """
     primary = [one.guard.is_success and one.subject.phase == WHOLE_TRIAL and not one.identical for one in candidates]
     others = [not first and not one.identical for first, one in zip(primary, candidates, strict=True)]

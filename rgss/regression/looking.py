@@ -15,8 +15,8 @@ class Settled:
     """Result of all looks.
 
     Attributes:
-        comparisons: Every comparison, as it was first decided or as it stands at the end.
-        looks: How often was looked.
+        comparisons: Every comparison, as first decided or at the end.
+        looks: Number of looks.
     """
 
     comparisons: dict[Subject, Comparison] = field(hash=False)
@@ -30,17 +30,17 @@ def settle(
     error_rate: float,
     on_look: Callable[[int, int], None] | None = None,
 ) -> Settled:
-    """Judge, and judge again with more seeds, until nothing is inconclusive or no look is left.
+    """Group-sequential test: repeated looks with more seeds until no comparison is inconclusive or no look is left.
 
-    What is decided stays so. Each look judges all comparisons, at its part of the error rate; the
-    probability of any false claim over all looks is at most the sum of the parts.
+    Decided comparisons are final. Each look tests all comparisons, at its part of the error rate; the probability of
+    any false claim over all looks is at most the sum of the parts.
 
     Args:
-        candidates_at: Gives all comparisons with the seeds of a look, from 1; told which runs
-            need more seeds, None for all of them.
-        looks: How often may be looked.
+        candidates_at: Function that returns all comparisons at a look, from 1, for the runs that need more seeds; None
+            for all runs.
+        looks: Greatest number of looks.
         error_rate: The error rate of all looks.
-        on_look: Callback before each look, with its number and how many comparisons are open.
+        on_look: Callback before each look, with its number and the number of open comparisons.
     """
     latest: dict[Subject, Comparison] = {}
     look = 0

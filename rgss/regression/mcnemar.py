@@ -62,14 +62,14 @@ def critical_worsenings(seeds: int, level: float) -> NDArray[np.int64]:
 
 
 def worsening_below(worse: int, seeds: int, margin: float) -> float:
-    """The p-value against success having fallen by the margin or more.
+    """P-value of the null hypothesis that success fell by the margin or more.
 
-    What success falls by is at most the probability that a seed is worse on any design, so
-    that P(X <= worse) of X ~ Bin(seeds, margin) bounds the probability of so few worsenings.
+    The loss of success is at most the probability that a seed is worse on any design, so that P(X <= worse) of X ~
+    Bin(seeds, margin) bounds the probability of so few deteriorations.
 
     Args:
-        worse: How many seeds are worse on some design.
-        seeds: How many seeds there are.
+        worse: Number of seeds that are worse on some design.
+        seeds: Number of seeds.
         margin: The share that success may fall by, between 0 and 1.
 
     Raises:

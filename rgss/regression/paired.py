@@ -28,7 +28,7 @@ class PairedMean:
     """
 
     def __init__(self, differences: NDArray[np.float64], *, margin: float) -> None:
-        """Draw the seeds anew; the draws are the same for every metric.
+        """Bootstrap the seeds; the resamples are the same for every metric.
 
         Args:
             differences: One for each seed, shape (n,).
@@ -54,10 +54,10 @@ class PairedMean:
         return max(self._bootstrapped(int(np.count_nonzero(self._drawn >= limit))), self._tail(self._mean - limit))
 
     def interval(self, confidence: float = CONFIDENCE) -> tuple[float, float]:
-        """An interval of the mean for people: what the bootstrap's and Student's span together.
+        """Interval of the mean for reports: the union of the bootstrap's and Student's intervals.
 
         Args:
-            confidence: Its confidence, without regard to how many metrics are looked at.
+            confidence: Its confidence level, without correction for multiple metrics.
         """
         from scipy.special import stdtrit
 

@@ -47,13 +47,12 @@ class Power:
 def powers(
     candidates: Sequence[Candidate], seeds_at: Mapping[str, Sequence[int]], *, error_rate: float
 ) -> dict[Subject, Power]:
-    """The power of every comparison, from the baseline's values alone.
+    """Power of every comparison, from the baseline's values only.
 
-    The designs of a seed succeed and fail together. Of a success, the smaller power of two models is taken:
-    a change by which a share of the successes is lost, and one that draws each seed's outcome anew. Of a mean,
-    baseline and present of a seed are independent and normal; a change that leaves the luck of the
-    seeds as it was is found more often. Every other comparison takes its part of the error rate,
-    as if all of them had changed.
+    The designs of a seed succeed and fail together. For success, the lower power of two models is reported: loss of a
+    share of the successes, and independent new outcomes of each seed. For a mean, baseline and present of a seed are
+    independent and normal; a change that preserves the seeds' noise is found more often. All other comparisons use
+    their part of the error rate, as if all of them had changed.
 
     Args:
         candidates: All comparisons with all seeds of the baseline.
@@ -61,7 +60,7 @@ def powers(
         error_rate: The error rate of all looks.
 
     Returns:
-        The power by subject, without those whose baseline has no noise to tell it from, or has nothing to lose.
+        The power by subject, without those whose baseline has no noise, or cannot deteriorate.
     """
     changed = [_as_changed(one) for one in candidates]
     found = {}
@@ -85,8 +84,8 @@ def success_power(
 ) -> float:
     """Exact probability that a loss of success is found at one of the looks.
 
-    The joint distribution of worse and better seeds is carried from look to look; what is found, or shown
-    to be the same, at a look leaves it.
+    The joint distribution of worse and better seeds is propagated from look to look, without the outcomes decided at
+    earlier looks.
 
     Args:
         worse: Probability that a seed is worse.
@@ -135,7 +134,7 @@ def _needed(rate: float, margin: float, level: float, share: float) -> int | Non
 
 
 def _loss_models(rate: float, margin: float) -> tuple[tuple[float, float], ...]:
-    """Probabilities that a seed is worse and better: only successes are lost, or each seed is drawn anew."""
+    """Probabilities that a seed is worse and better: only successes are lost, or each seed has a new outcome."""
     now = rate - margin
     return (margin, 0.0), (rate * (1.0 - now), now * (1.0 - rate))
 

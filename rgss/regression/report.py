@@ -12,7 +12,7 @@ from rgss.regression.power import Power
 
 
 class FailureCause(str, Enum):
-    """Why the guard fails beside a metric that is worse."""
+    """Cause of a failed guard other than a worse metric."""
 
     MISSING_METRIC = "missing metric"
     FEWER_REPLICATES = "fewer replicates"
@@ -23,11 +23,11 @@ class FailureCause(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Failing:
-    """One thing for which the guard fails.
+    """Failure of the guard.
 
     Attributes:
-        trouble: What kind of thing.
-        text: What is wrong, in one line.
+        trouble: Kind of the failure.
+        text: Description, in one line.
     """
 
     trouble: FailureCause
@@ -36,7 +36,7 @@ class Failing:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChangedTrial:
-    """A trial that is not what it was bit by bit.
+    """Trial with a record that is not bitwise equal to the baseline.
 
     Attributes:
         run: Its run.
@@ -80,11 +80,11 @@ class RegressionReport:
         study: The study's file.
         baseline: The baseline's file.
         comparisons: Every metric, by run, metric and phase.
-        behaviour: Comparison of the trials' records bit by bit.
-        failing: What fails beside metrics that are worse or missing.
-        notes: Reported facts of the decision and the inputs that do not fail.
-        looks: How often was looked.
-        trials: How many trials each run took for each variant.
+        behaviour: Bitwise comparison of the trials' records.
+        failing: Failures other than worse or missing metrics.
+        notes: Reported changes of the decision and the inputs that are not failures.
+        looks: Number of looks.
+        trials: Number of trials of each run for each variant.
         error_rate: The probability of any false alarm.
         inputs: The inputs that differ from those of the baseline.
         powers: The power of the comparisons, by subject.
@@ -115,7 +115,7 @@ class RegressionReport:
 
     @property
     def incomplete(self) -> bool:
-        """True if a trial could not be run, so that something was not compared at all."""
+        """True if a trial could not be run, so that the comparison is incomplete."""
         return any(one.trouble is FailureCause.NOT_RUN for one in self.failing)
 
     @property

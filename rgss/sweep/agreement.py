@@ -33,7 +33,7 @@ class Agreement(str, Enum):
 
 
 def deviation(change: Change) -> float | None:
-    """By how much a number differs; None if what differs is not a number.
+    """Relative deviation of a number; None for other values.
 
     Args:
         change: The difference.

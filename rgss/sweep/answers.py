@@ -76,14 +76,14 @@ def answer_problem(task: Task, result: object) -> str:
 
 
 def record_problem(spec: TrialSpec, record: object) -> str:
-    """Problem of the record of a trial; empty if it can be kept.
+    """Problem of the record of a trial; empty if it is valid.
 
     Args:
         spec: The trial.
         record: Its record.
 
     Raises:
-        EvidenceError: A part of it is of a wrong type, or is not finite.
+        EvidenceError: A part of the record has a wrong type, or is not finite.
     """
     if type(record) is not TrialRecord:
         return f"expected a record, got a {type(record).__name__}"
@@ -100,11 +100,11 @@ def record_problem(spec: TrialSpec, record: object) -> str:
 
 
 def is_end_of(ended: object, key: str) -> TypeGuard[Ended]:
-    """True if a value is the end of the task with a name, and each part of it of its type.
+    """True if a value is a well-typed end of the task with a key.
 
     Args:
-        ended: What a worker elsewhere has sent.
-        key: The task's name.
+        ended: The value sent by a remote worker.
+        key: The task's key.
     """
     if type(ended) is not Ended or ended.key != key or type(ended.took_s) is not float:
         return False

@@ -1,8 +1,8 @@
-"""A process beside this one that makes trials with the numeric environment, for callers that run trials one by one.
+"""Child process that runs single trials with the numeric environment.
 
-A sweep has workers for that. A script, a notebook or a verb that runs a single trial was started with whatever
-kernels its processor gets; it hands the trial to this process and gets the bits that a sweep would store. The
-process keeps its engines loaded, needs no guarded main module, and ends with the one that started it.
+A sweep has workers for that. A script, a notebook or a command was started with the kernels of its processor; it sends
+a trial to this process and gets bitwise the result of a sweep. The process keeps its engines loaded, needs no guarded
+main module, and ends with its parent.
 """
 
 from __future__ import annotations
@@ -92,7 +92,7 @@ class EngineProcess:
 
 
 class _Child:
-    """A started process with its pipe and what it prints."""
+    """Child process with its pipe and its output."""
 
     def __init__(self) -> None:
         self.pipe, there = Pipe()

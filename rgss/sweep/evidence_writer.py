@@ -113,11 +113,11 @@ class TrialWriter:
         self._begin()
 
     def due_s(self) -> float:
-        """Time that what is collected may still wait; the longest time if there is nothing."""
+        """Time in s until the next flush; the longest time if the batch is empty."""
         return LONGEST_S if self._since is None else max(0.0, self._since + LONGEST_S - time.monotonic())
 
     def flush_if_due(self) -> None:
-        """Put what has waited long enough.
+        """Flush the batch if it is due.
 
         Raises:
             EvidenceError: The store cannot be written, or had another result.
@@ -144,10 +144,10 @@ class TrialWriter:
             self._on_kept(key, record)
 
     def _explain_by_numerics(self, error: EvidenceError) -> None:
-        """Attribute another result for the same inputs to other numerics, if the store has such.
+        """Attribute a different result for the same inputs to other numerics, if the store has such.
 
-        Another sweep may have written it while this one ran; a piece does not say what it was computed with, but
-        the trials beside it do.
+        Another sweep may have written it while this one ran; a piece has no record of its numerics, but the trials of
+        that sweep do.
         """
         if not error.message.startswith(NON_DETERMINISM):
             return

@@ -12,12 +12,12 @@ _TITLES = ("phase", "subtask", "id", "name")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
-    """Something that differs between then and now.
+    """Change of an input.
 
     Attributes:
-        name: What it is.
-        then: What it was, as text.
-        now: Its present value.
+        name: Name of the input.
+        then: Its former value, as text.
+        now: Its present value, as text.
     """
 
     name: str
@@ -50,7 +50,7 @@ def values_by_name(value: Any) -> dict[str, str]:
 
 
 def _leaves(value: Any, name: str) -> Iterator[tuple[str, str]]:
-    """Every value within, by where it is; what is empty is a value too, so that no difference is lost."""
+    """Leaves of nested data by path; empty containers are leaves too."""
     if value and isinstance(value, Mapping):
         for key, item in value.items():
             yield from _leaves(item, f"{name}.{key}" if name else str(key))

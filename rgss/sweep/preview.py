@@ -1,4 +1,4 @@
-"""Dry run: what a sweep would make, and why (new, a changed input, changed code or engine, failed before)."""
+"""Dry run: the results that a sweep would compute, with the causes."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ class Reason(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cause:
-    """A reason with what shows it.
+    """Cause of a computation.
 
     Attributes:
-        reason: The reason.
+        reason: The kind of cause.
         name: Dotted name of the input, name of the engine or of the module, or the piece that failed; may be empty.
-        then: What it was, or how it failed; may be empty.
-        now: What it is; may be empty.
+        then: Its former value, or the failure; may be empty.
+        now: Its present value; may be empty.
     """
 
     reason: Reason
@@ -100,7 +100,7 @@ class DryRun:
 
 
 def dry_run(specs: Sequence[TrialSpec], store: EvidenceStore | None, *, share: bool = True) -> DryRun:
-    """Dry run: what a sweep would make, and why, without making anything.
+    """List the results that a sweep would compute, with the causes, without computing anything.
 
     Args:
         specs: The trials.

@@ -51,9 +51,9 @@ class StoredSearches:
         self._plans: dict[str, TaskPlan] = {}
 
     def find(self, specs: Sequence[TrialSpec]) -> FoundTrials:
-        """The records of trials, if all are stored or can be read off; else what is missing.
+        """Records of trials, if all are stored or can be derived; else the missing ones.
 
-        A record that is read off equals the one that running the trial gives.
+        A derived record equals that of running the trial.
 
         Args:
             specs: The trials.

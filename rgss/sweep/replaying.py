@@ -25,16 +25,16 @@ _BEYOND = 2**62
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Replay:
-    """A stored trial and what came of running it again.
+    """Comparison of a stored trial with a new run.
 
     Attributes:
-        stored: The trial as it is stored.
+        stored: The stored trial.
         record: The record of the new run.
         versions: Versions of code and engines that differ.
         inputs: Pieces whose inputs differ beyond the versions, such as ``plan``.
-        changes: The inputs that differ, by name, as far as the store has them.
-        differences: Where the records differ, in their order; empty if every bit is the same.
-        numerics: Numerics of the process that ran it now.
+        changes: The inputs that differ, by name, as far as stored.
+        differences: Differences of the records, in order; empty if bitwise equal.
+        numerics: Numerics of the process of the new run.
     """
 
     stored: StoredTrial
@@ -49,8 +49,8 @@ class Replay:
     def agreement(self) -> Agreement:
         """Agreement of the new record with the stored one.
 
-        Numbers may deviate only where the stored trial was computed with other numerics, and by no more than
-        kernels of another processor have been seen to let contact deviate.
+        Numbers may deviate only if the stored trial was computed with other numerics, and at most by the observed
+        deviation between kernels of different processors in contact.
         """
         if self.same:
             return Agreement.BIT_FOR_BIT
@@ -66,7 +66,7 @@ class Replay:
 
 
 def find_trial(project: Project, store: EvidenceStore, name: str) -> StoredTrial:
-    """The stored trial with a name.
+    """Find a stored trial.
 
     Args:
         project: The project with its study.
@@ -74,7 +74,7 @@ def find_trial(project: Project, store: EvidenceStore, name: str) -> StoredTrial
         name: The beginning of its key, or its variant and seed, such as ``28/1``.
 
     Raises:
-        EvidenceError: There is none, or there are several.
+        EvidenceError: No trial matches, or several do.
     """
     variant, slash, seed = name.partition("/")
     if slash:
@@ -103,18 +103,18 @@ def find_trial(project: Project, store: EvidenceStore, name: str) -> StoredTrial
 
 
 def replay(project: Project, stored: StoredTrial, *, inputs: Mapping[str, Any] | None = None) -> Replay:
-    """Run a stored trial again with the project, the code and the engines as they are now.
+    """Run a stored trial again with the present project, code and engines.
 
-    A trial of which nothing was drawn is run as the files say, whatever the project varies now.
+    A trial without draws is run nominally, regardless of the project's present uncertainty.
 
     Args:
         project: The project with its study.
         stored: The trial.
-        inputs: Its named inputs as the store has them; None if it has not.
+        inputs: Its stored named inputs; None if not stored.
 
     Raises:
-        DefinitionError: The variant is no longer there.
-        SimulationError: The physics engine cannot build the world.
+        DefinitionError: The variant does not exist any more. SimulationError: The physics engine cannot build the
+        world.
     """
     record = stored.record
     variant = project.designs.variant(record.variant)
@@ -170,7 +170,7 @@ def _without_code(inputs: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _own_key(project: Project, record: TrialRecord) -> str:
-    """Key of a trial of the study as the project is now; empty if its variant is no longer there."""
+    """Present key of a trial of the study; empty if its variant does not exist any more."""
     variants = [variant for variant in project.designs.expand() if variant.id == record.variant]
     specs = trial_specs(project.with_fidelity(record.fidelity.value), variants=variants, seeds=[record.seed])
     return "".join(map(key_of, specs))

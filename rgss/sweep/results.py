@@ -15,7 +15,7 @@ class WorkerLimits:
     """Limits of a worker for one task.
 
     Attributes:
-        time_s: Greatest time by the wall clock: a hundred times what the longest search needs.
+        time_s: Wall-clock time limit: a hundred times that of the longest search.
         memory_bytes: Greatest size of a worker's data; 0 for no limit.
     """
 
@@ -56,12 +56,12 @@ class SweepState:
     """Progress of a sweep.
 
     Attributes:
-        elapsed_s: Time since it began.
-        remaining_s: Time that what is left is expected to take; None before anything is known.
-        tasks_left: Number of pieces (or trials, if nothing is shared) still to be made.
-        made: Number of pieces of each kind that were made.
-        reused: Number of pieces of each kind that came from the store.
-        saved: Number of further pieces that the finished trials would have needed without sharing.
+        elapsed_s: Time since its start.
+        remaining_s: Estimated remaining time; None before an estimate is available.
+        tasks_left: Number of remaining pieces (or trials, without sharing).
+        made: Number of computed pieces of each kind.
+        reused: Number of pieces of each kind from the store.
+        saved: Number of pieces saved by sharing.
     """
 
     elapsed_s: float

@@ -48,32 +48,31 @@ def sweep(
     maker: Maker = make,
     workers_for: Callable[[Maker], Workers] | None = None,
 ) -> SweepResult:
-    """Make what the store has not, and keep each result within about a second.
+    """Compute missing results, and store each within about a second.
 
-    Records depend neither on the number of processes nor on the order of the work, nor on whether
-    pieces are shared. When it is interrupted, what was finished is kept, and the next sweep goes on
-    from there. A task whose worker crashes, hangs or runs out of memory is tried once more; then it
-    is recorded as a failure of the run, and the sweep goes on without it; so it is with a task whose answer
-    does not fit its task.
+    Records depend neither on the number of processes nor on the order of tasks, nor on sharing of pieces. After an
+    interruption finished results are stored, and the next sweep continues from there. A task whose worker crashes,
+    hangs or runs out of memory, or whose result does not match the task, is retried once; then it is recorded as a
+    failure of the run, and the sweep continues without it.
 
     Args:
         specs: The trials.
         store: The evidence store.
-        jobs: Number of worker processes; with 0 everything is done in this process, nothing isolated.
-        on_finished: Called for every trial that has a record, also for those that the store had.
-        on_state: Called whenever something has ended.
+        jobs: Number of worker processes; 0 for execution in this process, without isolation.
+        on_finished: Callback for every trial with a record, including stored ones.
+        on_state: Callback after each ended task.
         share: Whether pieces are shared between trials and taken from the store.
         limits: Limits of a worker for one task.
         origin: Callback for the provenance of the trials; called only if there are any to run.
-        maker: Function of a module that carries out a task, which the workers import by its name.
-        workers_for: Gives the workers that carry out tasks by a maker, in place of `jobs` and `limits`;
-            called only if there is anything to be made.
+        maker: Module-level function that runs a task, imported by the workers by name.
+        workers_for: Factory of the execution backend for a maker, instead of `jobs` and `limits`; called only if there
+            are tasks.
 
     Raises:
         DefinitionError: A planning limit is longer than the search, or an engine is not installed.
         EvidenceError: The store cannot be read or written, or had another result for the same inputs.
-        StorageError: The disk is full; or the store was removed, replaced or damaged meanwhile, and the
-            message names the file with what could be saved.
+        StorageError: The disk is full; or the store was removed, replaced or damaged meanwhile, and the message names
+        the file with the rescued rows.
         SimulationError: Worker processes cannot be started, or the workers are lost.
     """
     require_engines("a sweep")
@@ -166,7 +165,7 @@ class _Sweep:
         )
 
     def _write_down(self) -> None:
-        """Put what is finished, and make sure that it is in the store; if it is not, that is the error to report."""
+        """Store finished results and verify that they are in the store; a failure of that is the reported error."""
         self._writer.flush()
         self._store.confirm()
 

@@ -1,4 +1,4 @@
-"""Ends of tasks, and the protocol of what carries tasks out."""
+"""Ends of tasks, and the interface of execution backends."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ class TaskError:
     """Failure of a task.
 
     Attributes:
-        kind: What happened to it.
+        kind: Kind of the failure.
         detail: One line: the signal, the limit, the exception.
-        may_pass: Whether another attempt could have another end.
+        may_pass: True if another attempt may succeed.
     """
 
     kind: RunFailureKind
@@ -33,10 +33,10 @@ class TaskError:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ended:
-    """A task that has come to its end.
+    """End of a task.
 
     Attributes:
-        key: The name that it was given.
+        key: The task's key.
         result: Its result; None if it failed.
         failure: Reason of its failure; None if it succeeded.
         took_s: Its time by the wall clock; 0 if it failed.
@@ -66,7 +66,7 @@ class Workers(Protocol):
         """Begin a task; only while one is free."""
 
     def wait(self, timeout_s: float) -> list[Ended]:
-        """Wait until tasks end, workers become free, or the time is over; returns what has ended."""
+        """Wait until tasks end, workers become free, or the timeout; returns the ended tasks."""
 
     def close(self) -> None:
         """Stop at once, whatever is being done."""

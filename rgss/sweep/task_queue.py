@@ -36,19 +36,18 @@ class Trial:
 
 
 class TaskQueue:
-    """The tasks of a sweep with their dependencies.
+    """Priority queue of the tasks of a sweep with their dependencies.
 
-    What is nearest to a finished trial comes first, so that trials are finished all the time and
-    few pieces are held; of several such tasks the one that takes longest, and plans in that order
-    too, so that no long one is left to the end, where the other workers would wait for it.
+    Tasks nearest to a finished trial come first, so that trials finish continuously and few pieces are held; among them
+    the longest first, also for plans, so that no long task is left to the end while other workers are idle.
     """
 
     def __init__(self, trials: Sequence[Trial], *, stored: Collection[str] = (), share: bool = True) -> None:
-        """Queue of what must be made.
+        """Queue of the missing results.
 
         Args:
-            trials: The trials that have no record.
-            stored: Digests of the pieces that are there already.
+            trials: The trials without a record.
+            stored: Digests of the stored pieces.
             share: Whether pieces are shared; otherwise every trial is one task.
         """
         self.durations = Durations()
@@ -92,7 +91,7 @@ class TaskQueue:
         return self._tasks[self._ready[best].popleft()]
 
     def give_back(self, task: Task) -> None:
-        """Let a task that was taken be ready again.
+        """Return a task to the queue.
 
         Args:
             task: The task.
@@ -100,7 +99,7 @@ class TaskQueue:
         self._ready.setdefault(self.durations.class_of(task), deque()).append(task.digest)
 
     def done(self, digest: str, *, took_s: float) -> None:
-        """Mark a task as done; what waited for it alone is now ready.
+        """Mark a task as done; tasks that depended only on it become ready.
 
         Args:
             digest: The task's digest.
@@ -120,13 +119,13 @@ class TaskQueue:
                     self._finish(trial)
 
     def give_up(self, digest: str) -> tuple[Trial, ...]:
-        """Mark a task, and what depends on it, as failed.
+        """Mark a task and its dependents as failed.
 
         Args:
             digest: The task's digest.
 
         Returns:
-            The trials that will have no record for it.
+            The trials without a record as a consequence.
         """
         lost: dict[str, Trial] = {}
         waiting = [digest]

@@ -33,7 +33,7 @@ class WorkerOutput:
         return next((" ".join(line.split()) for line in reversed(lines) if line.strip()), "")
 
     def close(self) -> None:
-        """Let go of the file, which ends with the last process that has it."""
+        """Close the file, which is deleted with the last process that has it open."""
         self.end.close()
 
 

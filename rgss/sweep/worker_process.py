@@ -41,14 +41,14 @@ class Ready:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answer:
-    """Answer to a task.
+    """Response to a task.
 
     Attributes:
-        task: The number that the task was given.
+        task: The number of the task.
         result: The result; None if there is none.
         error: The exception that ended it, in one line; empty if there was none.
-        ours: Whether that exception is one that this package raises by intention.
-        out_of_memory: Whether it was for lack of memory.
+        ours: True for a deliberate exception of this package.
+        out_of_memory: True if memory was exhausted.
         took_s: The task's time by the wall clock.
     """
 
@@ -73,13 +73,13 @@ def settle() -> None:
 def serve(
     function: bytes, requests: connection.Connection, memory_limit_bytes: int, output: connection.Connection
 ) -> None:
-    """Answer tasks until the other end is closed.
+    """Run tasks until the parent closes the pipe.
 
     Args:
-        function: Function that makes a result from a task's arguments, pickled by its name.
-        requests: Numbered arguments come in here, answers go out.
+        function: Function that computes a result from a task's arguments, pickled by name.
+        requests: Pipe of numbered arguments and responses.
         memory_limit_bytes: Greatest size of the process's data; 0 for no limit.
-        output: File for what engines print, which is read to find why one has crashed.
+        output: File for the engines' output, read for the cause of a crash.
     """
     settle()
     _leave_the_tracker()
@@ -167,7 +167,7 @@ def _redirect_output(output: connection.Connection) -> None:
 
 
 def _leave_the_tracker() -> None:
-    """Close the pipe to the process in which Python tracks what is shared: nothing is, and it is the sweep's."""
+    """Close the pipe to Python's resource tracker, which belongs to the sweep; nothing is shared."""
     tracker = getattr(resource_tracker, "_resource_tracker", None)
     descriptor = getattr(tracker, "_fd", None)
     if isinstance(descriptor, int):
@@ -178,7 +178,7 @@ def _leave_the_tracker() -> None:
 
 
 def _limit_output() -> None:
-    """Let writes beyond a size fail, so that a library that prints without end fills neither memory nor disk."""
+    """Limit the size of written files, so that a library with endless output fills neither memory nor disk."""
     if sys.platform == "win32":
         return
     import resource
@@ -190,7 +190,7 @@ def _limit_output() -> None:
 
 
 def _limit_memory(limit_bytes: int) -> None:
-    """Let allocations beyond a size fail; on Linux this counts what is written to, not what is mapped."""
+    """Limit the size of allocations; on Linux only written memory counts, not mapped memory."""
     if not limit_bytes or sys.platform == "win32":
         return
     import resource
@@ -203,10 +203,10 @@ def _limit_memory(limit_bytes: int) -> None:
 
 
 def _keep_freed_memory() -> None:
-    """Let the process keep freed memory, as far as its C library can be configured.
+    """Keep freed memory in the process, if its C library can be configured.
 
-    The physics engine takes some megabytes for each world. Given back to the kernel and mapped anew, page by
-    page, they take more time than all else that makes a world.
+    The physics engine uses some megabytes for each world; returning them to the kernel and mapping them again takes
+    longer than the rest of building a world.
     """
     if sys.platform != "linux":
         return

@@ -217,7 +217,7 @@ def _first_agreeing(
     count, solver = form
 
     def answer_of(run: SolverRun) -> Certificate | TradeoffError:
-        """The certificate of a run that enumeration agrees with; or why there is none."""
+        """Certificate of a run confirmed by enumeration, or the reason why there is none."""
         try:
             solutions = problem.program.solve(problem, replace(solver, run=run))
         except TradeoffError as error:
@@ -251,7 +251,7 @@ def _checked_by(certificate: Certificate, run: SolverRun, answer: Certificate | 
 
 
 def _noted(certificate: Certificate, error: TradeoffError) -> Certificate:
-    """The certificate with what became of an earlier run."""
+    """Certificate with a note on an earlier run."""
     if isinstance(error, SolverLimitError):
         check = Check(kind=CheckKind.SECOND_RUN, agrees=None, detail=f"an earlier run over levels: {error.message}")
     else:

@@ -1,4 +1,4 @@
-"""The decision: what is chosen, what nearly was, what excluded what is better, and the certificate."""
+"""Decision: choice, near-ties, deciding requirements and certificate."""
 
 from __future__ import annotations
 
@@ -101,18 +101,17 @@ class Counts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Decision:
-    """The outcome of a trade-off.
+    """Outcome of a trade-off.
 
-    Where there are more than `LONGEST_LIST` alternatives of a kind, the ranking and the lists of
-    infeasible and of excluded ones hold the first so many; `counts` has all. Programs that compare
-    one measure after another rank no more than about five million divided by the number of
-    alternatives, for each place is a choice of its own.
+    The ranking and the lists of infeasible and excluded alternatives are truncated to `LONGEST_LIST` entries; `counts`
+    has the full numbers. Programs that compare one measure after another rank at most about five million divided by the
+    number of alternatives, since each place is a separate optimisation.
 
     Attributes:
         program: The program that decided.
         objectives: Its objectives, in turn.
-        status: Optimal, or infeasible when no alternative meets every requirement; then nothing
-            is chosen and the conflicts say why.
+        status: Optimal, or infeasible if no alternative meets every requirement; then nothing is chosen and the
+            conflicts give the reason.
         chosen: Among the tied best, the smallest id, or the largest if the study chooses the last of equals.
         near_ties: Feasible alternatives that are not tied but come within the practical margin of
             the best, in the order of the ranking.
@@ -127,14 +126,14 @@ class Decision:
             one by more than a tie, by falling weighted value.
         deciding_requirements: The requirements that exclude these, with how many each excludes;
             empty if the choice would be the same without any requirement.
-        chosen_contributions: Contribution of each measure to the chosen alternative's value, in the
-            order of the weights; empty if nothing is chosen.
-        runner_up_contributions: The same for the runner-up.
-        conflicts: Explanation of infeasibility; None if something is.
-        flat_measures: Valued measures whose weight decides nothing.
-        demands: Demand of each id, such as ``P_max >= 0.8 kg``.
+        chosen_contributions: Contribution of each measure to the value of the chosen alternative, in the order of the
+            weights; empty if nothing is chosen.
+        runner_up_contributions: Contributions to the value of the runner-up.
+        conflicts: Explanation of infeasibility; None if an alternative is feasible.
+        flat_measures: Valued measures whose weight has no effect.
+        demands: Text of each condition by id, such as ``P_max >= 0.8 kg``.
         counts: Number of alternatives of each kind.
-        certificate: The recomputation of all this.
+        certificate: Certificate of the decision.
     """
 
     program: str

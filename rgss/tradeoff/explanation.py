@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def rank(enumeration: Enumeration) -> tuple[RankedAlternative, ...]:
-    """Order the feasible alternatives: the tied best by id, then what is best without them, and so on."""
+    """Ranking of the feasible alternatives: the tied best by id, then the best of the rest, and so on."""
     rows = enumeration.ordering.ranked(enumeration.feasible, LONGEST_LIST)
     return tuple(
         RankedAlternative(
@@ -49,7 +49,7 @@ def near_ties(
 
 
 def infeasible_alternatives(enumeration: Enumeration) -> tuple[InfeasibleAlternative, ...]:
-    """The alternatives that cannot be chosen, by ascending id, with what each violates."""
+    """Infeasible alternatives by ascending id, with their violations."""
     rows = np.flatnonzero(~enumeration.feasible)[:LONGEST_LIST]
     return tuple(_infeasible(enumeration, int(enumeration.variants[row])) for row in rows)
 
@@ -102,10 +102,10 @@ def contributions(problem: TradeProblem, enumeration: Enumeration, variant: int 
 
 
 def flat_measures(problem: TradeProblem, enumeration: Enumeration) -> tuple[FlatMeasure, ...]:
-    """The measures with a weight in whose value no alternative, or no feasible one, differs from another.
+    """Weighted measures with the same value for all alternatives, or all feasible ones.
 
-    Values are compared, not quantities: a measure that varies only where its value is cut to 0 or 1
-    decides as little as one that does not vary at all.
+    Values are compared, not quantities: a measure that varies only where its value is clipped to 0 or 1 has no effect
+    either.
     """
     found = []
     everyone = np.ones(len(enumeration.table), dtype=np.bool_)

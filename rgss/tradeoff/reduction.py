@@ -1,4 +1,4 @@
-"""Exact reduction: leave out what provably cannot be chosen, before a large program is built."""
+"""Exact reduction: removal of alternatives that provably cannot be chosen, before a large program is built."""
 
 from __future__ import annotations
 

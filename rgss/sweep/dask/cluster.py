@@ -27,7 +27,7 @@ _CODE = "rgss-"
 
 
 class DaskCluster:
-    """A cluster whose workers were found to run what this process runs."""
+    """Dask cluster with workers verified to run the code and engines of this process."""
 
     def __init__(self, client: Any, order: Order, *, address: str, machine: str) -> None:
         """Record its address and its state.
@@ -122,7 +122,7 @@ def dask_cluster(
 
 
 def difference(differs: Differs, here: Mapping[str, str]) -> str:
-    """In what a Dask worker differs from this process, in one line.
+    """Difference of a Dask worker from this process, in one line.
 
     Args:
         differs: Code and engines of the worker.
@@ -181,7 +181,7 @@ def _machine_of(where: str, answer: object, expected: Mapping[str, str]) -> str:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Keep Dask from writing on standard error: our messages report what is relevant."""
+    """Silence Dask's output on standard error; our messages report what is relevant."""
     logger = logging.getLogger("distributed")
     before = logger.level
     logger.setLevel(logging.CRITICAL + 1)

@@ -1,10 +1,9 @@
-"""Engine processes beside a Dask worker, one for each of its threads.
+"""Engine processes of a Dask worker, one for each of its threads.
 
-A planner's random numbers are one sequence for a whole process, a crash of an engine would take the
-Dask worker along, and a thread that hangs cannot be ended. So each thread of a Dask worker has a
-supervised process beside it, the same as a sweep on one machine has; limits, crashes and threads are
-the same there and here, however many threads a Dask worker has. The processes end with their order,
-with their Dask worker, and when they have been idle for a while.
+A planner's random numbers are one sequence for a whole process, a crash of an engine would kill the Dask worker, and a
+hanging thread cannot be ended. Each thread of a Dask worker therefore has a supervised process, as in a local sweep,
+with the same limits and handling of crashes for any number of threads. The processes end with their order, with their
+Dask worker, or after an idle time.
 """
 
 from __future__ import annotations
@@ -60,10 +59,10 @@ class Differs:
 
 
 def make_alike(expected: Mapping[str, str], work: bytes) -> Any:
-    """Make a result if this process computes the same as the requesting one; runs in an engine process.
+    """Compute a result if this process is equivalent to the requesting one; runs in an engine process.
 
     Args:
-        expected: What this process must run.
+        expected: Required code and engines of this process.
         work: A function and its arguments, pickled.
     """
     try:
@@ -85,7 +84,7 @@ class _Idle:
 
 
 class Engines:
-    """The engine processes beside a Dask worker: as many as it has tasks at once."""
+    """Pool of the engine processes of a Dask worker, one for each concurrent task."""
 
     def __init__(self, *, idle_s: float = _IDLE_S) -> None:
         """Begin with none.
@@ -124,7 +123,7 @@ class Engines:
         return ended or _stopped(key)
 
     def stop(self, order: str) -> None:
-        """Let no task of an order go on, and end the processes that wait for more.
+        """Stop all tasks of an order, and end its idle processes.
 
         Args:
             order: The order's name.
@@ -211,9 +210,9 @@ def _stopped(key: str) -> Ended:
 
 @contextmanager
 def _free_to_have_children() -> Iterator[None]:
-    """Let this process start others although it is a daemon, as Dask's workers are by default.
+    """Allow this process to start children although it is a daemon, as Dask's workers are by default.
 
-    Daemons may not, lest they leave children behind when they are killed; ours end with their parent.
+    Python forbids that to avoid orphaned children; ours end with their parent.
     """
     process = multiprocessing.current_process()
     before = process.daemon

@@ -13,11 +13,11 @@ NUMERICS = "numerics of "
 
 
 def environment() -> dict[str, str]:
-    """Environment of this process, as far as results or the transfer of tasks depend on it.
+    """Environment of this process on which results or the transfer of tasks depend.
 
-    Beside the engines and the code these are Python (its `sum` of floats is another one from 3.12 on),
-    the kind of processor, what the mathematics computes, and Dask. It is looked up once: a process keeps what it
-    has loaded. Where this process makes no trials itself, the mathematics is that of the processes which do.
+    In addition to engines and code these are Python (its `sum` of floats changed in 3.12), the kind of processor, the
+    numerics, and Dask. Cached, since loaded libraries do not change. If this process runs no trials itself, the
+    numerics are those of its trial processes.
 
     Raises:
         PackageNotFoundError: An engine is not installed.
@@ -27,11 +27,11 @@ def environment() -> dict[str, str]:
 
 
 def are_alike(found: Mapping[str, str], expected: Mapping[str, str]) -> bool:
-    """True if two environments make the same results; what computes the same may go by another name.
+    """True if two environments give the same results; names of numerics may differ.
 
     Args:
-        found: The one environment, as `environment` gives it.
-        expected: The other.
+        found: The first environment, from `environment`.
+        expected: The second environment.
     """
     return _compared(found) == _compared(expected)
 

@@ -56,7 +56,7 @@ async def inspect(order: Order, work: bytes, dask_worker: Any) -> Ended:
 
 
 def stop(order: str, dask_worker: Any) -> None:
-    """End what is being done by an order on a Dask worker, and its engine processes.
+    """Stop the tasks of an order on a Dask worker, and end its engine processes.
 
     Args:
         order: The order's name.

@@ -1,9 +1,8 @@
-"""Carrying out tasks on a Dask cluster: workers of a sweep that are machines elsewhere.
+"""Execution backend of a sweep on a Dask cluster.
 
-The sweep keeps the order of the work and the one store; the cluster is given tasks whose forerunners
-are there, with everything that they need by value, and gives back results. Each thread of the
-cluster has more than one task, so that the next one is there when one ends; Dask itself begins
-again what a worker had that is lost.
+The sweep owns the task queue and the store; the cluster receives tasks whose dependencies are complete, with all inputs
+by value, and returns results. Each thread of the cluster has more than one task, so that the next one is available at
+once; Dask restarts the tasks of a lost worker.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ _STOPPING_S = 0.7
 
 
 class DaskWorkers:
-    """The threads of a Dask cluster's workers, each with an engine process beside it."""
+    """Workers of a sweep: the threads of a Dask cluster's workers, each with an engine process."""
 
     def __init__(
         self,
@@ -47,12 +46,12 @@ class DaskWorkers:
         differs: Callable[[Differs], str],
         without_workers_s: float = WITHOUT_WORKERS_S,
     ) -> None:
-        """Prepare to work; nothing is sent to the cluster yet.
+        """Prepare the backend, without sending anything to the cluster.
 
         Args:
             client: A client of the cluster.
-            function: Function that makes a result from a task's arguments; a function of a module, since it is
-                imported there by its name.
+            function: Function that computes a result from a task's arguments; module-level, since workers import it by
+                name.
             order: Settings that all tasks of a sweep share.
             address: The scheduler's address, for messages.
             differs: Describes in what a worker differs.
@@ -100,13 +99,13 @@ class DaskWorkers:
         future.add_done_callback(lambda _: self._done.put(key))
 
     def wait(self, timeout_s: float) -> list[Ended]:
-        """Wait until tasks end or the time is over; returns what has ended.
+        """Wait until tasks end or the timeout; returns the ended tasks.
 
         Args:
-            timeout_s: The longest time to wait.
+            timeout_s: The timeout.
 
         Raises:
-            SimulationError: The scheduler or all workers are lost, or a worker is not like this process.
+            SimulationError: The scheduler or all workers are lost, or a worker is not equivalent to this process.
         """
         self._count()
         keys = []

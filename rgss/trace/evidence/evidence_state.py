@@ -12,13 +12,13 @@ from rgss.trace.evidence.software import SoftwareEvidence
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrialVerdicts:
-    """The verdicts on one requirement that a criterion decides.
+    """Verdicts of one requirement with a criterion.
 
     Attributes:
         requirement: Its id.
         verdicts: Present verdict of the evidence, for each variant by its id.
-        recorded: The verdict that was last recorded for each variant; empty if none ever was.
-        causes: For each variant whose verdict is stale, what changed since its evidence.
+        recorded: Last recorded verdict of each variant; empty without recorded verdicts.
+        causes: Causes of staleness of each variant with a stale verdict.
     """
 
     requirement: str
@@ -52,12 +52,11 @@ class TrialVerdicts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EvidenceState:
-    """The evidence of a project.
+    """Evidence of a project.
 
     Attributes:
-        trials: The verdicts on each requirement with a criterion, by its id.
-        software: What the tests of the project say of each requirement that is verified by test,
-            by its id; None if the project has no tests of its own.
+        trials: Verdicts of each requirement with a criterion, by id.
+        software: Test evidence of each requirement verified by test, by id; None if the project has no tests.
     """
 
     trials: Mapping[str, TrialVerdicts] = field(default_factory=lambda: MappingProxyType({}))

@@ -66,7 +66,7 @@ class JUnitReport:
 
     Attributes:
         tests: The tests, in the order in which they ran.
-        properties: What was noted about the run as a whole.
+        properties: Recorded properties of the run.
     """
 
     tests: tuple[RunTest, ...]
@@ -171,7 +171,7 @@ def _on_one_line(text: str) -> str:
 
 
 def _id_of(classname: str, name: str) -> str:
-    """The id that pytest gives a test, from what the JUnit format keeps of it."""
+    """Pytest id of a test, reconstructed from its JUnit entry."""
     parts = classname.split(".")
     classes = [part for part in parts if part[:1].isupper()]
     modules = parts[: len(parts) - len(classes)]

@@ -56,10 +56,9 @@ class SoftwareEvidence:
 
     Attributes:
         requirement: Its id.
-        tests: The tests that are marked as verifying it, in the order of files; those that were
-            run with parameters once for each.
+        tests: The tests marked as verifying it, in the order of files; parametrised tests once for each parameter set.
         marks: The marks in the source, for messages.
-        causes: What changed since the tests ran; none if nothing did, or if they did not run.
+        causes: Causes of staleness since the tests ran; empty if there are none, or if they did not run.
     """
 
     requirement: str
@@ -71,7 +70,7 @@ class SoftwareEvidence:
     def verdict(self) -> Verdict:
         """Met if every marked test passed, not met if one failed, not run if one did not run.
 
-        All of this is stale if what was tested, or the requirement, changed since.
+        Stale if the tested inputs or the requirement have changed since.
         """
         ends = [test.end for test in self.tests]
         if self.causes and any(end is not None for end in ends):
@@ -91,15 +90,15 @@ def software_evidence(
 ) -> Mapping[str, SoftwareEvidence]:
     """Join marks and results.
 
-    A test that is marked in the source, but is not in the result, was not run. A test in the
-    result whose mark is not in the source any more verifies nothing.
+    A test that is marked in the source, but is not in the result, was not run. A test in the result whose mark has been
+    removed from the source is ignored.
 
     Args:
-        requirements: The system requirements; those that a criterion decides are passed over.
+        requirements: The system requirements; those with a criterion are skipped.
         marked: The marks in the source.
         report: The result of the last run; None if there is none.
-        software: `software_digest` of the project as it is now.
-        qualifier: What stood before the ids when their digests were recorded, as in `run_properties`.
+        software: Present `software_digest` of the project.
+        qualifier: Prefix of the ids in the recorded digests, as in `run_properties`.
 
     Returns:
         The evidence of each requirement that is verified by test, or is inspected or demonstrated
@@ -131,12 +130,12 @@ def software_evidence(
 
 
 def run_properties(project: Path, requirements: Iterable[Requirement], *, qualifier: str = "") -> Mapping[str, str]:
-    """Digests that a test run records, by which a later reader finds whether it still holds.
+    """Digests recorded by a test run, for later detection of staleness.
 
     Args:
         project: The project's folder.
         requirements: System requirements of one set.
-        qualifier: What distinguishes them from those of the default set, such as ``bench/``; empty for the default.
+        qualifier: Prefix of the ids of a set, such as ``bench/``; empty for the default set.
 
     Raises:
         EvidenceError: A file of the project cannot be read.
@@ -148,9 +147,9 @@ def run_properties(project: Path, requirements: Iterable[Requirement], *, qualif
 
 
 def software_digest(project: Path) -> str:
-    """The SHA-256 of what the tests of a project run on: code, tests, measures, designs, scenes, studies, lock.
+    """SHA-256 of the inputs of a project's tests: code, tests, measures, designs, scenes, studies, lock.
 
-    The requirements are not in it; each of them has a digest of its own.
+    Requirements are not included; each has its own digest.
 
     Args:
         project: The project's folder.

@@ -39,12 +39,12 @@ class MarkedTest:
 def marked_tests(project: Path, *, folder: str = "tests") -> tuple[MarkedTest, ...]:
     """Read the marks of a project's tests.
 
-    Marks on functions, on classes (they hold for each test in them) and in the ``pytestmark`` of a
-    file are read. Nothing is imported and nothing is run.
+    Marks on functions, on classes (they hold for each test in them) and in the ``pytestmark`` of a file are read.
+    Nothing is imported or executed.
 
     Args:
         project: The project's folder.
-        folder: The folder of its tests, relative to it; none is no error.
+        folder: The folder of its tests, relative to it, which may be missing.
 
     Returns:
         The marked tests in the order of files and lines.

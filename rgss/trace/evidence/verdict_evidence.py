@@ -25,11 +25,10 @@ class TrialEvidence:
         key: Its key in the evidence store.
         variant: Id of its variant.
         seed: Its seed.
-        fidelity: How much physics it had, such as ``contact``.
-        outcome: ``success``, or what ended it.
-        values: The value of each measure in this trial alone, in the measure's unit; None where
-            the trial does not know it.
-        metrics: What was observed in it, by name with unit, such as ``slip_m``.
+        fidelity: Its fidelity, such as ``contact``.
+        outcome: ``success``, or the failure.
+        values: The value of each measure in this trial, in the measure's unit; None if not observed.
+        metrics: Its metrics, by name with unit, such as ``slip_m``.
     """
 
     key: str
@@ -82,9 +81,9 @@ class TraceEvidence:
 
     Attributes:
         shown: The variant whose trials and verdicts are shown; None if there is none to show.
-        choice: Why this variant, or why none.
-        variants: How many variants the study has.
-        state: The verdicts of all variants, and what the tests say.
+        choice: Reason for this variant, or for none.
+        variants: Number of variants of the study.
+        state: Verdicts of all variants, and test results.
     """
 
     shown: VariantEvidence | None = None

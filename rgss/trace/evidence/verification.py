@@ -17,15 +17,15 @@ class VerificationRow:
 
     Attributes:
         requirement: The requirement.
-        document: Where it is declared, as ``file:line``.
+        document: Position of its declaration, as ``file:line``.
         success: Its success criterion in words; the stated reason if it has none.
-        verdict: What the evidence says; None where no variant is shown and the variants do not agree.
-        causes: What changed since the evidence, where the verdict is stale.
+        verdict: The verdict; None if no variant is shown and the variants differ.
+        causes: Causes of a stale verdict.
         estimate: The estimate of the criterion's measure for the shown variant; None without one.
         variant: The shown variant; None if a test decides or there is none.
         trials: The trials that decide.
         tests: The tests that verify it.
-        tally: How many variants have which verdict, best first; empty if tests decide.
+        tally: Number of variants by verdict, best first; empty if tests decide.
     """
 
     requirement: Requirement
@@ -50,7 +50,7 @@ def verification_matrix(model: TraceModel, evidence: TraceEvidence) -> tuple[Ver
 
     Args:
         model: The project's requirements, architecture and measures.
-        evidence: What is known beyond its files.
+        evidence: Evidence of the project.
     """
     return tuple(_row(model, evidence, requirement) for requirement in model.requirements.system)
 

@@ -10,7 +10,7 @@ from rgss.trace.rules.rule import EvidenceRule, LoadingRule, MarkRule, Rule, Sen
 
 
 def rule_lines(rule: Rule) -> Iterator[str]:
-    """A rule as lines of text: what must hold and why, its terms, and how to set it.
+    """Lines of text about a rule: requirement and rationale, terms, and configuration.
 
     Args:
         rule: The rule.

@@ -20,10 +20,10 @@ from rgss.trace.sentences import TermList, read_sentence, words_of
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RuleFamily:
-    """Rules that belong together.
+    """Family of rules.
 
     Attributes:
-        title: What they are about.
+        title: Their subject.
         rules: The rules, in the order of the listing.
     """
 
@@ -54,10 +54,10 @@ _READING = frozenset({"document", "design", "measures", "scene", "study"})
 
 
 def rule_of(rule_id: str) -> Rule:
-    """The rule of an id.
+    """Rule by id.
 
     Raises:
-        DefinitionError: There is none; the hint names the nearest id.
+        DefinitionError: The id is unknown; the hint names the nearest id.
     """
     for rule in RULES:
         if rule.id.lower() == rule_id.lower():
@@ -86,18 +86,18 @@ def check_trace(
     marked: Sequence[MarkedTest] | None = None,
     evidence: EvidenceState | None = None,
 ) -> tuple[Finding, ...]:
-    """Check that each need is answered, measured, allocated, verifiable, and well worded.
+    """Traceability check: derivation, measures, allocation, verifiability and wording of needs and requirements.
 
-    The project's settings and exemptions are applied; what is wrong with them is found too.
+    The project's settings and exemptions are applied, and checked too.
 
     Args:
         requirements: The requirements and the architecture of a project.
         measures: Its measures.
         marked: The marks on its own tests; None if it has no tests.
-        evidence: Its evidence; None to leave the rules of evidence out.
+        evidence: Its evidence; None to skip the rules of evidence.
 
     Returns:
-        The findings in the order of their positions; none but infos for a sound project.
+        The findings in the order of their positions; only infos for a consistent project.
     """
     check = _Check(requirements, measures, None if marked is None else tuple(marked), evidence)
     return tuple(sorted(check.findings()))

@@ -75,7 +75,7 @@ def stamped(requirements: RequirementSet, ids: Sequence[str], reviewer: str) -> 
 
 
 def write_reviews(folder: Path, reviews: Mapping[str, Review]) -> Path:
-    """Write the reviews as a whole or not at all.
+    """Write the reviews atomically.
 
     Args:
         folder: The requirements folder.
@@ -85,7 +85,7 @@ def write_reviews(folder: Path, reviews: Mapping[str, Review]) -> Path:
         The file.
 
     Raises:
-        DefinitionError: The file would be larger than what is read, or the folder cannot be written.
+        DefinitionError: The file would exceed the size limit of the reader, or the folder cannot be written.
     """
     path, content = folder / REVIEWS, reviews_yaml(reviews).encode("utf-8")
     if len(content) > LARGEST_FILE_BYTES:

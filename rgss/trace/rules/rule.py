@@ -31,14 +31,14 @@ class Located(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Violation:
-    """One place where a rule is broken.
+    """Violation of a rule at one place.
 
     Attributes:
         subject: The element of the requirements, by its id; or a place in a file.
-        message: What is wrong, in one line.
+        message: The problem, in one line.
         hint: How to resolve it, in one line; may be empty.
         at: The part of the element or place to point at; what is `Located` is pointed at as a whole.
-        at_key: Point at the key instead of its value.
+        at_key: True to point at the key instead of its value.
     """
 
     subject: str | Place | Located
@@ -67,16 +67,15 @@ class Violation:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rule:
-    """One rule, as it is explained and configured.
+    """Rule, with its explanation and configuration.
 
     Attributes:
         id: Its id, such as ``trace.orphan`` or ``wording.R7``.
         severity: Severity of a violation, unless the project sets another.
-        explanation: What must hold, and why.
-        fixed: What breaks it makes the project undecidable, so that no project can configure it or be
-            exempt from it.
-        of_elements: Its violations are of elements of the requirements, which may be exempt from it, and
-            not of measures, tests or settings.
+        explanation: Requirement and rationale.
+        fixed: True if a violation makes the project undecidable, so that it cannot be configured or exempted.
+        of_elements: True if its violations are of elements of the requirements, which may be exempt, and not of
+        measures, tests or settings.
     """
 
     id: str
@@ -126,17 +125,15 @@ Worded = StakeholderNeed | Requirement
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SentenceRule(Rule):
-    """A rule of the wording of needs and requirements.
+    """Wording rule for needs and requirements.
 
     Attributes:
         find: Finder of the violations in the sentence of an element, given the rule's terms.
-        terms: Words and phrases that the rule looks for, or that it takes for an excuse; a project
-            may add to them and take from them.
+        terms: Words and phrases that violate the rule, or excuse a violation; a project may add and remove terms.
         meaning: Description of the terms; empty if there are none.
-        widened_by: Terms of its own that a project may add all the same: they count only in some places, and
-            everywhere once they are added.
-        breaking: Sentences that break the rule; the first breaks no other rule.
-        passing: Sentences close to those that break no rule of wording, but perhaps `wording.ears-keyword`.
+        widened_by: Built-in terms that apply only in some places; added by a project they apply everywhere.
+        breaking: Sentences that violate the rule; the first violates no other rule.
+        passing: Similar sentences that violate no wording rule, except possibly `wording.ears-keyword`.
     """
 
     find: Callable[[Sentence, TermList, Worded], Iterator[Flaw]]

@@ -45,7 +45,7 @@ RULES: tuple[ConfigurationRule, ...] = (UNKNOWN_EXEMPTION, UNUSED_EXEMPTION, UNK
 
 
 class Exempted(NamedTuple):
-    """An exemption by what it is of."""
+    """Exemption by its subject."""
 
     element: str
     rule: str

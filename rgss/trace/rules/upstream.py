@@ -10,11 +10,11 @@ from rgss.requirements import Behaviour, Element, Requirement, RequirementSet
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Upstream:
-    """One element that another depends on.
+    """Dependency of an element on another.
 
     Attributes:
-        target: Id of the element that the other depends on.
-        stated_by: Id of the element whose entry states the link; a requirement states what satisfies it.
+        target: Id of the element on which the other depends.
+        stated_by: Id of the element whose entry states the link; a requirement states by which element it is satisfied.
         at: The part of that entry.
     """
 
@@ -24,10 +24,10 @@ class Upstream:
 
 
 def upstream_of_each(requirements: RequirementSet) -> Mapping[str, tuple[Upstream, ...]]:
-    """For each element by its id, the elements that it depends on, in the order in which they are stated.
+    """Direct dependencies of each element by id, in the stated order.
 
-    A requirement rests on what it derives from, traces to and is contained in; a block or behaviour
-    on the requirements that it satisfies or refines and the block that it is a part of.
+    A requirement depends on those from which it derives, to which it traces and in which it is contained; a block or
+    behaviour on the requirements that it satisfies or refines and on its containing block.
     """
     found: dict[str, list[Upstream]] = {element.id: [] for element in requirements.elements}
     for element in requirements.elements:

@@ -20,11 +20,11 @@ from rgss.trace.sentences.quantities import TextQuantity
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundedQuantity:
-    """A quantity that a sentence bounds.
+    """Bound on a quantity in a sentence.
 
     Attributes:
-        text: The quantity with the words of its bound, as they are written.
-        is_lower: Whether what is bounded may be larger, and not smaller.
+        text: The quantity with the words of its bound, as written.
+        is_lower: True for a lower bound.
     """
 
     text: str

@@ -103,7 +103,7 @@ CLAUSE_WORDS = frozenset(KEYWORDS) | {
 
 
 def opening_of(words: tuple[str, ...]) -> tuple[str, ...]:
-    """The longest phrase at the start of some words that opens a condition; empty if there is none."""
+    """Longest opening phrase of a condition at the start of some words; empty if there is none."""
     longest = max(len(phrase) for phrase in OPENINGS)
     for length in range(min(longest, len(words)), 0, -1):
         if words[:length] in OPENINGS:

@@ -1,8 +1,8 @@
-"""The sentence of a requirement, taken apart: its words, and the parts that the EARS patterns name.
+"""Parser of a requirement's sentence into words and the parts of EARS patterns.
 
-The patterns are those of the Easy Approach to Requirements Syntax (Mavin, Wilkinson, Harwood and
-Novak, 2009): *The* system *shall* response, with ``While`` for a state, ``When`` for an event,
-``Where`` for an option, and ``If … then`` for what is unwanted, alone or together.
+The patterns are those of the Easy Approach to Requirements Syntax (Mavin, Wilkinson, Harwood and Novak, 2009): *The*
+system *shall* response, with ``While`` for a state, ``When`` for an event, ``Where`` for an option, and ``If … then``
+for unwanted behaviour, alone or combined.
 """
 
 from __future__ import annotations
@@ -77,18 +77,18 @@ class Sentence:
     """A requirement's text with its parts.
 
     Attributes:
-        text: The text on one line; what it quotes is blanked out, for a quotation is no wording.
+        text: The text on one line, with quotations blanked out.
         tokens: Its words.
         words: Its words as a set.
         quantities: Its numbers.
-        shalls: Where each ``shall`` ends.
-        sentences: How many sentences it has.
+        shalls: End position of each ``shall``.
+        sentences: Number of sentences.
         conditions: The conditions before the subject.
         subject: The subject before ``shall``; empty if there is none.
-        response: What follows the first ``shall``.
-        pattern: The pattern of EARS that it has; None if it has none.
-        flaw: Why it has none, in words that follow its id; empty if it has one.
-        departure: How its conditions depart from the keywords of EARS, in words that follow its id.
+        response: The text after the first ``shall``.
+        pattern: Its EARS pattern; None if it has none.
+        flaw: Reason for no pattern, as a text after its id; empty if it has one.
+        departure: Deviation of its conditions from the EARS keywords, as a text after its id.
     """
 
     text: str

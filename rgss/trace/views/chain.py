@@ -19,12 +19,12 @@ class ChainStep:
 
     Attributes:
         depth: Number of steps from the id of the chain, from 1.
-        relation: Relation of the element of the step before to this one.
+        relation: Relation of the previous step's element to this one.
         id: Its id.
-        kind: What it is.
-        text: What it says, or what it is called.
-        note: What the evidence says of it; may be empty.
-        repeated: Its own steps are further up in the chain, and are not repeated.
+        kind: Its kind.
+        text: Its text or name.
+        note: Its evidence; may be empty.
+        repeated: True if its own steps are listed earlier in the chain.
     """
 
     depth: int
@@ -42,11 +42,11 @@ class Chain:
 
     Attributes:
         id: The id.
-        kind: What it names.
-        text: What it says, or what it is called.
-        note: What the evidence says of it; may be empty.
-        up: Towards the need, each step after the one that leads to it.
-        down: Towards the evidence, likewise.
+        kind: Its kind.
+        text: Its text or name.
+        note: Its evidence; may be empty.
+        up: Steps towards the need, in order of traversal.
+        down: Steps towards the evidence, in order of traversal.
     """
 
     id: str
@@ -62,14 +62,14 @@ def chain_of(model: TraceModel, evidence: TraceEvidence, name: str, *, definitio
 
     Args:
         model: The project's requirements, architecture and measures.
-        evidence: What is known beyond its files.
+        evidence: Evidence of the project.
         name: Id of a need, a requirement, a block, a behaviour, a measure or a test; a trial as
             ``28/1`` or the beginning of its key; with definitions also a symbol or a source of
             the measures, such as ``mu`` or ``design.tool_speed``.
-        definitions: The measures as they are defined, for their names and for what they use.
+        definitions: The definitions of the measures, for names and dependencies.
 
     Raises:
-        DefinitionError: Nothing has that id.
+        DefinitionError: The id is unknown.
     """
     root = named(model, evidence, name, definitions=definitions)
     neighbours = neighbours_of(model, evidence)

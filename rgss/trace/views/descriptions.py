@@ -21,12 +21,12 @@ from rgss.trace.views.neighbours import ThingKind
 
 
 class Descriptions:
-    """Texts and notes of everything in a project.
+    """Texts and notes of all elements of a project.
 
     Args:
         model: The project's requirements, architecture and measures.
-        evidence: What is known beyond its files.
-        definitions: The measures as they are defined; without them a measure has no name.
+        evidence: Evidence of the project.
+        definitions: The definitions of the measures; without them a measure has no name.
     """
 
     def __init__(self, model: TraceModel, evidence: TraceEvidence, definitions: MeasureSet | None) -> None:
@@ -53,12 +53,12 @@ class Descriptions:
         return self._texts.get(name, "")
 
     def note(self, name: str, kind: ThingKind, *, measure: str = "") -> str:
-        """Evidence of an element, in words.
+        """Text of an element's evidence.
 
         Args:
             name: Its id.
-            kind: What it is.
-            measure: Of a trial, the measure whose value is shown.
+            kind: Its kind.
+            measure: For a trial, the shown measure.
         """
         if kind is ThingKind.REQUIREMENT:
             return self._verdict(name)

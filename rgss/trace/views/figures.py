@@ -34,7 +34,7 @@ def end_in_words(test: TestEvidence) -> str:
 
 
 def value_in_words(value: float | None, unit: str = "1") -> str:
-    """A value with four digits and its unit; a dash for what is not known."""
+    """Value with four digits and its unit; a dash if unknown."""
     if value is None:
         return UNKNOWN
     text = f"{value:,.0f}" if abs(value) >= _LARGE else f"{value:.4g}"
@@ -42,7 +42,7 @@ def value_in_words(value: float | None, unit: str = "1") -> str:
 
 
 def share_in_words(share: float) -> str:
-    """A share in percent; only what is certain is ``100 %``, and only what is impossible ``0 %``.
+    """Share in per cent; ``100 %`` only for exactly 1, ``0 %`` only for exactly 0.
 
     Args:
         share: From 0 to 1.
@@ -55,11 +55,11 @@ def share_in_words(share: float) -> str:
 
 
 def rounded_away(limit: float, needed: float, unit: str, digits: int = 4) -> float:
-    """Limit that is needed, rounded away from the present one, so that the number as written is enough.
+    """Required limit, rounded away from the present one, so that the rounded number suffices.
 
     Args:
-        limit: The limit now.
-        needed: What it would have to become.
+        limit: The present limit.
+        needed: The required limit.
         unit: The unit of both; money is rounded to whole units of it.
         digits: Significant digits that are kept.
     """

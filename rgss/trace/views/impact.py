@@ -31,19 +31,19 @@ class TouchedVerdict:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Impact:
-    """Everything that depends on one id; the id itself is in no list but that of the reviews.
+    """Impact of a change of one id; only the list of reviews may contain the id itself.
 
     Attributes:
         id: The id.
-        kind: What it names.
-        needs: Ids of the stakeholder requirements that the change has to be compared with.
-        requirements: Ids of system requirements whose text or fulfilment it touches.
-        elements: Ids of the blocks and behaviours that it touches.
-        measures: Ids of the measures that it touches, or that decide what it touches.
-        verdicts: The verdicts to be determined again.
-        trials: Keys of the shown variant's trials that those verdicts depend on.
-        tests: Ids of the tests to be run again.
-        reviews: Ids of the elements whose review has to be renewed.
+        kind: Its kind.
+        needs: Ids of the stakeholder requirements to compare with the change.
+        requirements: Ids of system requirements with affected text or fulfilment.
+        elements: Ids of affected blocks and behaviours.
+        measures: Ids of affected measures, or of measures that decide affected requirements.
+        verdicts: Affected verdicts.
+        trials: Keys of the shown variant's trials of those verdicts.
+        tests: Ids of the tests to run again.
+        reviews: Ids of the elements whose review must be renewed.
     """
 
     id: str
@@ -61,23 +61,22 @@ class Impact:
 def impact_of(
     model: TraceModel, evidence: TraceEvidence, name: str, *, definitions: MeasureSet | None = None
 ) -> Impact:
-    """Follow a change of an id to everything that depends on it.
+    """Change impact analysis: all transitive dependents of an id.
 
-    A statement depends on those that it derives from, refines, is contained in or traces to; a
-    behaviour on the blocks that do it and on the behaviours that it includes or calls; whether a
-    requirement is fulfilled, on the elements that satisfy it; a measure, on those that it is
-    computed from and on the symbols that it uses; a verdict, on its requirement and its measure;
-    a review, on what was reviewed.
+    A statement depends on those from which it derives, which it refines, in which it is contained or to which it
+    traces; a behaviour on its blocks and on the behaviours that it includes or calls; the fulfilment of a requirement
+    on the elements that satisfy it; a measure on its dependencies and symbols; a verdict on its requirement and its
+    measure; a review on the reviewed content.
 
     Args:
         model: The project's requirements, architecture and measures.
-        evidence: What is known beyond its files.
+        evidence: Evidence of the project.
         name: As for `chain_of`.
-        definitions: The measures as they are defined, for what they use; without them a measure
-            touches only those that it contributes to.
+        definitions: The definitions of the measures, for dependencies; without them a measure affects only those to
+            which it contributes.
 
     Raises:
-        DefinitionError: Nothing has that id.
+        DefinitionError: The id is unknown.
     """
     root = named(model, evidence, name, definitions=definitions)
     search = _Search(neighbours_of(model, evidence), model, definitions)
@@ -126,7 +125,7 @@ _RESTING_ELEMENTS = frozenset({Relation.HAS_PART, Relation.HAS_KIND, Relation.DO
 
 
 class _Search:
-    """Walks the relations of a project, breadth first, so that what is nearest comes first."""
+    """Breadth-first search over the relations of a project."""
 
     def __init__(self, neighbours: Neighbours, model: TraceModel, definitions: MeasureSet | None) -> None:
         self._neighbours = neighbours

@@ -52,10 +52,10 @@ class TraceMatrix:
         return tuple(column for index, column in enumerate(self.columns) if index not in reached)
 
     def linked_to_row(self, row: str) -> tuple[str, ...]:
-        """Ids of the columns that a row is linked to, in the order of the columns.
+        """Ids of the columns linked to a row, in the order of the columns.
 
         Raises:
-            DefinitionError: There is no such row.
+            DefinitionError: The row is unknown.
         """
         position = self._row_index.get(row)
         if position is None:
@@ -64,12 +64,12 @@ class TraceMatrix:
 
 
 def matrix_of(rows: Iterable[str], columns: Iterable[str], linked: Mapping[str, Iterable[str]]) -> TraceMatrix:
-    """A matrix from the links of its rows.
+    """Matrix from the links of its rows.
 
     Args:
         rows: Ids of the rows.
         columns: Ids of the columns.
-        linked: For a row, the ids that it is linked to; those that are no column are left out.
+        linked: Function that returns the linked ids of a row; ids without a column are ignored.
     """
     names, heads = tuple(rows), tuple(columns)
     positions = _positions(heads)
@@ -104,11 +104,10 @@ def system_by_architecture(model: TraceModel) -> TraceMatrix:
 
 
 def _all_origins(model: TraceModel) -> Mapping[str, frozenset[str]]:
-    """The stakeholder requirements behind each system requirement.
+    """Stakeholder requirements from which each system requirement derives, transitively.
 
-    Each requirement joins what its parents have reached, parents first, so that a chain of any
-    length takes one step for each of its links. A cycle has no first element; there the
-    graph is walked from each requirement alone.
+    In topological order, with one step for each link. In a cycle the graph is searched from each requirement
+    separately.
     """
     needs = {need.id for need in model.requirements.stakeholder}
     parents = {requirement.id: requirement.derived_from for requirement in model.requirements.system}

@@ -19,15 +19,15 @@ from rgss.trace.views.matrices import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CoverageMetric:
-    """One share of what there is.
+    """Coverage metric: a share of covered elements.
 
     Attributes:
         id: Its id, such as ``needs-derived``.
-        title: What is counted, in words.
-        lack: What one that is not covered has, such as ``no success criterion``.
-        covered: How many are covered.
-        missing: Ids of those that are not, in the order of their file.
-        required: Whether a project is complete only when none is missing.
+        title: Description of the count.
+        lack: Deficiency of an uncovered element, such as ``no success criterion``.
+        covered: Number of covered elements.
+        missing: Ids of the uncovered elements, in the order of their file.
+        required: True if completeness of a project requires full coverage.
     """
 
     id: str
@@ -78,7 +78,7 @@ def coverage_metrics(model: TraceModel, matrices: TraceMatrices, evidence: Trace
     Args:
         model: The project's requirements, architecture and measures.
         matrices: The matrices of the model.
-        evidence: What is known beyond its files.
+        evidence: Evidence of the project.
     """
     return (*_of_links(model, matrices), *_of_verification(model), *_of_evidence(model, evidence))
 

@@ -17,12 +17,12 @@ _SHORTEST_KEY = 6
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Named:
-    """Kind of a named thing.
+    """Resolved name.
 
     Attributes:
-        id: Its id; of a trial, its whole key.
-        kind: What it is.
-        used_by: Of a trial, a symbol or a source: ids of the measures that it goes into.
+        id: Its id; for a trial, its whole key.
+        kind: Its kind.
+        used_by: For a trial, a symbol or a source: ids of the measures that use it.
     """
 
     id: str
@@ -31,16 +31,16 @@ class Named:
 
 
 def named(model: TraceModel, evidence: TraceEvidence, name: str, *, definitions: MeasureSet | None = None) -> Named:
-    """Find what a name names.
+    """Resolve a name.
 
     Args:
         model: The project's requirements, architecture and measures.
-        evidence: What is known beyond its files.
+        evidence: Evidence of the project.
         name: The name; see `chain_of`.
-        definitions: The measures as they are defined.
+        definitions: The definitions of the measures.
 
     Raises:
-        DefinitionError: It names nothing; the hint says the nearest name.
+        DefinitionError: The name is unknown; the hint has the nearest name.
     """
     kinds = kinds_of(model, evidence)
     if name in kinds:

@@ -82,10 +82,10 @@ class Neighbour:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Neighbours:
-    """The relations of every element.
+    """Relations of all elements.
 
     Attributes:
-        kinds: What each id names.
+        kinds: Kind of each id.
         up: For each id, its neighbours towards the need.
         down: For each id, its neighbours towards the evidence.
     """

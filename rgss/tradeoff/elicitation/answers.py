@@ -12,17 +12,16 @@ from rgss.tradeoff.problem import ElicitedOrder
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PairwiseAnswer:
-    """The swing of one criterion is worth between `least` and `most` times that of another.
+    """Pairwise comparison of swings: one is worth between `least` and `most` times the other.
 
-    A swing is the gain from the worst to the best quantity of a value function; what it is worth relative
-    to another is the ratio of the two weights (von Winterfeldt and Edwards, *Decision Analysis and Behavioral
-    Research*, 1986, chapter 8).
+    A swing is the gain from the worst to the best quantity of a value function; the relative worth of two swings is the
+    ratio of the weights (von Winterfeldt and Edwards, *Decision Analysis and Behavioral Research*, 1986, chapter 8).
 
     Attributes:
-        swing_of: The one criterion.
-        over: The other.
+        swing_of: The first criterion.
+        over: The second criterion.
         least: The least ratio, above 0.
-        most: The greatest ratio; infinite where only the least is known.
+        most: The greatest ratio; infinite if only the least is known.
 
     Raises:
         TradeoffError: The criteria are the same, or the ratios are not a range of positive numbers.

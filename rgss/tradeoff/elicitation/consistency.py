@@ -69,13 +69,12 @@ class Consistency:
         criteria: Number n of criteria that ratio answers name.
         answers: Number of ratio answers.
         checks: Number of redundant answers, which check the others.
-        ratio: Saaty's consistency ratio; None where not each of the n (n - 1) / 2 pairs has one answer, or n < 3
-            or above 15.
-        index: The geometric consistency index, the residual variance of the logarithms (Crawford and Williams,
-            "A note on the analysis of subjective judgment matrices", 1985); None where nothing checks.
-        index_limit: The index above which answers are to be revised; exact for complete matrices.
-        worst_triad: The three answers that agree least; None where there is no triad.
-        worst_answer: The answer that agrees least; None where nothing checks.
+        ratio: Saaty's consistency ratio; None unless each of the n (n - 1) / 2 pairs has one answer and 3 <= n <= 15.
+        index: The geometric consistency index, the residual variance of the logarithms (Crawford and Williams, "A note
+            on the analysis of subjective judgment matrices", 1985); None without redundant answers.
+        index_limit: The index above which answers should be revised; exact for complete matrices.
+        worst_triad: The least consistent triad of answers; None if there is none.
+        worst_answer: The least consistent answer; None without redundant answers.
     """
 
     criteria: int
@@ -96,11 +95,11 @@ class Consistency:
 
 
 def consistency_of(names: Sequence[str], answers: Sequence[PairwiseAnswer]) -> Consistency | None:
-    """The inconsistency of the ratio answers; None if there are none.
+    """Consistency of the ratio answers; None if there are none.
 
     Args:
         names: The criteria.
-        answers: The answers; those that are bounds are left out.
+        answers: The answers; bounds are ignored.
     """
     ratios = [answer for answer in answers if answer.is_ratio]
     named = [name for name in names if any(name in (one.swing_of, one.over) for one in ratios)]

@@ -127,19 +127,16 @@ class Conflicts:
     """Explanation of infeasibility.
 
     Attributes:
-        excluded_by: For each requirement how many alternatives it excludes, zero included.
+        excluded_by: Number of alternatives excluded by each requirement, including zero.
         minimal_conflict: The first of the minimal conflicts.
-        minimal_conflicts: All sets of requirements that no alternative meets together, whereas
-            without any one of them some alternative meets the rest; the smallest first.
-        complete: Whether these are all, for there can be more than `MOST_CONFLICTS`.
-        corrections: All smallest sets of requirements without which something is feasible: every
-            conflict has one of each set.
+        minimal_conflicts: All minimal sets of requirements that no alternative satisfies jointly, the smallest first.
+        complete: False if there are more than `MOST_CONFLICTS`.
+        corrections: All minimal sets of requirements whose removal makes an alternative feasible: each contains an
+        element of every conflict.
         nearest: The alternative that violates the fewest requirements.
-        repairs: For each requirement, what its limit would have to become for something to be
-            feasible if nothing else changes.
-        joint_repairs: The same for each of the `corrections`, in their order.
-        survival: Stability of the conflict under the noise of the replicates; None where no measure
-            has more than one.
+        repairs: For each requirement, the limit that alone would make an alternative feasible.
+        joint_repairs: The limits for each of the `corrections`, in their order.
+        survival: Stability of the conflict under the noise of the replicates; None if no measure has more than one.
     """
 
     excluded_by: tuple[RequirementCount, ...]
@@ -156,10 +153,9 @@ class Conflicts:
 def find_conflicts(enumeration: Enumeration) -> Conflicts | None:
     """Explain infeasibility.
 
-    An alternative is feasible without a set of requirements if it violates no others. So a set
-    conflicts exactly if every alternative violates one of its requirements: the minimal conflicts
-    are the minimal sets that hit what each alternative violates (Reiter, "A theory of diagnosis from
-    first principles", 1987).
+    An alternative is feasible without a set of requirements if it violates no others. A set is a conflict if and only
+    if every alternative violates one of its requirements: the minimal conflicts are the minimal hitting sets of the
+    alternatives' violations (Reiter, "A theory of diagnosis from first principles", 1987).
 
     Args:
         enumeration: Every alternative evaluated.
@@ -224,17 +220,17 @@ def smallest_sets(sets: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
 
 
 def minimal_hitting_sets(sets: list[tuple[int, ...]], most: int) -> tuple[list[tuple[int, ...]], bool]:
-    """All minimal sets that have an element of each set, by Berge's algorithm.
+    """All minimal hitting sets of a family of sets, by Berge's algorithm.
 
-    Set after set, a hitting set of those before either hits the next one too or is extended by each
-    of its elements; what then contains another is left out (Berge, *Hypergraphs*, 1989).
+    For each further set, a hitting set of the previous ones either hits it or is extended by each of its elements;
+    supersets of others are removed (Berge, *Hypergraphs*, 1989).
 
     Args:
         sets: The sets, none of which is empty.
-        most: At most so many are kept on the way; beyond, the smallest.
+        most: Greatest number of intermediate sets; the smallest are kept.
 
     Returns:
-        The hitting sets, the smallest first, then in lexicographic order; and whether they are all.
+        The hitting sets, the smallest first, then in lexicographic order; and True if they are complete.
     """
     found: list[tuple[int, ...]] = [()]
     complete = True

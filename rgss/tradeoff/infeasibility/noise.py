@@ -22,11 +22,10 @@ RESAMPLES = 1_000
 
 
 def resampled_tables(table: EvidenceTable, resamples: Resamples) -> Iterator[EvidenceTable]:
-    """The evidence as it might have been: replicates drawn with replacement.
+    """Bootstrap resamples of the evidence: replicates drawn with replacement.
 
-    The replicates of all alternatives share their seeds, so one draw of seeds serves them all and
-    keeps what they have in common. A quantity moves by as much as the mean of its replicates does;
-    where no replicate of a draw has it, it is unknown.
+    The replicates of all alternatives share their seeds, so one draw of seeds applies to all of them and preserves
+    their correlation. A quantity moves with the mean of its replicates; it is unknown if no replicate of a draw has it.
 
     Args:
         table: The evidence.

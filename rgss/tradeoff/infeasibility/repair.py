@@ -1,4 +1,4 @@
-"""The cheapest repairs: how far limits would have to move, alone or together, and what would then win."""
+"""Cheapest repairs: changes of limits, single or joint, that make an alternative feasible, and the resulting choice."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One run of the solver on a stage over levels, and the checks that compare runs with what is known."""
+"""Solver run on a stage over levels, and its checks."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Attempt:
         outcome: Its outcome.
         score: The objective of the selected design, recomputed; minus infinity if there is none.
         design: The selected design, shape (f,); None if there is none.
-        gap: The gap that the solver proved.
+        gap: The gap proven by the solver.
         selection_error: Distance of its variables from the design.
     """
 
@@ -43,7 +43,7 @@ class Attempt:
     selection_error: float = 0.0
 
     def confirms(self, best: float) -> bool:
-        """True if the run proved what the best known objective is, or that there is none."""
+        """True if the run proved the best known objective, or infeasibility."""
         if self.outcome is Outcome.INFEASIBLE:
             return best == -math.inf
         return self.outcome is Outcome.PROVEN and self.score >= best - tolerance_at(best)

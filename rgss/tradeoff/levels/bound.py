@@ -45,20 +45,20 @@ def interval_bound(
     most: int = MOST_PARTIAL,
     is_over: Callable[[], bool] = lambda: False,
 ) -> IntervalBound:
-    """Bound a stage's objective over all designs.
+    """Upper bound of a stage's objective over all designs, by interval branch and bound.
 
-    Breadth first: the levels of one factor after another are fixed. What is not fixed yet contributes the
-    interval from the least to the largest entry of each table; partial designs whose bound does not exceed
-    a known objective, or that cannot meet a constraint, are pruned.
+    The levels of the factors are fixed one after another, breadth first. Free factors contribute the interval from the
+    least to the greatest entry of each table; partial designs whose bound does not exceed a known objective, or that
+    cannot satisfy a constraint, are pruned.
 
     Args:
         grid: The tables.
         stage: The stage.
         constraints: The constraints of every stage.
         known: The objective of a feasible design; minus infinity if none is known.
-        tolerance: By so much a bound must exceed it to be of interest.
-        most: The largest number of partial designs.
-        is_over: Whether the time for it is over; the bound that is reached then is the answer.
+        tolerance: Least excess over it for a partial design to be kept.
+        most: Greatest number of partial designs.
+        is_over: Termination predicate; the bound reached then is returned.
     """
     order = _order(grid)
     partial: Designs = np.zeros((1, len(order)), dtype=np.intp)

@@ -133,9 +133,9 @@ class LevelGrid:
 
 
 def compensated_sum(parts: Sequence[Column], count: int) -> Column:
-    """The sum of columns with the rounding errors carried along (Neumaier, 1974), shape (n,).
+    """Compensated sum of columns (Neumaier, 1974), shape (n,).
 
-    So that quantities that cancel come to what `math.fsum` makes of them, whatever their order.
+    Cancelling quantities give the result of `math.fsum`, independent of their order.
     """
     total, lost = np.zeros(count), np.zeros(count)
     for part in parts:

@@ -48,21 +48,21 @@ NEEDED = 2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GuardedStageSolver(StageSolver):
-    """Solves stages over levels, and repairs what the solver gets wrong.
+    """Solver of stages over levels with independent checks and repair of solver errors.
 
-    Where all combinations can be evaluated, the answer is compared with them. Elsewhere a second run with
-    other options, a primal search and interval branch and bound check it. The best design that any of them
-    found is the answer; it is called optimal where exhaustive evaluation, interval branch and bound, or two
-    runs of the solver prove it, and best found elsewhere.
+    If all combinations can be evaluated, the result is compared with them. Otherwise it is checked by a second run with
+    other options, a primal search and interval branch and bound. The best design found by any of them is returned; it
+    is optimal if exhaustive evaluation, interval branch and bound, or two solver runs prove it, and best found
+    otherwise.
 
     Attributes:
         grid: The tables as arrays.
         model: Meaning of the variables.
         exhaustive: Whether all combinations are evaluated.
-        runs: Makes the runs of the solver, each of which ends.
-        known: Feasible designs of earlier stages, from which the search starts.
-        independent: Runs of other solvers than HiGHS. Each is made on every stage, and where neither enumeration
-            nor interval branch and bound proves the answer, counts as one of the runs that have to agree.
+        runs: Runner of the solver with time limits.
+        known: Feasible designs of earlier stages, the start of the search.
+        independent: Runs of solvers other than HiGHS, made on every stage; if neither enumeration nor interval branch
+        and bound proves the result, each counts as one of the runs that must agree.
     """
 
     grid: LevelGrid
@@ -76,7 +76,7 @@ class GuardedStageSolver(StageSolver):
         """Solve a stage.
 
         Raises:
-            TradeoffError: Neither a feasible design was found nor that there is none was proved.
+            TradeoffError: Neither a feasible design nor a proof of infeasibility was found.
         """
         solution = self._compared_with_all(stage) if self.exhaustive else self._searched(stage)
         if solution.alternative is not None:
@@ -139,7 +139,7 @@ class GuardedStageSolver(StageSolver):
         return self._judged(stage, known, bound, [*attempts, *opinions], tuple(checks))
 
     def _bounded(self, stage: Stage, known: BestKnown) -> IntervalBound:
-        """Interval branch and bound from what is known, in half of the time that is left."""
+        """Interval branch and bound from the known designs, in half of the remaining time."""
         bound = interval_bound(
             self.grid,
             stage,
@@ -154,9 +154,9 @@ class GuardedStageSolver(StageSolver):
     def _compared_runs(
         self, stage: Stage, first: Attempt, opinions: Sequence[Attempt], known: BestKnown
     ) -> list[Attempt]:
-        """Runs of the solver until two agree, for what interval branch and bound does not prove.
+        """Solver runs until two agree, if interval branch and bound gives no proof.
 
-        Every run is made briefly before one that did not end is given more time.
+        Every run is first made with a short limit, before an unfinished one gets more time.
         """
         attempts = [first]
 
@@ -184,10 +184,10 @@ class GuardedStageSolver(StageSolver):
         attempts: Sequence[Attempt],
         checks: tuple[Check, ...],
     ) -> StageSolution:
-        """The best that is known, with what proves it.
+        """Best known design, with its proof.
 
         Raises:
-            TradeoffError: Neither a feasible design was found nor that there is none was proved.
+            TradeoffError: Neither a feasible design nor a proof of infeasibility was found.
         """
         best, design = known.score, known.design
         confirming = [one for one in attempts if one.confirms(best)]
@@ -214,13 +214,13 @@ class GuardedStageSolver(StageSolver):
         return self._solution(stage, design, status, same, checks, gap=gap, solvers=solvers)
 
     def _agreeing(self, attempts: Sequence[Attempt], best: float) -> tuple[str, ...]:
-        """The solvers of the runs that came to the answer; HiGHS where no other was run."""
+        """Solvers of the runs with this result; HiGHS if no other was run."""
         if not self.independent:
             return (RUNS[0].solver,)
         return tuple(dict.fromkeys(one.run.solver for one in attempts if one.confirms(best)))
 
     def _attempt(self, stage: Stage, run: SolverRun, *, brief: bool = True) -> Attempt:
-        """One run of the solver; what its tolerances let pass and is not feasible is excluded."""
+        """One solver run, without designs that are feasible only within the solver's tolerances."""
         excluded: tuple[Exclusion, ...] = ()
         for _ in range(MOST_EXCLUDED):
             problem, selection = self.compiled(replace(stage, constraints=(*stage.constraints, *excluded)))

@@ -141,14 +141,14 @@ class LevelProblem(Preferences):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LevelDecision:
-    """The outcome of a choice of levels.
+    """Outcome of a choice of levels.
 
     Attributes:
         status: Optimal, best found or infeasible.
         levels: The level of each factor; empty if infeasible.
         variant: The number of the combination among all, from 1; None if infeasible.
-        measures: What the design is in every measure; empty if infeasible.
-        combinations: Number of combinations of levels, excluded ones included.
+        measures: Value of the design in every measure; empty if infeasible.
+        combinations: Number of combinations of levels, including excluded ones.
         certificate: Certificate: proven results and checks, recomputed from the tables.
         enumerated: Whether each stage was compared with all combinations, which is done up to
             `LARGEST_ENUMERATED`.
@@ -169,26 +169,25 @@ def decide_levels(
     independent: tuple[SolverRun, ...] = (),
     time_limit: float | None = None,
 ) -> LevelDecision:
-    """Choose the best combination of levels and prove it.
+    """Choose the best combination of levels, with proof.
 
-    The size of the program is that of the tables, not of all combinations. Of equally good ones,
-    any may be chosen. Every answer of the solver is checked: by evaluating all combinations where
-    these are few enough, elsewhere by a primal search, interval branch and bound, and a second run with
-    other options. An answer that a check contradicts is replaced by the better one; what then is
-    not proven is called best found, with its gap.
+    The size of the program is that of the tables, not of all combinations. Of equally good combinations any may be
+    chosen.
 
-    The solver runs in a process of its own, which is killed where it exceeds its limit of time. Such a run is a
-    check that was not finished: the answer may still be proven by the others.
+    Every solver result is checked: by exhaustive evaluation if the combinations are few enough, otherwise by a primal
+    search, interval branch and bound, and a second run with other options. A result contradicted by a check is replaced
+    by the better one; without a proof the status is best found, with its gap. The solver runs in a separate process,
+    which is killed at its time limit; the result may still be proven by the other checks.
 
     Args:
         problem: The problem.
-        independent: Runs of other solvers than HiGHS, made on every stage as further checks.
-        time_limit: Seconds for the proofs, in place of the limits of each run; the answer then depends on the
+        independent: Runs of solvers other than HiGHS, made on every stage as further checks.
+        time_limit: Time limit of the proofs in s, instead of the limits of each run; the result then depends on the
             machine.
 
     Raises:
-        TradeoffError: Neither a feasible design was found nor that there is none was proved, the
-            stages contradict each other, no combination is a design, or the time limit is not positive.
+        TradeoffError: Neither a feasible design nor a proof of infeasibility was found, the stages are inconsistent, no
+        combination is a design, or the time limit is not positive.
     """
     from rgss.tradeoff.levels.grid import LevelGrid
     from rgss.tradeoff.levels.guard import GuardedStageSolver

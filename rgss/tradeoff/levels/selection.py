@@ -61,13 +61,13 @@ class LevelModel:
 
     @staticmethod
     def of(structure: LevelStructure, alternatives: Sequence[Alternative], measures: Sequence[str]) -> LevelModel:
-        """The model of alternatives that are known one by one.
+        """Model of enumerated alternatives.
 
-        Each measure becomes a table over as few factors as decide it, found by leaving out one
-        factor after another as long as the rest still determines every quantity.
+        Each measure becomes a table over a minimal set of factors that determine it, found by removing factors one
+        after another while the rest still determines every quantity.
 
         Args:
-            structure: The levels that make each alternative.
+            structure: The levels of each alternative.
             alternatives: The alternatives.
             measures: The measures that the program uses.
         """

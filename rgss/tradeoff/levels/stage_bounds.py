@@ -75,7 +75,7 @@ def objective_bound(term: ObjectiveTerm, quantities: Quantities) -> Column:  # n
     """Upper bound of an objective term, shape (n,).
 
     Raises:
-        TradeoffError: There is none for this kind of term.
+        TradeoffError: The kind of term has no bound.
     """
     raise TradeoffError(
         f"an objective with {type(term).__name__} has no independent bound", hint="register one with objective_bound"
@@ -113,10 +113,10 @@ def _(term: WorstOf, quantities: Quantities) -> Column:
 
 @singledispatch
 def can_hold(constraint: Constraint, quantities: Quantities) -> Mask:  # noqa: ARG001 - read by the terms' own
-    """True where a constraint can hold, shape (n,).
+    """True where a constraint can be satisfied, shape (n,).
 
     Raises:
-        TradeoffError: There is no such test for this kind of constraint.
+        TradeoffError: The kind of constraint has no such test.
     """
     raise TradeoffError(
         f"a constraint of the kind {type(constraint).__name__} has no independent test",

@@ -34,13 +34,13 @@ class CheckKind(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Check:
-    """One independent check of the solver's answers.
+    """Independent check of the solver's results.
 
     Attributes:
         kind: The method.
-        agrees: False where it contradicted the solver. The better answer is then used. None where a limit ended
-            the check before it had an answer, which counts neither for nor against the decision.
-        detail: What was compared, for people.
+        agrees: False if it contradicted the solver, in which case the better result is used; None if a limit ended the
+        check without a result.
+        detail: Readable description of the comparison.
     """
 
     kind: CheckKind

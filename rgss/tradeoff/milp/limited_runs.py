@@ -24,13 +24,13 @@ WALL_FACTOR = 20.0
 
 
 class LimitedRuns:
-    """Solves programs in a process that is killed where a run exceeds its limit; a context manager.
+    """Runner of solver programs in a process that is killed at its time limit; a context manager.
 
-    The limits of time only turn a run into no answer. By default they are of processor time, so that a loaded
-    machine comes to the same, and each overrun halves the limit of the same run of later stages.
+    An exceeded limit gives no result. By default limits are in processor time, independent of the machine's load, and
+    each overrun halves the limit of the same run of later stages.
 
     Args:
-        time_limit: Seconds for all runs together; each may take half of what is left, or a quarter. None for the
+        time_limit: Time limit of all runs together in s; each may take half of the rest, or a quarter. None for the
             default limits.
         process: Process of the runs; a new one by default.
         clock: The clock of the time limit, in seconds.
@@ -117,10 +117,10 @@ class LimitedRuns:
 
 
 def highs_request(data: Mapping[str, Any]) -> dict[str, Any]:
-    """The arrays of a compiled program as HiGHS takes them: minimise c x with l <= A x <= u.
+    """Arrays of a compiled program for HiGHS: minimise c x subject to l <= A x <= u.
 
     Args:
-        data: What CVXPY compiled for HiGHS: equations first, then rows of the kind A x <= b.
+        data: Data compiled by CVXPY for HiGHS: equations first, then rows A x <= b.
     """
     import numpy as np
 

@@ -28,10 +28,10 @@ def solve_linear(
         limits: Their right-hand sides.
         equation_rows: Equations, shape (q, v).
         equals: Their right-hand sides.
-        bounds: The least and the largest value of each variable; None where there is none.
+        bounds: The least and the greatest value of each variable; None for no bound.
 
     Returns:
-        The proven optimum; None if nothing satisfies the conditions.
+        The proven optimum; None if infeasible.
 
     Raises:
         TradeoffError: The solver proved neither optimality nor infeasibility.

@@ -1,4 +1,4 @@
-"""The decision variables of a program: what can be selected, and what a solution selected."""
+"""Decision variables of a program, and the selection of a solution."""
 
 from __future__ import annotations
 
@@ -138,16 +138,16 @@ class VariantSelection:
 
 
 def read_choice(values: Any) -> tuple[int, float]:
-    """The one entry that is 1 among those of solved boolean variables, and how exactly.
+    """Index of the single 1 among solved boolean variables, and its numerical error.
 
     Args:
         values: The solved variables, shape (n,).
 
     Returns:
-        The place of the 1, and the largest difference from 1 there and 0 elsewhere.
+        The index of the 1, and the greatest deviation from 1 there and from 0 elsewhere.
 
     Raises:
-        TradeoffError: There is no single 1.
+        TradeoffError: There is not exactly one 1.
     """
     import numpy as np
 

@@ -1,6 +1,6 @@
-"""Separate process for a solver, so that a run that does not return can be ended from outside.
+"""Separate process for a solver, so that a run that does not return can be killed.
 
-HiGHS 1.15.1 checks none of its limits in some loops: its presolve removes doubleton equations for ever on a
+HiGHS 1.15.1 does not check its limits in some loops: its presolve loops forever removing doubleton equations on a
 program of 88 rows (benchmarks/tradeoff_guard_cases.py, level_case(1020)), whatever `time_limit` is; see
 ERGO-Code/HiGHS#1278 and #2226, both open.
 """
@@ -96,7 +96,7 @@ class SolverProcess:
         return dict(answer)
 
     def close(self) -> None:
-        """Kill the process and all that it started; do nothing if there is none."""
+        """Kill the process and its children, if any."""
         if self._connection is not None:
             self._connection.close()
             self._connection = None
@@ -108,7 +108,7 @@ class SolverProcess:
 
     @property
     def pid(self) -> int | None:
-        """The id of the process; None while there is none."""
+        """Process id; None without a process."""
         return None if self._process is None else self._process.pid
 
     def _connected(self) -> Connection:

@@ -64,7 +64,7 @@ def serve(descriptor: int) -> None:
 
 
 def _set_timer(timer: int, seconds: float) -> None:
-    """Let the kernel end the process after so many seconds of a timer; an infinite number sets none."""
+    """Set a kernel timer in s that kills the process; none for infinity."""
     if math.isfinite(seconds):
         signal.setitimer(timer, seconds)
 
@@ -119,7 +119,7 @@ def _solved_by_highs(request: dict[str, Any]) -> dict[str, Any]:
 
 
 def _solved_by_scip(request: dict[str, Any]) -> dict[str, Any]:
-    """The run by the interface of CVXPY, which is what an independent check may cost."""
+    """Run of SCIP through CVXPY, whose overhead is acceptable for an independent check."""
     from cvxpy.reductions.solvers.conic_solvers.scip_conif import SCIP
 
     found: dict[str, Any] = SCIP().solve_via_data(

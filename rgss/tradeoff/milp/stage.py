@@ -101,14 +101,14 @@ class StageSolution:
         name: The name of the stage.
         status: Optimal, best found or infeasible.
         alternative: The selected alternative; None if infeasible.
-        objective: The objective, as people read it; None if infeasible.
-        gap: Distance of the bound that the solver proved from its objective, in the objective's own
-            unit (or ranks); None if infeasible.
-        selection_error: Distance of the solver's variables from selecting exactly that
-            alternative: the largest difference from 0 or 1; 0 if infeasible.
-        checks: The independent checks of the answer.
-        exhaustive: Whether one of them evaluated every alternative.
-        solvers: The solvers that came to the answer, where more than HiGHS were run.
+        objective: The objective with its reported sign; None if infeasible.
+        gap: Distance of the bound proven by the solver from its objective, in the objective's own unit (or ranks); None
+        if infeasible.
+        selection_error: Integrality error of the solver's variables: the greatest deviation from 0 or 1; 0 if
+        infeasible.
+        checks: The independent checks of the result.
+        exhaustive: True if one of them evaluated every alternative.
+        solvers: The solvers with this result, if several were run.
     """
 
     name: str
@@ -183,10 +183,10 @@ def solve_program(problem: Any, run: SolverRun = FIRST_RUN, *, solve: Callable[[
     Args:
         problem: The problem, whose objective is bounded.
         run: The solver and its options.
-        solve: Solves the problem with that run; by default in this process.
+        solve: Function that solves the problem with that run; by default in this process.
 
     Returns:
-        True if an optimum is proven, False if it is proven that there is none.
+        True if an optimum is proven, False if infeasibility is proven.
 
     Raises:
         TradeoffError: The solver is missing, failed, or proved neither.

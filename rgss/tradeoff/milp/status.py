@@ -6,11 +6,10 @@ from enum import Enum
 
 
 class DecisionStatus(str, Enum):
-    """Outcome of a trade-off; whatever else a solver may answer is an error, not a decision.
+    """Status of a decision; any other solver status is an error.
 
-    Optimal and infeasible are proven. Best found is a choice that meets every demand and whose
-    optimality is not proven: its gap bounds how much better another one could be. Undecided: a limit ended the
-    search before it found a choice, or proved that there is none.
+    Optimal and infeasible are proven. Best found is a feasible choice whose optimality is not proven; its gap bounds
+    the possible improvement. Undecided: a limit ended the search before it found a choice or proved infeasibility.
     """
 
     OPTIMAL = "optimal"

@@ -25,7 +25,7 @@ from rgss.tradeoff.problem import (
 
 
 class ObjectiveTerm(Protocol):
-    """A part of what is maximised."""
+    """Term of the maximised objective."""
 
     def compile(self, selection: Selection) -> Any:
         """The term as a scalar, concave CVXPY expression."""

@@ -24,12 +24,12 @@ LARGEST_PROGRAM = 500_000
 class CoverBound:
     """Task weights that bound covers.
 
-    The weights of the tasks that a member serves add up to its share. Members whose shares together
-    are less than the weights of all tasks do not cover them, whatever the weights are; so a bound
-    that the linear program came to is checked by adding, and holds even if its answer is wrong.
+    The share of a member is the sum of the weights of the tasks that it serves. Members whose shares sum to less than
+    the weights of all tasks do not cover them, for any weights; so a bound from the linear program is verified by
+    addition, and valid even if its solution is inexact.
 
     Attributes:
-        weights: Whole numbers, one row for each set of weights, shape (sets, tasks).
+        weights: Integers, one row for each set of weights, shape (sets, tasks).
     """
 
     weights: NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""The outcome of choosing a portfolio: members, assignments, and what was proved."""
+"""Portfolio decision: members, assignments and proofs."""
 
 from __future__ import annotations
 
@@ -27,26 +27,25 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PortfolioDecision:
-    """The outcome of choosing a portfolio.
+    """Outcome of the choice of a portfolio.
 
     Attributes:
-        status: Optimal; best found where a limit ended the proof; infeasible if no portfolio of the size
-            serves every task; undecided where a limit ended the search for one.
-        members: The chosen members: of the tied best portfolios one with the fewest, and of these,
-            where all were enumerated, the first in the order of their smallest variants.
+        status: Optimal; best found if a limit ended the proof; infeasible if no portfolio of the size serves every
+        task; undecided if a limit ended the search.
+        members: The chosen members: of the tied best portfolios one with the fewest, and of these, if all were
+        enumerated, the first in the order of their smallest variants.
         assignments: Member that serves each task.
         objective: Mean or worst value; None if there is none.
-        by_size: The best objective with at most 1, 2, … members that was found; None where there is
-            none. It never falls.
-        by_size_gap: How much better a portfolio of each size can be at most; None where none was found.
+        by_size: The best objective found with at most 1, 2, … members, non-decreasing; None if there is none.
+        by_size_gap: Greatest possible improvement for each size; None if none was found.
         unserved: Tasks that no alternative serves at all.
-        gap: Distance of the bound that was proved from the objective; None if there is none.
-        objective_recomputed: The objective of the chosen members in NumPy; None if there is none.
+        gap: Distance of the proven bound from the objective; None if there is none. objective_recomputed: The objective
+        of the chosen members in NumPy; None if there is none.
         considered: Number of members after exact reduction.
-        enumeration_agrees: Whether enumeration of all portfolios comes to the same objective.
-        checks: The independent checks that were made.
-        cut: The limit that ended a proof; None if all are complete. Under a time limit the answer
-            depends on the machine.
+        enumeration_agrees: Whether enumeration of all portfolios gives the same objective.
+        checks: The independent checks.
+        cut: The limit that ended a proof; None if all are complete. Under a time limit the result depends on the
+        machine.
     """
 
     status: DecisionStatus

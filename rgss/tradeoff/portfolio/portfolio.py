@@ -36,22 +36,20 @@ def decide_portfolio(
     most_work: int = MOST_WORK,
     independent: tuple[SolverRun, ...] = (),
 ) -> PortfolioDecision:
-    """Choose the best portfolio, with a bound on how much better another one can be.
+    """Choose the best portfolio, with a bound on the possible improvement.
 
-    A member's value in a task is that of its best feasible alternative. A member that another is at
-    least as good as in every task is left out before. For each size a portfolio is searched for by
-    greedy choice and exchanges, and proven best by branch and bound: with Lagrangian bounds for the
-    mean, over covers for the worst task. Both bounds are computed in NumPy from the values alone; the weights
-    that bound covers are proposed by a linear program, and hold whatever it answers.
-    Where it is small enough, HiGHS solves the mixed-integer program as well, and all portfolios are
-    enumerated; what they find better is used.
+    A member's value in a task is that of its best feasible alternative. Members dominated by another in every task are
+    removed first. For each size a portfolio is found by greedy search with exchanges, and proven by branch and bound:
+    with Lagrangian bounds for the mean, over covers for the worst task. Both bounds are computed in NumPy from the
+    values only; the weights of cover bounds are proposed by a linear program, and valid for any of its solutions. If
+    the problem is small enough, HiGHS also solves the mixed-integer program, and all portfolios are enumerated; better
+    results are used.
 
     Args:
         problem: The problem.
-        time_limit: Seconds for the proofs, in place of the work limit; the answer then depends on the
-            machine.
-        most_work: Work limit: number of values that are evaluated, the same on every machine.
-        independent: Runs of other solvers than HiGHS, made wherever HiGHS solves the program.
+        time_limit: Time limit of the proofs in s, instead of the work limit; the result then depends on the machine.
+        most_work: Work limit: number of evaluated values, independent of the machine.
+        independent: Runs of solvers other than HiGHS, made whenever HiGHS solves the program.
 
     Raises:
         TradeoffError: The time limit is not positive.
@@ -116,7 +114,7 @@ def _by_size(
     time_limit: float | None,
     most_work: int,
 ) -> tuple[list[SizeAnswer], Cut | None]:
-    """The best portfolio of each size, each at least as good as the one before, and what cut a proof."""
+    """Best portfolio of each size, each at least as good as the previous one, and the limit that ended a proof."""
     from rgss.tradeoff.portfolio.mean import best_mean
     from rgss.tradeoff.portfolio.primal import profits_of, search_portfolio
     from rgss.tradeoff.portfolio.worst import best_worst, worst_of
@@ -162,7 +160,7 @@ def _checked(
     rows: tuple[int, ...],
     independent: tuple[SolverRun, ...],
 ) -> tuple[tuple[int, ...], list[Check]]:
-    """The better of a portfolio and the solvers', and what the solvers came to."""
+    """The better of a portfolio and the solvers' ones, and the checks of the solvers."""
     checks: list[Check] = []
     if values.size <= LARGEST_SOLVED:
         rows, check = _compared(problem, values, weights, rows, PORTFOLIO_RUN, "HiGHS", CheckKind.SECOND_RUN)
@@ -188,7 +186,7 @@ def _compared(
     name: str,
     kind: CheckKind,
 ) -> tuple[tuple[int, ...], Check]:
-    """The better of a portfolio and that of one run, and what the run came to."""
+    """The better of a portfolio and that of one run, and the check of the run."""
     ours = _score(problem, values, weights, rows)
     try:
         found = solved_portfolio(values, weights, min(problem.at_most, len(values)), problem.aim, run) or ()
@@ -208,14 +206,14 @@ def _compared(
 def _score(
     problem: PortfolioProblem, values: NDArray[np.float64], weights: NDArray[np.float64], rows: tuple[int, ...]
 ) -> float:
-    """The objective of a portfolio; -1 if it is empty or serves a task not at all."""
+    """Objective of a portfolio; -1 if it is empty or does not serve a task."""
     return float(portfolio_objective(values[list(rows)], weights, problem.aim)) if rows else -1.0
 
 
 def _sizes(
     answers: list[SizeAnswer], objective: float, bound: float, at_most: int
 ) -> tuple[tuple[float | None, ...], tuple[float | None, ...]]:
-    """The objective and the gap of each size; the last is what is decided."""
+    """Objective and gap of each size; the last is the decision."""
     found = [*answers[:-1], replace(answers[-1], objective=objective, bound=max(bound, objective))]
     found += found[-1:] * (at_most - len(found))
     known = [one if one.objective >= 0.0 else None for one in found]

@@ -13,12 +13,12 @@ from rgss.tradeoff.programs import AdditiveValue, TradeProblem
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PortfolioTask:
-    """One task or scene that is to be served.
+    """Task or scene of a portfolio.
 
     Attributes:
         name: Its name.
         weight: Its share in the mean.
-        problem: The same alternatives with their evidence in this task, and what it demands.
+        problem: The same alternatives with their evidence in this task, and its conditions.
     """
 
     name: str
@@ -32,10 +32,9 @@ class PortfolioProblem:
 
     Attributes:
         tasks: The tasks.
-        at_most: The largest number of members.
-        groups: What counts as one member, by id of the alternative, such as the gripper that it
-            has: then a member may serve each task by another alternative of its group. Every
-            alternative counts by itself where there are none.
+        at_most: The greatest number of members.
+        groups: Member of each alternative, by id, such as its gripper: a member may serve each task by another
+        alternative of its group. Without groups every alternative is a member.
         aim: Mean or worst.
 
     Raises:

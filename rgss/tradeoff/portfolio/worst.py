@@ -131,7 +131,7 @@ def _cover(values: Values, level: float, size: int, work: WorkBudget) -> Rows | 
 
 
 def _needed(masks: Sequence[int], work: WorkBudget) -> list[int] | None:
-    """Members of which none covers what another covers as well, largest first; None where a limit ends it."""
+    """Members whose cover is not contained in that of another, largest first; None if a limit is exceeded."""
     kept: list[int] = []
     for at in sorted(range(len(masks)), key=lambda at: (-masks[at].bit_count(), at)):
         work.spend(len(kept))

@@ -1,4 +1,4 @@
-"""Alternatives as tables of numbers: what the analyses of robustness take, and its checks."""
+"""Alternatives as arrays of values, the input of robustness analyses, with validation."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ SAME_VALUE = 1e-12
 
 
 def checked_values(values: Array, *, what: str = "the values") -> Array:
-    """The single values of alternatives, after a check.
+    """Validated single values of alternatives.
 
     Args:
         values: One row for each alternative and one column for each measure, shape (n, m).
-        what: What they are, for messages.
+        what: Their name in messages.
 
     Raises:
-        TradeoffError: It is not a table, or an entry is not a number from 0 to 1.
+        TradeoffError: The array does not have two dimensions, or an entry is not a number from 0 to 1.
     """
     table = np.asarray(values, dtype=np.float64)
     if table.ndim != 2 or 0 in table.shape:

@@ -100,7 +100,7 @@ class Threshold(BoundedMeasure):
 
     @property
     def demand(self) -> str:
-        """Text of the condition, such as ``P_max >= 0.8 kg``; with a tolerance, what is required follows."""
+        """Text of the condition, such as ``P_max >= 0.8 kg``; with a tolerance, followed by the required limit."""
         text = f"{self.measure} {self.comparison.value} {self.value:g}{unit_text(self.unit)}"
         return text if self.required is None else f"{text} (required: {self.required:g})"
 

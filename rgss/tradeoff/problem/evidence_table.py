@@ -1,4 +1,4 @@
-"""Alternatives with their evidence: one by one, or as one table."""
+"""Alternatives with their evidence, as objects or as one table."""
 
 from __future__ import annotations
 
@@ -16,15 +16,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Alternative:
-    """One design that can be chosen, with its evidence.
+    """Alternative of a trade-off: a design with its evidence.
 
     Attributes:
         variant: Id of the design variant.
-        measures: What is known of it, in each measure's unit; None where it is
-            unknown, for instance because no trial succeeded.
-        samples: Values of each measure in each replicate, in the order of their seeds, in the
-            measure's unit; None where a replicate lacks it. A measure that follows from the
-            design alone needs none.
+        measures: Its quantity in each measure, in the measure's unit; None if unknown, for instance because no trial
+        succeeded.
+        samples: Values of each measure in each replicate, in the order of their seeds, in the measure's unit; None if
+        missing in a replicate. A measure that depends only on the design needs none.
     """
 
     variant: int
@@ -73,17 +72,15 @@ class EvidenceTable(Sequence[Alternative]):
         *,
         known: Mapping[str, NDArray[np.bool_]] | None = None,
     ) -> EvidenceTable:
-        """A table from columns.
+        """Table from columns.
 
         Args:
             variants: Ids, shape (n,), in any order.
             columns: The quantities of each measure, shape (n,).
-            known: Where a measure is known, shape (n,); everywhere by default. What
-                is elsewhere in the column is ignored.
+            known: Mask of known values, shape (n,); all by default. Other entries of the column are ignored.
 
         Raises:
-            TradeoffError: An id is given twice, a column has another length, or a quantity that is
-                known is not a finite number.
+            TradeoffError: An id is a duplicate, a column has another length, or a known quantity is not finite.
         """
         import numpy as np
 

@@ -1,4 +1,4 @@
-"""Hierarchies of criteria: weights given group by group, and what they make of each measure."""
+"""Hierarchies of criteria: weights by group, and the resulting weight of each measure."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from rgss.tradeoff.problem.weighting import Weighting
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CriterionNode:
-    """A measure, or a group of criteria, with its weight among its siblings.
+    """Node of a hierarchy: a measure or a group of criteria, with its weight among its siblings.
 
     Attributes:
-        name: The measure; of a group, the criterion that its members make up.
-        weight: Its share of the group that it belongs to.
-        members: What a group is made of; empty for a measure.
+        name: The measure; for a group, the criterion.
+        weight: Its share of its group.
+        members: Members of a group; empty for a measure.
     """
 
     name: str

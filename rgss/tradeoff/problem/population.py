@@ -1,13 +1,13 @@
-"""Posterior of estimates that are drawn from a population: alternatives that share a level are alike by what it does.
+"""Posterior of estimates under a hierarchical model: alternatives with a common level share its effect.
 
-Every estimate is the population's mean, an effect of each factor's level and a rest of its own, seen
-through noise that alternatives have in common as far as their trials do:
+Every estimate is the population's mean plus an effect of each factor's level and an individual residual, observed with
+noise that is correlated between alternatives with common trials:
 
     θ = μ 1 + Σ_f Z_f a_f + r,   a_f ~ N(0, v_f I),   r ~ N(0, v_r I),   estimates ~ N(θ, C)
 
-(Gelman, "Analysis of variance", Annals of Statistics 33, 2005). What a factor does decides how far its
-levels are drawn together: a factor that separates designs is hardly shrunk, one without an effect is
-pooled. The data decide which.
+(Gelman, "Analysis of variance", Annals of Statistics 33, 2005). The shrinkage of a factor's levels depends on its
+effect: a factor that separates designs is hardly shrunk, one without an effect is pooled. The variances are estimated
+from the data.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""Posterior draws of measures that are observed in replicates, joint over alternatives that share seeds.
+"""Posterior draws of measures observed in replicates, joint over alternatives with common seeds.
 
-Alternatives are taken as draws from one population whose spread is learnt from them (Gelman et al.,
-"Bayesian Data Analysis", chapter 5), factor by factor of their design: the best of many estimates is too
-good on average, and more so the fewer replicates there are; but a plain effect of a factor is not noise.
-What their trials have in common stays so: replicate k of every alternative has the same seed.
+Alternatives are modelled as draws from one population whose spread is estimated from them (Gelman et al., "Bayesian
+Data Analysis", chapter 5), factor by factor of their design: the best of many estimates is too good on average, and
+more so the fewer replicates there are; but a clear effect of a factor is not noise. The correlation of their trials is
+preserved: replicate k of every alternative has the same seed.
 """
 
 from __future__ import annotations
@@ -107,10 +107,10 @@ def _same_rows(values: Array) -> NDArray[np.intp]:
 def _proportions(
     values: Array, groups: NDArray[np.intp], weights: Array, generator: np.random.Generator, *, apart: bool
 ) -> Array:
-    """Draws of proportions: beta-binomial, from a population that is a mixture of beta distributions.
+    """Draws of proportions: beta-binomial, with a mixture of beta distributions as the population.
 
-    A success and a failure more, with random weights, are what the population adds to the seeds' own:
-    with exponential weights of the seeds the proportion has its beta posterior exactly.
+    The prior adds a success and a failure with random weights to those of the seeds: with exponential weights of the
+    seeds the proportion has exactly its beta posterior.
     """
     known = ~np.isnan(values)
     found = np.full((len(weights), len(values)), np.nan)

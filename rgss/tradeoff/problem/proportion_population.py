@@ -1,9 +1,9 @@
-"""Population of proportions of no particular shape: a mixture of beta distributions, learnt from counts.
+"""Nonparametric population of proportions: a mixture of beta distributions, fitted to counts.
 
-One beta distribution cannot be many good designs beside a few hopeless ones; fitted to both it takes the good
-for worse than they are. A mixture with a Dirichlet process prior has as many parts as the counts support
-(Ishwaran and James, "Gibbs sampling methods for stick-breaking priors", Journal of the American Statistical
-Association 96, 2001); with one part it is the beta-binomial model.
+One beta distribution cannot represent many good and a few poor designs; fitted to both it underestimates the good ones.
+A mixture with a Dirichlet process prior has as many components as the counts support (Ishwaran and James, "Gibbs
+sampling methods for stick-breaking priors", Journal of the American Statistical Association 96, 2001); with one
+component it is the beta-binomial model.
 """
 
 from __future__ import annotations

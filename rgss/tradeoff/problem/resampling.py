@@ -22,13 +22,13 @@ MOST_ENUMERATED = 2_000
 class Resamples:
     """Resamples of the replicates, the same for every alternative.
 
-    Replicate k of every alternative has the same seed, so a resample takes or leaves it for all of
-    them at once; what their trials have in common stays in the differences.
+    Replicate k of every alternative has the same seed, so a resample includes it for all of them or none; the
+    correlation of their trials is preserved in differences.
 
     Attributes:
         counts: Count of each replicate in each resample, shape (b, r); rows sum to r.
         probabilities: The probability of each resample, shape (b,).
-        exact: Whether these are all the distinct resamples there are.
+        exact: True if these are all distinct resamples.
     """
 
     counts: NDArray[np.int64]

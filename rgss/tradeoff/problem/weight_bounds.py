@@ -95,7 +95,7 @@ class ElicitedOrder:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WeightBounds:
-    """The weights that agree with everything that was elicited, beside that they sum to 1.
+    """Admitted weights: all elicited bounds, in addition to the sum of 1.
 
     Attributes:
         intervals: Intervals of weights.

@@ -31,14 +31,14 @@ class RankRule(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Weighting:
-    """The weight of every measure in the value of an alternative.
+    """Weights of the measures in the value of an alternative.
 
     Attributes:
-        weights: Weight by measure; none is negative and they sum to 1. A measure of weight 0 is
-            listed but decides nothing, so it needs no evidence.
+        weights: Weight by measure, non-negative, with the sum 1. A measure of weight 0 is listed but has no effect, so
+        it needs no evidence.
 
     Raises:
-        TradeoffError: There are no weights, one is negative or not finite, or they do not sum to 1.
+        TradeoffError: The weights are empty, one is negative or not finite, or they do not sum to 1.
     """
 
     weights: Mapping[str, float] = field(hash=False)
@@ -67,10 +67,10 @@ class Weighting:
 
 
 def weights_from_ranks(ranks: Mapping[str, int], rule: RankRule) -> dict[str, float]:
-    """Swing weights from an order of importance.
+    """Swing weights from ranks.
 
-    Measures of one rank share it: they get the mean weight of the places that they take together,
-    and the next rank follows after these places (1, 2, 2, 4).
+    Measures with the same rank get the mean weight of their places, and the next rank follows after these places (1, 2,
+    2, 4).
 
     Args:
         ranks: Rank by measure; 1 is the measure whose swing from worst to best is worth most.
@@ -80,7 +80,7 @@ def weights_from_ranks(ranks: Mapping[str, int], rule: RankRule) -> dict[str, fl
         Weights by measure, in the order given; they sum to 1.
 
     Raises:
-        TradeoffError: There are no ranks, or they leave out or skip a place.
+        TradeoffError: The ranks are empty, or skip a place.
     """
     count = len(ranks)
     places = sorted(ranks, key=lambda measure: ranks[measure])
@@ -106,10 +106,10 @@ def weights_from_points(points: Mapping[str, float]) -> dict[str, float]:
         points: Points by measure; none is negative.
 
     Returns:
-        Weights by measure, in the order given: each one's share of all points.
+        Weights by measure, in the given order: share of the sum of points.
 
     Raises:
-        TradeoffError: A number of points is negative or not finite, or there are none in all.
+        TradeoffError: A number of points is negative or not finite, or the sum is 0.
     """
     for measure, number in points.items():
         if not (math.isfinite(number) and number >= 0.0):

@@ -55,25 +55,24 @@ class Certificate:
     """Certificate of a decision: recomputed objective and constraints, agreement, gap.
 
     Attributes:
-        status: Proven status; best found where a stage's optimality was not proven.
-        solver: Which solver; where an independent one was run too, those that came to the answer.
+        status: Proven status; best found if a stage's optimality was not proven.
+        solver: The solver; if independent ones were run too, those with this result.
         program: The program.
         alternatives: Number of alternatives of the problem.
         considered: Number of them in the program after exact reduction.
         stages: Proven results of the stages, in turn; empty if infeasible.
         solver_choice: The alternative that the solver selected last, one of the tied; None if
             infeasible.
-        objective: The last stage's objective as the solver has it; None if infeasible.
-        objective_recomputed: The same in NumPy from the evidence; None if infeasible or unknown.
-        gap: How much better the best feasible alternative of the enumeration is; 0 up to the
-            tolerance of ties; where nothing was enumerated, how much better one can be by the bound
-            that was proved. None if infeasible, or if the choice is not even feasible.
+        objective: The solver's objective of the last stage; None if infeasible.
+        objective_recomputed: The objective recomputed in NumPy from the evidence; None if infeasible or unknown.
+        gap: Excess of the best feasible alternative of the enumeration over the choice; 0 within the tolerance of ties;
+        without enumeration, the greatest possible improvement by the proven bound. None if infeasible, or if the choice
+        is not feasible.
         residuals: The constraints at the solver's choice; empty if infeasible.
-        enumeration_agrees: Whether exhaustive enumeration agrees with the solver's answers; true only
-            where it was made and agrees: it comes to the same status, and for an optimum the solver's
-            choice is among the tied best, its objective is right and it violates nothing.
-        recomputation_agrees: The same, among those alternatives that were evaluated.
-        checks: The independent checks that were made.
+        enumeration_agrees: True if exhaustive enumeration was made and agrees with the solver: the same status, and for
+        an optimum the solver's choice is among the tied best, with the same objective and without a violation.
+        recomputation_agrees: Agreement among the evaluated alternatives.
+        checks: The independent checks.
     """
 
     status: DecisionStatus
@@ -151,13 +150,13 @@ def certify(
 
 
 def agreeing_solvers(solutions: Sequence[StageSolution]) -> tuple[str, ...]:
-    """The solvers that came to the answer of every stage."""
+    """Solvers with the result of every stage."""
     every = set.intersection(*(set(solution.solvers) for solution in solutions))
     return tuple(solver for solver in solutions[-1].solvers if solver in every) or ("no solver",)
 
 
 def _unproven_gap(solutions: Sequence[StageSolution]) -> float | None:
-    """The last stage's gap, and what earlier stages that are not proven may add to it; None if infeasible."""
+    """Gap of the last stage, plus the possible effect of unproven earlier stages; None if infeasible."""
     last = solutions[-1].gap
     earlier = [one.gap for one in solutions[:-1] if one.status is DecisionStatus.BEST_FOUND and one.gap is not None]
     return None if last is None else last + max(earlier, default=0.0)

@@ -47,7 +47,7 @@ class Enumeration:
 
     @property
     def best_row(self) -> int | None:
-        """The row of the best feasible alternative, of several the smallest id; None if there is none."""
+        """Row of the best feasible alternative, with the smallest id of several; None if there is none."""
         tied = np.flatnonzero(self.tied)
         return int(tied[0]) if tied.size else None
 

@@ -61,7 +61,7 @@ class Aim:
         return best - given_up if self.sense is Comparison.AT_LEAST else best + given_up
 
     def kept(self, best: float) -> Threshold:
-        """Threshold that keeps this criterion within what is still good enough."""
+        """Constraint that keeps this criterion within its tolerance."""
         return Threshold(
             requirement=f"stage {self.measure}",
             measure=self.measure,
@@ -83,14 +83,13 @@ class Aim:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lexicographic(Program):
-    """The best of the first measure; among what keeps it within its tolerance, the best of the next.
+    """Lexicographic program: optimum of each measure in turn, within the tolerances of the previous ones.
 
     Attributes:
-        aims: The measures, the most important first. The tolerance of the last one decides
-            nothing: alternatives within it are listed as near-ties.
+        aims: The measures, the most important first. The tolerance of the last one only defines near-ties.
 
     Raises:
-        TradeoffError: There are no measures, or one occurs twice.
+        TradeoffError: The measures are empty, or one is a duplicate.
     """
 
     name: ClassVar[str] = "lexicographic"
@@ -123,15 +122,14 @@ class Lexicographic(Program):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EpsilonConstraint(Program):
-    """The best of one measure under limits on others; of equals, the one of the highest weighted value.
+    """Epsilon-constraint program: optimum of one measure under limits on others; of equals the highest weighted value.
 
     Attributes:
-        aim: The measure that is optimised. Alternatives within its tolerance are listed as
-            near-ties.
+        aim: The optimised measure. Alternatives within its tolerance are listed as near-ties.
         bounds: The limits, as thresholds whose requirements begin with ``limit:``.
 
     Raises:
-        TradeoffError: There are no limits, or one has another id.
+        TradeoffError: The limits are empty, or one has another id.
     """
 
     name: ClassVar[str] = "epsilon_constraint"
@@ -176,7 +174,7 @@ class EpsilonConstraint(Program):
 
 
 def solve_in_order(aims: tuple[Aim, ...], solver: StageSolver) -> tuple[StageSolution, ...]:
-    """Solve a stage for each aim, keeping what was reached before within its tolerance."""
+    """Solve a stage for each aim, with the previous optima as constraints within their tolerances."""
     solutions: list[StageSolution] = []
     kept: list[Threshold] = []
     for aim in aims:

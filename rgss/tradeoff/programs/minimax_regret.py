@@ -36,7 +36,7 @@ FEWEST_SCENARIOS = 2
 
 
 class Scenarios(str, Enum):
-    """Over what the largest regret is taken: elicited weights, or the replicates."""
+    """Scenarios of the greatest regret: elicited weights, or the replicates."""
 
     WEIGHTS = "weights"
     REPLICATES = "replicates"
@@ -111,10 +111,10 @@ class MinimaxRegret(Program):
     def _generated(
         self, preferences: Preferences, solver: StageSolver, rivals: Sequence[Alternative]
     ) -> tuple[StageSolution, ...]:
-        """Scenarios one by one: each is where the last choice is worst, until its regret is what was proven.
+        """Scenario generation: each is the worst case of the last choice, until its regret equals the bound.
 
-        The regret over some weights never exceeds that over all, so the choice is best as soon as its
-        own regret over all weights is not larger. There are finitely many worst weights.
+        The regret over some weights is at most that over all, so the choice is optimal when its regret over all is not
+        greater. The number of worst-case weights is finite.
         """
         from rgss.tradeoff.programs.worst_weights import WeightProgram
 

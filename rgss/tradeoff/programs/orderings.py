@@ -122,14 +122,14 @@ class ScoreOrdering:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Step:
-    """One criterion of a sequence.
+    """Criterion of a sequence.
 
     Attributes:
-        name: What it is.
-        column: More is better, shape (n,); NaN where unknown.
-        absolute: Tolerance.
-        relative: Tolerance, as a share of the best.
-        reported: 1, or -1 where people read the column with the other sign.
+        name: Its name.
+        column: Its values, greater is better, shape (n,); NaN if unknown.
+        absolute: Absolute tolerance.
+        relative: Tolerance as a share of the best.
+        reported: 1, or -1 if the column is reported with the opposite sign.
     """
 
     name: str
@@ -180,7 +180,7 @@ class SequenceOrdering:
         return np.asarray(self._mask(self.steps[-1].keeps(kept, exactly=False)) | self.best(among))
 
     def shortfall(self, row: int, among: Mask) -> float | None:
-        """Distance from the best in the last criterion, among what the others keep."""
+        """Distance from the best in the last criterion, among the alternatives within the tolerances of the others."""
         kept = self._kept(np.flatnonzero(among))
         column = self.steps[-1].column
         if self.ties_by_value is not None:

@@ -45,7 +45,7 @@ class Program(ABC):
 
     @property
     def limits(self) -> tuple[Threshold, ...]:
-        """Thresholds that it sets beside those of the requirements."""
+        """Thresholds in addition to those of the requirements."""
         return ()
 
     @property
@@ -148,7 +148,7 @@ class Preferences(ABC):
 
     @property
     def measures_named(self) -> Mapping[str, str]:
-        """Every measure that is needed at all, and who names it."""
+        """All required measures, with the origin of each reference."""
         named = dict.fromkeys(self.weighting.weights, "the weights name")
         for condition in self.conditions:
             named.setdefault(condition.measure, f"{condition.requirement} names")
@@ -181,13 +181,13 @@ class Preferences(ABC):
 
     @abstractmethod
     def replicate_count(self, measures: Sequence[str]) -> int:
-        """The number of replicates that alternatives have in common.
+        """Common number of replicates of the alternatives.
 
         Args:
-            measures: The measures that are used; those that follow from the design alone have none.
+            measures: The used measures; those that depend only on the design have no replicates.
 
         Raises:
-            TradeoffError: There are none, or alternatives have different numbers of them.
+            TradeoffError: There are no replicates, or their numbers differ.
         """
 
 

@@ -30,12 +30,12 @@ def ordering_of(program: Program, preferences: Preferences, table: EvidenceTable
 
     Args:
         program: The program.
-        preferences: Preferences that the alternatives are compared by.
+        preferences: The preferences.
         table: The alternatives.
-        feasible: Mask of those that meet every demand, shape (n,).
+        feasible: Mask of the feasible alternatives, shape (n,).
 
     Raises:
-        TradeoffError: There is no enumeration for the program.
+        TradeoffError: The program has no enumeration.
     """
     raise TradeoffError(
         f"no enumeration is known for the program {program.name!r}", hint="register one with ordering_of"
@@ -76,13 +76,13 @@ def _(program: MinimaxRegret, preferences: Preferences, table: EvidenceTable, fe
 
 
 def orderings_of(program: Program, preferences: Preferences, table: EvidenceTable) -> Callable[[Mask], Ordering]:
-    """Orderings of alternatives under a program, for one choice of the feasible ones after another.
+    """Function that orders alternatives under a program for a mask of the feasible ones.
 
-    What does not depend on that choice is prepared once.
+    Computations that do not depend on the mask are made once.
 
     Args:
         program: The program.
-        preferences: Preferences that the alternatives are compared by.
+        preferences: The preferences.
         table: The alternatives.
     """
     if isinstance(program, MinimaxRegret):

@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 class Tchebycheff(Program):
     """Augmented Tchebycheff program: least largest weighted shortfall from a reference point.
 
-    ``min max_i w_i (z_i - v_i(x)) + ρ Σ_i (z_i - v_i(x))``, the augmented weighted Tchebycheff metric
-    (Steuer and Choo, "An interactive weighted Tchebycheff procedure", 1983). With the right weights it
-    reaches every undominated alternative, those between others included that no weighted sum
-    selects; the augmentation keeps it from choosing what is only weakly undominated.
+    ``min max_i w_i (z_i - v_i(x)) + ρ Σ_i (z_i - v_i(x))``, the augmented weighted Tchebycheff metric (Steuer and Choo,
+    "An interactive weighted Tchebycheff procedure", 1983). With suitable weights it reaches every non-dominated
+    alternative, including unsupported ones that no weighted sum selects; the augmentation excludes weakly non-dominated
+    ones.
 
     Attributes:
-        reference: The values z_i that are aspired to, by measure; 1 where none is given.
+        reference: The aspiration values z_i, by measure; 1 by default.
         augmentation: The factor ρ, positive.
 
     Raises:

@@ -44,13 +44,13 @@ class WeightRegret:
         self._upper: dict[int, Array] = {}
 
     def of_all(self, rivals: NDArray[np.bool_]) -> Array:
-        """The largest regret of every alternative, shape (n,).
+        """Greatest regret of every alternative, shape (n,).
 
         Args:
-            rivals: The alternatives that might have been chosen instead, shape (n,).
+            rivals: Mask of the alternatives that could be chosen instead, shape (n,).
 
         Returns:
-            Regrets; NaN where a value is unknown, and everywhere if there are no rivals.
+            Regrets; NaN if a value is unknown, and everywhere without rivals.
         """
         worst = np.full(len(self._values), np.nan)
         against = np.flatnonzero(rivals)
@@ -68,7 +68,7 @@ class WeightRegret:
         return worst
 
     def _regret(self, row: int, against: NDArray[np.intp], best: Array) -> tuple[float, Array]:
-        """The regret of one alternative; and the best value of the rivals at all weights found so far."""
+        """Regret of one alternative; and the best value of the rivals at all weights found so far."""
         mine = self._values[row]
         lower = float((best - self._weights @ mine).max(initial=-np.inf))
         upper = self._bounds(row)

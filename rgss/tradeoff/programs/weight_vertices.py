@@ -1,4 +1,4 @@
-"""The corners of the set of weights that agree with what was elicited."""
+"""Vertices of the polytope of admitted weights."""
 
 from __future__ import annotations
 
@@ -31,21 +31,20 @@ def corner_candidates(matrix: NDArray[np.float64]) -> int:
 
 
 def weight_vertices(matrix: NDArray[np.float64], limits: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The corners of ``{w : w >= 0, sum(w) = 1, matrix @ w <= limits}``.
+    """Vertices of ``{w : w >= 0, sum(w) = 1, matrix @ w <= limits}``.
 
-    A corner is where m - 1 of the inequalities bind beside the sum. Every such choice is solved
-    and kept if it is feasible; that is exact up to rounding and, for the handful of measures that
-    people can weigh, fast.
+    At a vertex m - 1 of the inequalities are active in addition to the sum. Every such system is solved and kept if
+    feasible; that is exact up to rounding, and fast for a few measures.
 
     Args:
         matrix: Coefficients, shape (k, m).
         limits: Right-hand sides, shape (k,).
 
     Returns:
-        The corners in lexicographic order, shape (c, m); none if the bounds contradict each other.
+        The vertices in lexicographic order, shape (c, m); empty if the bounds are inconsistent.
 
     Raises:
-        TradeoffError: There are too many bounds to enumerate every corner.
+        TradeoffError: There are too many bounds to enumerate all vertices.
     """
     count = matrix.shape[1]
     rows = np.vstack([matrix, -np.eye(count)])

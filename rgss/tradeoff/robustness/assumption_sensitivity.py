@@ -41,18 +41,17 @@ class Standing:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AssumptionRange:
-    """The values of an assumption around the assumed one over which the choice stays best.
+    """Range of an assumption around its assumed value over which the choice stays best.
 
     Attributes:
-        low: The least such value; None where nothing changes down to `lowest`.
-        high: The largest; None where nothing changes up to `highest`.
-        lowest: Down to where it was followed.
-        highest: Up to where it was followed; may be infinite.
-        below: What is best just below `low`, ascending; empty where nothing is feasible there.
-        above: The same above `high`.
-        exact: Whether the ends were solved for, the dependence being piecewise linear; otherwise
-            they were bracketed by a scan and bisected, and a change that reverts within one step of
-            the scan may have been missed.
+        low: The least such value; None if nothing changes down to `lowest`.
+        high: The greatest such value; None if nothing changes up to `highest`.
+        lowest: Lower end of the scan.
+        highest: Upper end of the scan; may be infinite.
+        below: The best alternatives just below `low`, ascending; empty if nothing is feasible there.
+        above: The best alternatives just above `high`.
+        exact: True if the ends were solved exactly, for a piecewise linear dependence; otherwise they were bracketed by
+        a scan and bisected, and a change that reverts within one step of the scan may have been missed.
     """
 
     low: float | None
@@ -108,7 +107,7 @@ def scanned_range(
 def _walk(
     evaluate: Callable[[float], Standing], chosen: int, start: float, kinks: Array, end: float
 ) -> tuple[float | None, tuple[int, ...]]:
-    """Go from kink to kink until the chosen one is no longer best; where, and what then is."""
+    """Breakpoint search until the choice is no longer best; returns the position and the new best."""
     for near, far in _segments(start, kinks, end):
         if chosen not in evaluate(near).best():
             return near, evaluate(near).best()
@@ -147,9 +146,9 @@ def _inner_points(near: float, far: float) -> tuple[float, float]:
 
 
 def _first_loss(lead: Array, rate: Array, length: float) -> float | None:
-    """Distance at which the first lead becomes negative; None if none does on the way.
+    """Distance at which the first lead becomes negative; None if none does.
 
-    At the start no lead is negative beyond a tie, so what is below zero there is rounding.
+    At the start no lead is negative beyond a tie, so negative values there are rounding errors.
     """
     losing = rate < -_NO_SLOPE * np.abs(rate).max(initial=0.0)
     reach = np.full(len(lead), math.inf)

@@ -13,18 +13,17 @@ MOST_BLOCKS = 300_000
 
 
 def largest_complete_block(known: NDArray[np.bool_]) -> tuple[tuple[int, ...], ...] | None:
-    """The largest choice of levels of which every combination is known.
+    """Largest sub-grid of levels with all combinations known.
 
-    Designs without an estimate would confound the effects of the others, and nothing may be made
-    up for them; what is left is a smaller balanced design.
+    Designs without an estimate would confound the effects of the others, and are not imputed; the result is a smaller
+    balanced design.
 
     Args:
         known: Mask of the designs with an estimate, one axis for each factor.
 
     Returns:
-        The levels kept of each factor; of the largest blocks that which keeps most levels of the
-        earlier factors. None if there is no block with two levels of some factor, or more than
-        `MOST_BLOCKS` to examine.
+        The kept levels of each factor; of the largest blocks the one with most levels of the earlier factors. None if
+        no block has two levels of some factor, or if more than `MOST_BLOCKS` would have to be examined.
     """
     if known.all() and known.size > 1:
         return tuple(tuple(range(length)) for length in known.shape)

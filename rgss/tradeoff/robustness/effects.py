@@ -36,9 +36,8 @@ class Effect:
 
     Attributes:
         factors: The factors of the term; one for a main effect, two for their interaction.
-        levels: The effect of each combination of their levels in the measure's unit, shape
-            (l_1, ...): how far the mean there is from what the mean of all designs and the terms of
-            fewer factors say. Effects sum to 0 along every axis.
+        levels: The effect of each combination of their levels in the measure's unit, shape (l_1, ...): deviation of the
+        mean there from the overall mean plus the terms of lower order. Effects sum to 0 along every axis.
         low: The lower ends of their bootstrap intervals; None without replicates.
         high: The upper ends.
         sum_of_squares: Of the estimates of all designs.

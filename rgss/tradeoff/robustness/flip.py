@@ -52,10 +52,10 @@ class WeightRange:
 def weight_shifts(
     values: Array, feasible: Mask, weights: Array, *, among: WeightSet | None = None
 ) -> tuple[WeightShift, ...]:
-    """For each alternative that can win, the nearest weights at which it does; the nearest first.
+    """Nearest weights at which each potentially optimal alternative wins, the nearest first.
 
-    The first entry whose rows are not the chosen ones is where the decision flips: at any nearer
-    weights the chosen alternative is still best, and there its rows are as good.
+    The decision flips at the first entry whose rows are not the chosen ones: at any nearer weights the chosen
+    alternative is best, and there its rows are equally good.
 
     Args:
         values: The single values, shape (n, m); rows that are not feasible may hold NaN.

@@ -1,11 +1,11 @@
-"""Alternatives worth keeping: those within a margin of the best for some admitted weights, and what beats the rest.
+"""Alternatives worth keeping: those within a margin of the best for some admitted weights.
 
-An alternative i that no other dominates is kept if some admitted weights w give
-``max_j (v_j - v_i) w <= margin``. The least such maximum is a linear program; with a margin of 0 its
-alternatives are the potentially optimal ones (Hazen, "Partial information, dominance, and potential
-optimality in multiattribute utility theory", 1986). The dual of the program names the alternatives that beat
-one that is not kept. One that another dominates over the weights is not kept, though at some weights, such as
-those of a measure in which all are equal, they tie; unless the other never leads by more than the margin.
+An alternative i that no other dominates is kept if some admitted weights w give ``max_j (v_j - v_i) w <= margin``. The
+least such maximum is a linear program; with a margin of 0 its alternatives are the potentially optimal ones (Hazen,
+"Partial information, dominance, and potential optimality in multiattribute utility theory", 1986). The dual of the
+program names the alternatives that beat one that is not kept. An alternative dominated over the weights is not kept,
+although they tie at some weights, such as those of a measure in which all are equal; unless the other never leads by
+more than the margin.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _SHARE_OF_MIXTURE = 1e-6
 
 
 class KeptFor(str, Enum):
-    """Reason that an alternative is kept, or not.
+    """Reason why an alternative is kept or not.
 
     Attributes:
         BEST_AS_STATED: It is best at the weights of the study.

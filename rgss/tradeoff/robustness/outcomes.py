@@ -12,10 +12,10 @@ from rgss.tradeoff.weights import WeightSet
 
 
 def admitted_weights(preferences: Preferences) -> WeightSet:
-    """The weights, of measures with a weight above 0, that agree with what was elicited.
+    """Admitted weights of the measures with a weight above 0.
 
     Raises:
-        TradeoffError: None do.
+        TradeoffError: The elicited bounds are inconsistent.
     """
     measures = preferences.weighting.deciding_measures
     rows, limits = preferences.weight_bounds.inequalities(measures)

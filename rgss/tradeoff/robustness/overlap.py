@@ -10,13 +10,13 @@ from itertools import combinations
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Overlap:
-    """Two weighted measures that count the same thing twice.
+    """Two weighted measures that count the same effect twice.
 
     Attributes:
         whole: The measure whose expression contains the other, such as ``t_e``.
         part: The measure that is contained, such as ``t_p``.
-        instead: A measure that is made of what the whole is made of but for the part, and so could
-            be valued in its place; None if there is none.
+        instead: A measure with the dependencies of the whole except the part, which could be valued instead; None if
+        there is none.
     """
 
     whole: str

@@ -18,8 +18,8 @@ SMALLEST_WEIGHT = 1e-6
 class Support(str, Enum):
     """Kind of Pareto optimality with respect to weighted sums, after Könen and Stiglmayr.
 
-    "On supportedness in multi-objective combinatorial optimization", 2025, separates what their
-    predecessors mix: weights that are all positive, and weights of which some may be zero.
+    "On supportedness in multi-objective combinatorial optimization", 2025, separates two notions that earlier work
+    mixes: weights that are all positive, and weights of which some may be zero.
 
     Attributes:
         EXTREME: The only best one for some weights; a corner of the front's convex hull.

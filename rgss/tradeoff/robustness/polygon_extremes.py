@@ -36,16 +36,16 @@ def zonotope(centre: Points, generators: Points) -> Points:
 
 
 def clip(polygon: Points, axis: int, limit: float, *, keep_below: bool) -> Points:
-    """The part of a convex polygon on one side of a line (Sutherland and Hodgman, 1974).
+    """Clip a convex polygon at a line (Sutherland and Hodgman, 1974).
 
     Args:
-        polygon: Corners in order, shape (v, 2); one or two are a point or a segment.
-        axis: Which coordinate is limited.
-        limit: The limit; the line itself is kept.
-        keep_below: Whether what is below the limit is kept.
+        polygon: Vertices in order, shape (v, 2); one or two are a point or a segment.
+        axis: The limited coordinate.
+        limit: The limit, inclusive.
+        keep_below: True to keep the side below the limit.
 
     Returns:
-        The corners that are left; none, shape (0, 2), if nothing is.
+        The remaining vertices, shape (0, 2) if there are none.
     """
     side = (limit - polygon[:, axis]) * (1.0 if keep_below else -1.0)
     kept: list[Points] = []

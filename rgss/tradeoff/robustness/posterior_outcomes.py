@@ -38,12 +38,12 @@ _DRAWS_OF_A_STUDY = 500
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PosteriorOutcomes:
-    """Posterior draws of the evidence of n alternatives, and what they mean.
+    """Posterior draws of the evidence of n alternatives, with their outcomes.
 
     Attributes:
-        preferences: Preferences that the alternatives are compared by.
+        preferences: The preferences.
         table: The evidence.
-        drawn: Draws of each measure that is observed in trials, shape (b, n); NaN where unknown.
+        drawn: Draws of each measure observed in trials, shape (b, n); NaN if unknown.
         outcomes: Values and feasibility in each draw.
     """
 
@@ -65,10 +65,10 @@ class PosteriorOutcomes:
     ) -> PosteriorOutcomes:
         """Draw the evidence of a table.
 
-        Demands on replicates are judged by replicates that are drawn anew with replacement.
+        Conditions on replicates are evaluated on replicates resampled with replacement.
 
         Args:
-            preferences: Preferences that the alternatives are compared by.
+            preferences: The preferences.
             table: The evidence.
             proportions: The measures that are shares of trials.
             generator: Source of randomness.
@@ -108,11 +108,10 @@ class PosteriorOutcomes:
         return holds
 
     def first_errors(self, weights: WeightSet, generator: np.random.Generator) -> Array:
-        """The standard error of each first-rank acceptability, over repetitions of the study, shape (n,).
+        """Standard error of each first-rank acceptability over repetitions of the study, shape (n,).
 
-        Another study of the same size would estimate something else. What it would estimate is
-        drawn as the evidence's own draws are, and what its draws would be is what this study's are
-        of its estimates: a parametric bootstrap by the posterior.
+        By a parametric bootstrap from the posterior: the estimates of a repeated study of the same size are drawn from
+        the posterior, and its draws have the distribution of this study's draws about its estimates.
 
         Args:
             weights: The admitted weights.
@@ -166,13 +165,13 @@ class PosteriorOutcomes:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _MovingDraws:
-    """Draws of a measure that are moved by what another study would estimate.
+    """Draws of a measure, shifted by the estimates of a repeated study.
 
     Attributes:
-        rows: The draws, shape (b, n); NaN where unknown.
+        rows: The draws, shape (b, n); NaN if unknown.
         centres: Their means, shape (n,).
-        least: The least draw of any alternative; NaN where none is known.
-        greatest: The greatest one.
+        least: The least draw of any alternative; NaN if none is known.
+        greatest: The greatest draw of any alternative; NaN if none is known.
     """
 
     rows: Array

@@ -76,10 +76,10 @@ def rank_reversals(count: int, score: Scoring) -> tuple[RankReversal, ...]:
 
 
 def sample_anchored(quantities: Array, more_is_better: NDArray[np.bool_], weights: Array) -> Scoring:
-    """Weighted values stretched between the extremes of whatever alternatives are there.
+    """Weighted values normalised by the range of the present alternatives.
 
-    It is not how this project values anything; it is what rank reversal is shown on. A measure in
-    which the alternatives that are there do not differ is worth the same to all of them.
+    Not used for decisions, but for the demonstration of rank reversal. A measure without differences has the same value
+    for all of them.
 
     Args:
         quantities: Shape (n, m).

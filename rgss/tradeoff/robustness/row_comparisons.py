@@ -10,12 +10,12 @@ from rgss.tradeoff.weights import WeightSet
 
 
 def dominating_rival(leads: Array, here: Array, among: WeightSet, *, margin: float) -> tuple[int, float] | None:
-    """The alternative that is never worth less than another, and worth more by over a margin at some weights.
+    """Alternative that dominates another over the admitted weights, with a lead above a margin at some weights.
 
     Args:
         leads: Lead in value of each other alternative in each measure, shape (k, m).
-        here: Weights that are admitted, shape (m,); of several that dominate, the one that leads by most there
-            is taken, and of equal ones the first.
+        here: Admitted weights, shape (m,); of several dominating alternatives, the one with the greatest lead there is
+            returned, and of equal ones the first.
         among: The admitted weights.
         margin: The margin.
 

@@ -35,13 +35,13 @@ class SampledIndex:
 
 
 def classes_of(values: Array) -> NDArray[np.int64]:
-    """Classes of about the same size, by rank: what a factor with a range has instead of levels.
+    """Quantile classes of about equal size, as levels of a factor with a range.
 
     Args:
         values: The value of each design, shape (n,).
 
     Returns:
-        The class of each, from 0; equal values are in one class.
+        The class of each, from 0; equal values are in the same class.
     """
     _, places = np.unique(values, return_inverse=True)
     roots = min(MOST_CLASSES, math.isqrt(len(values)), len(values) // FEWEST_PER_CLASS)
@@ -53,13 +53,13 @@ def classes_of(values: Array) -> NDArray[np.int64]:
 def first_order_indices(
     classes: NDArray[np.int64], values: Array, *, resamples: int, generator: np.random.Generator
 ) -> tuple[SampledIndex, ...]:
-    """The share of the variance between classes of each factor, corrected for chance.
+    """First-order Sobol index of each factor: share of the variance between its classes, corrected for chance.
 
-    Of designs that spread evenly over all factors, as a Latin hypercube's and Sobol's points do,
-    the variance between the means of a factor's classes estimates its Sobol index of first order:
-    Pearson's correlation ratio. With few designs it is above 0 by chance; epsilon squared (Kelley,
-    "An unbiased correlation ratio measure", 1935) takes out what is expected by chance. Indices of
-    total order cannot be had from such a sample without a model of the measure.
+    For designs that are spread evenly over all factors, as a Latin hypercube's and Sobol's points do, the variance
+    between the means of a factor's classes estimates its Sobol index of first order: Pearson's correlation ratio. With
+    few designs it is above 0 by chance; epsilon squared (Kelley, "An unbiased correlation ratio measure", 1935) removes
+    the expected value of that. Total-order indices cannot be estimated from such a sample without a model of the
+    measure.
 
     Args:
         classes: The class of each design in each factor, shape (n, d).

@@ -1,4 +1,4 @@
-"""Choices of several stakeholders, what all of them accept, and the compromise between them."""
+"""Choices of several stakeholders, commonly accepted alternatives, and the compromise."""
 
 from __future__ import annotations
 
@@ -63,9 +63,9 @@ def stakeholder_agreement(
 ) -> StakeholderAgreement:
     """Compare the alternatives under the weights of each stakeholder.
 
-    The regret of an alternative is what it is worth less than the best by a stakeholder's own weights (Savage,
-    "The theory of statistical decision", 1951); the compromise has the least largest one. All comparisons
-    are by enumeration.
+    The regret of an alternative is its difference from the best value under a stakeholder's weights (Savage, "The
+    theory of statistical decision", 1951); the compromise has the least maximum regret. All comparisons are by
+    enumeration.
 
     Args:
         values: The single values, shape (n, m); rows that are not feasible may hold NaN.
@@ -74,8 +74,8 @@ def stakeholder_agreement(
         within: Distance from a stakeholder's best value up to which an alternative is accepted; at least 0.
 
     Raises:
-        TradeoffError: Nothing is feasible, there is no stakeholder, the distance is negative, or weights are
-            not such.
+        TradeoffError: Nothing is feasible, there is no stakeholder, the distance is negative, or the weights are
+        invalid.
     """
     rows = np.flatnonzero(feasible)
     if not len(rows) or not stakeholders:
@@ -120,7 +120,7 @@ def stakeholder_agreement(
 
 
 def _borda(regrets: Array) -> Array:
-    """The share of the others that each beats, ties by half; 1 where there is no other."""
+    """Borda score: share of the others that each beats, ties counted half; 1 without others."""
     if len(regrets) == 1:
         return np.ones(1)
     ordered = np.sort(regrets)

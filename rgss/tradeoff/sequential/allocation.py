@@ -1,11 +1,11 @@
 """Allocation of a budget of replicates to the alternatives that may be the best.
 
 Without a budget every alternative that is not settled is replicated, so that the guarantee of the rule is reached as
-soon as it can be. A budget that is too small for that is spent where the choice is open: on the alternatives that the
-posterior draws (`rgss.tradeoff.sequential.probability`) find better than the choice most often, as top-two
-procedures do (Russo, "Simple Bayesian algorithms for best-arm identification", 2020). What is tied with the choice in
-every draw gets nothing for that. They are raised together, those with the fewest replicates first, so that all of them
-are compared on common random numbers.
+early as possible. A smaller budget is spent where the choice is open: on the alternatives that the posterior draws
+(`rgss.tradeoff.sequential.probability`) find better than the choice most often, as top-two procedures do (Russo,
+"Simple Bayesian algorithms for best-arm identification", 2020). Alternatives tied with the choice in every draw get
+none. The numbers of replicates are raised together, the fewest first, so that all are compared on common random
+numbers.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ _EQUAL = 1e-9
 def likely_better(
     evidence: SequentialEvidence, rule: SequentialRule, chosen: int | None, among: Collection[int], *, seed: int
 ) -> tuple[int, ...]:
-    """The choice, and the fewest others that hold what is better by the margin with the probability `COVERED`.
+    """The choice, and the smallest set of others that contains a better one (by the margin) with probability `COVERED`.
 
-    Where no draw has anything better, all that are not settled.
+    If no draw has a better one, all alternatives that are not settled.
 
     Args:
         evidence: The evidence so far.
@@ -62,17 +62,16 @@ def likely_better(
 
 
 def leaders(evidence: SequentialEvidence, progress: Progress, finalists: int, *, cap: int) -> tuple[int, ...]:
-    """The alternatives that a budget is spent on: those that would be chosen, then those that may come to be.
+    """Finalists of a budget: those that would be chosen, then those with the greatest upper confidence bounds.
 
-    The first are those of the highest value among the feasible by the estimates, equals together: an
-    alternative that leads by a few lucky replicates gets as many as the others, so that the choice has the most
-    replicates.
-    The others are taken by what they would be worth if their estimates erred to their disadvantage by a standard error
-    (`SequentialEvidence.hopes`), an upper confidence bound as in Auer, Cesa-Bianchi and Fischer ("Finite-time analysis
-    of the multiarmed bandit problem", 2002): an unlucky pilot eliminates no alternative. All are brought to the same
-    number of replicates, and so to the same seeds, on which alternatives that differ in few trials are separated.
-    Who has as many replicates as are allowed gives up its place: otherwise the first ones hold all places to the end,
-    and an alternative whose few replicates were unlucky gets no more of them however much budget is left.
+    The first have the highest value among the feasible by the estimates, including ties: an alternative that leads by a
+    few lucky replicates gets as many as the others, so that the choice has the most replicates. The others are ranked
+    by their value plus one standard error (`SequentialEvidence.hopes`), an upper confidence bound as in Auer,
+    Cesa-Bianchi and Fischer ("Finite-time analysis of the multiarmed bandit problem", 2002): an unlucky pilot
+    eliminates no alternative. All are brought to the same number of replicates, and so to the same seeds, on which
+    alternatives that differ in few trials are separated. Who has as many replicates as are allowed gives up its place:
+    otherwise the first ones hold all places to the end, and an alternative whose few replicates were unlucky gets no
+    more of them however much budget is left.
 
     Args:
         evidence: The evidence so far.

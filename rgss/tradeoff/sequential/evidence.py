@@ -1,4 +1,4 @@
-"""The evidence of a trade-off as sequential tests see it: what is fixed, and what each replicate showed."""
+"""Evidence of a trade-off for sequential tests: fixed quantities, and observations of each replicate."""
 
 from __future__ import annotations
 
@@ -89,18 +89,19 @@ class SequentialEvidence:
 
     Attributes:
         table: The alternatives, by ascending id.
-        replicates: Number of replicates of each that were run, shape (n,).
+        replicates: Number of replicates of each, shape (n,).
         thresholds: Thresholds of the requirements.
-        observed: The measures that are observed in trials and that decide.
-        fixed_value: What the measures that follow from the design add to the value, shape (n,).
+        observed: The relevant measures observed in trials.
+        fixed_value: Contribution to the value of the measures that depend only on the design, shape (n,).
         fixed_met: Mask of the alternatives that meet every threshold on such measures, shape (n,).
         values: Weighted value by the estimates, shape (n,); NaN where a measure is unknown.
-        feasible: Mask of the alternatives that meet everything by their estimates, but for the tolerance, shape (n,).
-        tolerance: Share of a threshold on what trials observe by which the choice may miss it.
-        last_of_equals: Whether the largest id of equals is the choice; the smallest otherwise.
-        twins: The group of alternatives with which each has all trials in common, whatever the seed, shape (n,).
-        levels: The level of each alternative in each factor of its design, shape (n, f), from which posterior draws
-            learn; None where designs are not made of levels.
+        feasible: Mask of the alternatives that meet all conditions by their estimates, within the tolerance, shape
+        (n,).
+        tolerance: Share of a threshold on observed measures by which the choice may violate it.
+        last_of_equals: True if the largest id of equals is the choice; the smallest otherwise.
+        twins: The group of alternatives with which each shares all trials, for any seed, shape (n,).
+        levels: The level of each alternative in each factor of its design, shape (n, f), used by the posterior draws;
+        None if designs do not have levels.
     """
 
     table: EvidenceTable
@@ -126,18 +127,18 @@ class SequentialEvidence:
         tolerance: float = 0.0,
         last_of_equals: bool = False,
     ) -> SequentialEvidence:
-        """The evidence of a trade-off.
+        """Evidence of a trade-off.
 
         Args:
-            problem: The trade-off, whose alternatives hold their replicates.
+            problem: The trade-off, whose alternatives have their replicates.
             proportions: The measures that are shares of trials.
-            twins: By alternative, the group with which it has all trials in common; each its own by default.
+            twins: By alternative, the group with which it shares all trials; each its own by default.
             levels: The level of each alternative, by ascending id, in each factor of its design, shape (n, f).
             tolerance: As the attribute.
             last_of_equals: As the attribute.
 
         Raises:
-            TradeoffError: The trade-off is none of weighted values under thresholds on estimates.
+            TradeoffError: The trade-off is not of weighted values under thresholds on estimates.
         """
         _check(problem)
         table = tabulated(problem.alternatives)

@@ -1,4 +1,4 @@
-"""Forecast of what is open when replication ends: the replicates that would settle it, if trials go on as so far."""
+"""Forecast of the replicates that would settle open questions at the end of replication."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ MOST_FORECAST = 12_800
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Forecast:
-    """The replicates that would settle what is open, if the trials go on as those so far.
+    """Forecast number of replicates for a settled decision, assuming further trials like the past ones.
 
     Attributes:
-        rivals: By alternative that may be worth more than the choice by the margin, the replicates in all that it
-            and the choice need until that is settled; None beyond `MOST_FORECAST`.
-        requirements: By open requirement of the choice, the replicates in all until its verdict is settled.
-        accepted: The replicates of the choice until it is proven to violate no threshold by more than the slack.
-        trials: Trials of all alternatives that are missing until the decision is settled; None if some number is.
+        rivals: By alternative that may be better than the choice by the margin, the total replicates of it and the
+        choice to settle that; None beyond `MOST_FORECAST`.
+        requirements: By open requirement of the choice, the total replicates to settle its verdict.
+        accepted: The replicates of the choice to prove that it violates no threshold by more than the slack.
+        trials: Number of further trials of all alternatives to settle the decision; None if any number is unknown.
     """
 
     rivals: Mapping[int, int | None] = field(hash=False)
@@ -37,17 +37,17 @@ class Forecast:
 def forecast(
     evidence: SequentialEvidence, rule: SequentialRule, progress: Progress, chosen: int, open_: Collection[int]
 ) -> Forecast:
-    """Forecast what would settle a choice, by repeating the replicates in their order and testing again.
+    """Forecast the replicates that settle a choice, by repeating the existing ones in order and testing again.
 
-    Numbers are doubled until the tests settle, so that they are right within a factor of two if the trials
-    go on as they are: an order of magnitude for a budget, without a guarantee.
+    Numbers are doubled until the tests settle, so they are accurate within a factor of two if further trials are like
+    the past ones: an order of magnitude for a budget, without a guarantee.
 
     Args:
         evidence: The evidence.
         rule: The rule.
         progress: Results of the looks.
         chosen: The choice.
-        open_: The alternatives that may be worth more than it by the margin.
+        open_: The alternatives that may be better than it by the margin.
     """
     row = evidence.table.row_of(chosen)
     ran = int(evidence.replicates[row])

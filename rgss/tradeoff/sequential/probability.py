@@ -22,16 +22,16 @@ def probability_of_good_selection(
     seed: int,
     draws: int = DRAWS,
 ) -> float:
-    """The posterior probability that nothing feasible is worth more than the choice by the margin.
+    """Posterior probability of good selection: no feasible alternative is better than the choice by the margin.
 
-    The draws are those of `rgss.tradeoff.problem.posterior_means`: the alternatives are a
-    population whose spread is learnt from them, factor by factor, noise is pooled, and what trials of
-    the same seed have in common stays so.
+    The draws are those of `rgss.tradeoff.problem.posterior_means`: the alternatives are a population whose spread is
+    estimated from them, factor by factor, noise is pooled, and the correlation of trials with the same seed is
+    preserved.
 
     Args:
         evidence: The evidence.
-        chosen: The choice; None that there is nothing feasible.
-        margin: The difference of value that is practically none.
+        chosen: The choice; None for the claim that nothing is feasible.
+        margin: The practically irrelevant difference of value.
         seed: Seed of the draws.
         draws: Number of draws.
 
@@ -49,15 +49,15 @@ def probability_of_good_selection(
 def probabilities_of_loss(
     evidence: SequentialEvidence, chosen: int | None, *, margin: float, seed: int, draws: int = DRAWS
 ) -> NDArray[np.float64]:
-    """The posterior probability that each alternative is the best and the choice is not good, shape (n,).
+    """Posterior probability that each alternative is the best while the choice is not good, shape (n,).
 
-    The choice is good where it is feasible and within the margin of the best: what it is tied with in every draw
-    has probability 0. Equals share a draw evenly.
+    The choice is good if it is feasible and within the margin of the best; alternatives tied with it in every draw have
+    probability 0. Equal best alternatives share a draw evenly.
 
     Args:
         evidence: The evidence.
         chosen: The choice; None if nothing is feasible by the estimates, which is never good.
-        margin: The difference of value that is practically none.
+        margin: The practically irrelevant difference of value.
         seed: Seed of the draws.
         draws: Number of draws.
     """

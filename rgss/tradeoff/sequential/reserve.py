@@ -1,4 +1,4 @@
-"""A reserve beside the budget: trials that are spent only where the choice is not probable enough without them."""
+"""Reserve of trials beyond the budget, spent only if the probability of good selection is too low."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from rgss.tradeoff.sequential.settling import Progress
 def next_batch_with_reserve(
     evidence: SequentialEvidence, rule: SequentialRule, progress: Progress, *, seed: int
 ) -> Allocation | Decided:
-    """One look of the rule, which goes on beyond a spent budget while its choice is too doubtful.
+    """One look of the rule, which continues beyond the budget while the probability of good selection is too low.
 
-    A budget that suffices for most master seeds leaves some with a choice that is as likely wrong as right. Their
-    probability of good selection says which (Chen and Lee, "Stochastic Simulation Optimization", 2011, stop at a
-    probability of correct selection too), so that the reserve costs the others nothing.
+    A budget that suffices for most master seeds leaves a few with a doubtful choice, which the probability of good
+    selection identifies (Chen and Lee, "Stochastic Simulation Optimization", 2011, stop at a probability of correct
+    selection too), so that the reserve costs the others nothing.
 
     Args:
         evidence: As for `next_batch`.
         rule: The stopping rule.
         progress: As for `next_batch`.
-        seed: Seed of the posterior draws, which are those that the result is reported by.
+        seed: Seed of the posterior draws, the same as in the report.
 
     Returns:
-        As for `next_batch`. With a reserve, replication ends by its budget at the first look at which the
-        probability of good selection is as high as the rule asks for, or when the reserve is spent too.
+        As for `next_batch`. With a reserve, replication ends beyond the budget at the first look with the required
+        probability of good selection, or when the reserve is spent.
     """
     answer = next_batch(evidence, rule, progress)
     if rule.budget is None or rule.reserve is None or not isinstance(answer, Decided):

@@ -1,17 +1,16 @@
-"""Replication until decided: which alternatives need more replicates, and when none does.
+"""Replication until decided: sequential allocation of replicates, and stopping rule.
 
-At each look the rule compares its present choice with every other alternative. Let i* be the best
-feasible alternative. The decision is wrong only if i* was taken for infeasible, if the choice was
-wrongly taken for acceptable, or if i* was taken for worth no more than the choice by the margin.
-So only tests of i* and of the choice can err: α is *not* divided among all pairs, but among the
-alternatives that may become the choice. These are the rivals: the first replicates (the pilot) select
-them, and only later replicates are used to compare them; the rest of α is for all others. Every test
-is valid at any number of looks (`rgss.tradeoff.sequential.tests`), so that the rule may stop at any
-look, and may add no replicates to alternatives that are settled.
+At each look the rule compares its present choice with every other alternative. Let i* be the best feasible alternative.
+The decision is wrong only if i* was taken for infeasible, if the choice was wrongly taken for acceptable, or if i* was
+taken for worth no more than the choice by the margin. So only tests of i* and of the choice can err: α is *not* divided
+among all pairs, but among the alternatives that may become the choice. These are the rivals: the first replicates (the
+pilot) select them, and only later replicates are used to compare them; the rest of α is for all others. Every test is
+valid at any number of looks (`rgss.tradeoff.sequential.tests`), so that the rule may stop at any look, and may add no
+replicates to alternatives that are settled.
 
-An alternative within the margin of the choice is settled, as is one that is worth less. So alternatives
-that few trials separate, such as planning limits that seldom bind, are settled too: after n replicates
-without a difference two proportions differ by less than about ln(1/level)/n.
+An alternative within the margin of the choice is settled, as is one that is worth less. So alternatives that differ in
+few trials, such as by a planning limit that is seldom active, are settled too: after n replicates without a difference
+two proportions differ by less than about ln(1/level)/n.
 
 The guarantee is one of good selection with tolerances, as procedures for ranking and selection
 give (Kim and Nelson, "A fully sequential procedure for indifference-zone selection in simulation",

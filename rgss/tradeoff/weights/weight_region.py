@@ -48,19 +48,19 @@ class RegionKind(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class WeightRegion:
-    """The weights w for which no other alternative is worth more: (v_i - v_j) w >= 0 for every j.
+    """Weight region of an alternative: the weights w with (v_i - v_j) w >= 0 for every j.
 
     Attributes:
-        kind: Empty; without interior, so that it only ever ties; or open.
+        kind: Empty; without interior, so that it only ties; or open.
         centre: The centre of its largest ball (Chebyshev), shape (m,); None if it is empty.
-        radius: The radius of that ball: how far weights may be off the centre, as a Euclidean
-            distance, and the alternative still wins.
+        radius: The radius of that ball: greatest Euclidean distance from the centre at which the alternative certainly
+        wins.
         low: The least value of each weight in it, shape (m,); None if it is empty.
-        high: The largest value of each weight in it, shape (m,); None if it is empty.
+        high: The greatest value of each weight in it, shape (m,); None if it is empty.
         share: Its volume as a share of that of all admitted weights.
         share_error: The standard error of the share; 0 where it was computed from vertices.
-        share_by: Method by which the share was found.
-        vertices: Its corners, shape (v, m); None where they were not computed.
+        share_by: Method of the share.
+        vertices: Its vertices, shape (v, m); None if not computed.
     """
 
     kind: RegionKind
@@ -89,15 +89,15 @@ def winning_polytope(values: Array, row: int, weights: WeightSet, rivals: Array 
 
 
 def rivals_of(values: Array) -> Array | None:
-    """The alternatives that all others must be compared with.
+    """Non-dominated alternatives, with which all others must be compared.
 
-    What another dominates is never worth more than that one, whatever the weights.
+    A dominated alternative is never better than the dominating one, for any weights.
 
     Args:
         values: The single values of distinct alternatives, shape (n, m).
 
     Returns:
-        The values of those that none dominates; None of up to `ALL_RIVALS_TO`, where all count.
+        The values of the non-dominated ones; None for up to `ALL_RIVALS_TO` alternatives, of which all are compared.
     """
     return None if len(values) <= ALL_RIVALS_TO else np.asarray(values[nondominated(values)], dtype=np.float64)
 
@@ -116,19 +116,18 @@ def never_best(values: Array, rivals: Array | None) -> Mask:
 
 
 def shared_region_keys(values: Array, rivals: Array | None) -> tuple[bytes | None, ...]:
-    """Key of alternatives that can only tie: those with the same key win at the same weights.
+    """Keys of alternatives that can only tie: those with the same key win at the same weights.
 
-    Where a rival is equal in some measures and clearly better in all others, only weights that
-    leave these others out let the alternative draw level. Of such weights all that counts is which
-    measures have none, and the alternative's values in the rest. Ten thousand designs with few
-    different costs or success rates so have a handful of regions between them.
+    If a rival is equal in some measures and clearly better in all others, the alternative ties only at weights of 0 for
+    these others. Such a region is determined by the set of measures with weight 0 and the alternative's values in the
+    rest. Ten thousand designs with few distinct costs or success rates then have only a few regions.
 
     Args:
         values: The single values of distinct alternatives, shape (n, m).
-        rivals: What `rivals_of` gives for them; no statement if None.
+        rivals: Result of `rivals_of`; no keys if None.
 
     Returns:
-        A key for each alternative; None where none is known.
+        A key for each alternative; None if unknown.
     """
     lost = np.zeros(values.shape, dtype=np.bool_)
     for rival in () if rivals is None else rivals:

@@ -11,7 +11,7 @@ from rgss.trace.rules.rule import Rule
 
 
 def _found() -> tuple[Rule, ...]:
-    """Import the modules beside this one and collect their ``RULES``; a new module needs no entry elsewhere."""
+    """Import the other modules of this package and collect their ``RULES``, without a registry."""
     package, _, own = __name__.rpartition(".")
     names = sorted(module.name for module in pkgutil.iter_modules([str(Path(__file__).parent)]) if module.name != own)
     rules = [rule for name in names for rule in importlib.import_module(f"{package}.{name}").RULES]

@@ -14,10 +14,10 @@ from rgss.trace.sentences import Sentence, TermList, listed, phrases
 
 
 def _phrase_rule(*, flaw: str, hint: str, in_response: bool = False, **entry: Any) -> SentenceRule:
-    """Rule that is broken by each sentence with one of its terms.
+    """Rule violated by each sentence with one of its terms.
 
     Args:
-        flaw: What is wrong, behind "says" and the terms that were found.
+        flaw: The problem, as a text after "says" and the terms found.
         hint: How to resolve it.
         in_response: Look after 'shall' only.
         entry: The other attributes of the rule.

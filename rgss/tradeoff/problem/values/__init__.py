@@ -1,8 +1,7 @@
 """Value functions: linear, piecewise, exponential and target.
 
-Every function is anchored on quantities that are fixed beforehand (a requirement's threshold, a
-goal), never on the sample, so the value of one alternative does not change when another comes or
-goes, and no range of a sample is ever divided by.
+Every function is anchored on fixed quantities (a requirement's threshold, a goal), never on the sample, so that the
+value of an alternative does not depend on the others.
 """
 
 from typing import TYPE_CHECKING

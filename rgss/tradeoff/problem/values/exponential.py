@@ -24,7 +24,7 @@ STEEPEST_EXPONENT = 100.0
 
 
 class ExponentialKeys(DocumentModel):
-    """Keys of an exponential value in a study, beside ``worst`` and ``best``."""
+    """Keys of an exponential value in a study, in addition to ``worst`` and ``best``."""
 
     halfway: AnchorField | None = Field(default=None, description="The level that is worth one half.")
 
@@ -33,17 +33,16 @@ class ExponentialKeys(DocumentModel):
 class ExponentialValue(MonotoneValue):
     """Exponential value function: the gain grows or shrinks steadily from worst to best.
 
-    ``v(z) = (1 - exp(-ρ z)) / (1 - exp(-ρ))`` with ``z = (quantity - worst) / (best - worst)``, cut
-    to 0 and 1 outside of the anchors; ρ follows from the quantity that is worth one half, which
-    people can elicit (Kirkwood, *Strategic Decision Making*, 1997, section 4.3). A
-    quantity half-way in value that lies nearer to worst makes the function concave: the first
-    gains count most.
+    ``v(z) = (1 - exp(-ρ z)) / (1 - exp(-ρ))`` with ``z = (quantity - worst) / (best - worst)``, clipped to 0 and 1
+    outside the anchors; ρ follows from the quantity of value one half, which can be elicited (Kirkwood, *Strategic
+    Decision Making*, 1997, section 4.3). A quantity half-way in value that lies nearer to worst makes the function
+    concave: the first gains count most.
 
     Attributes:
-        halfway: The quantity worth 0.5, between them.
+        halfway: The quantity of value 0.5, between them.
 
     Raises:
-        TradeoffError: There is no range between worst and best, or halfway is not well inside it.
+        TradeoffError: Worst and best are equal, or halfway is not well between them.
     """
 
     halfway: float

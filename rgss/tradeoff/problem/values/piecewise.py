@@ -32,17 +32,17 @@ class PiecewiseKeys(DocumentModel):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PiecewiseValue(MonotoneValue):
-    """Value function that is linear, or piecewise linear, between two anchors.
+    """Linear or piecewise linear value function between two anchors.
 
-    More is better where ``best > worst``, less is better where ``best < worst``. Outside the
-    anchors the value is cut to 0 and 1.
+    More is better where ``best > worst``, less is better where ``best < worst``. Outside the anchors the value is
+    clipped to 0 and 1.
 
     Attributes:
-        interior: Further points (quantity, value) between worst and best, in that order; the
-            value is linear between neighbours and never falls towards best.
+        interior: Further points (quantity, value) between worst and best, in that order; the value is linear between
+        neighbours and non-decreasing towards best.
 
     Raises:
-        TradeoffError: There is no range between worst and best, or the points are out of order.
+        TradeoffError: Worst and best are equal, or the points are out of order.
     """
 
     interior: tuple[tuple[float, float], ...] = ()
@@ -79,10 +79,10 @@ class PiecewiseValue(MonotoneValue):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AnchoredPiecewise(AnchoredBetween):
-    """A linear value by its anchors; piecewise linear with points between.
+    """Linear value function with anchors; piecewise linear with points between.
 
     Attributes:
-        between: Points: quantities and what they are worth.
+        between: Points: quantities and their values.
     """
 
     required: ClassVar[tuple[str, ...]] = ("worst", "best")

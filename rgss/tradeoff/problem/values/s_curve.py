@@ -23,7 +23,7 @@ STEEPNESS = 10.0
 
 
 class SCurveKeys(DocumentModel):
-    """Keys of an S-shaped value in a study, beside ``worst`` and ``best``."""
+    """Keys of an S-shaped value in a study, in addition to ``worst`` and ``best``."""
 
     steepest: AnchorField | None = Field(default=None, description="The level at which a change counts most.")
 
@@ -32,15 +32,15 @@ class SCurveKeys(DocumentModel):
 class SCurveValue(MonotoneValue):
     """Logistic value function: small gains near both anchors, the greatest at the steepest quantity.
 
-    ``v(z) = (s(z) - s(0)) / (s(1) - s(0))`` with ``z = (quantity - worst) / (best - worst)``, cut to 0 and 1
-    outside of the anchors, ``s(z) = tanh(k (z - c) / 2)``, ``k = 10`` and ``c`` the share of the steepest quantity;
-    it has the form of the scoring functions of Wymore (*Model-Based Systems Engineering*, 1993).
+    ``v(z) = (s(z) - s(0)) / (s(1) - s(0))`` with ``z = (quantity - worst) / (best - worst)``, clipped to 0 and 1
+    outside the anchors, ``s(z) = tanh(k (z - c) / 2)``, ``k = 10`` and ``c`` the share of the steepest quantity; it has
+    the form of the scoring functions of Wymore (*Model-Based Systems Engineering*, 1993).
 
     Attributes:
-        steepest: The quantity between them at which a change counts most.
+        steepest: The quantity between them with the greatest slope.
 
     Raises:
-        TradeoffError: There is no range between worst and best, or steepest is not between them.
+        TradeoffError: Worst and best are equal, or steepest is not between them.
     """
 
     steepest: float

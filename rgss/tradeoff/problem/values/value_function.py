@@ -44,7 +44,7 @@ class ValueFunction(Protocol):
         ...
 
     def __hash__(self) -> int:
-        """Equal functions have equal hashes, so that what is computed of one is kept for the other."""
+        """Hash consistent with equality, for caches keyed by functions."""
         ...
 
     def value_at(self, quantity: float) -> float:
@@ -72,15 +72,15 @@ class ValueFunction(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MonotoneValue:
-    """Base of the value functions that only rise, or only fall, between two anchors.
+    """Base class of the monotone value functions between two anchors.
 
     Attributes:
-        measure: The measure that is valued.
-        worst: The quantity worth 0, in the measure's unit.
-        best: The quantity worth 1, in the measure's unit.
+        measure: The valued measure.
+        worst: The quantity of value 0, in the measure's unit.
+        best: The quantity of value 1, in the measure's unit.
 
     Raises:
-        TradeoffError: There is no range between worst and best.
+        TradeoffError: Worst and best are equal.
     """
 
     measure: str
