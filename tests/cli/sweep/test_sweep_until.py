@@ -16,14 +16,14 @@ from rgss.tradeoff.sequential import Forecast, Reason, SequentialRule
     ("arguments", "complaint"),
     [
         (["--cap", "40"], "--cap needs --until decided (--replicates is the fixed number of trials)"),
-        (["--until", "decided", "--only", "1"], "--until decided and --only exclude each other (leave --only away)"),
+        (["--until", "decided", "--only", "1"], "--until decided and --only exclude each other (omit --only)"),
         (
             ["--until", "decided", "--replicates", "4"],
-            "--until decided and --replicates exclude each other (leave --replicates away)",
+            "--until decided and --replicates exclude each other (omit --replicates)",
         ),
         (
             ["--until", "decided", "--dry-run"],
-            "--until decided and --dry-run exclude each other (leave --dry-run away)",
+            "--until decided and --dry-run exclude each other (omit --dry-run)",
         ),
     ],
 )
