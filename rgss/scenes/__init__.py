@@ -90,6 +90,7 @@ from rgss.scenes.shapes import (
     half_extents_m,
     least_height_m,
 )
-from rgss.scenes.urdf_chain import carried_by, chain_to, kind_of, loads_without_inertia, standing_links
+from rgss.scenes.urdf_chain import chain_to, kind_of, loads_without_inertia
 from rgss.scenes.urdf_file import number_problems
+from rgss.scenes.urdf_structure import carried_by, standing_links
 from rgss.scenes.waypoints import Waypoint, waypoint_poses

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location
 from rgss.scenes.robot import JointKind
-from rgss.scenes.urdf_inertia import MOMENTS, has_inertia, has_moments
+from rgss.scenes.urdf_structure import MOMENTS, carried_by, end_of, has_inertia, has_moments, standing_links
 
 Problem = tuple[str, Location, str]
 
@@ -50,14 +50,14 @@ def chain_to(root: ET.Element, flange: str) -> UrdfChain:
         root: The URDF.
         flange: The link's name.
     """
-    above = {_end(joint, "child"): joint for joint in root.findall("joint")}
+    above = {end_of(joint, "child"): joint for joint in root.findall("joint")}
     found: list[ET.Element] = []
     links: list[str] = []
     link = flange
     while link in above and link not in links:
         links.append(link)
         found.append(above[link])
-        link = _end(above[link], "parent")
+        link = end_of(above[link], "parent")
     return UrdfChain(joints=tuple(reversed(found)), links=tuple(reversed(links)))
 
 
@@ -83,7 +83,7 @@ def chain_problems(root: ET.Element, entry: RobotDocument) -> Iterable[Problem]:
     for index, name in enumerate(entry.without):
         if name not in links:
             yield f"has no link {name!r}", ("without", index), "name links of the URDF"
-        elif name in chain.links or name not in {_end(joint, "child") for joint in joints.values()}:
+        elif name in chain.links or name not in {end_of(joint, "child") for joint in joints.values()}:
             yield (
                 f"needs the link {name!r} to carry the flange",
                 ("without", index),
@@ -167,24 +167,10 @@ def loads_without_inertia(root: ET.Element) -> tuple[str, ...]:
     )
 
 
-def carried_by(root: ET.Element, names: Iterable[str]) -> set[str]:
-    """Links with all their descendants.
-
-    Args:
-        root: The URDF.
-        names: The links' names.
-    """
-    found = set(names)
-    joints = root.findall("joint")
-    while more := {_end(joint, "child") for joint in joints if _end(joint, "parent") in found} - found:
-        found |= more
-    return found
-
-
 def _remove(root: ET.Element, names: Iterable[str]) -> bool:
     gone = carried_by(root, names)
     for joint in root.findall("joint"):
-        if _end(joint, "child") in gone:
+        if end_of(joint, "child") in gone:
             root.remove(joint)
     for link in root.findall("link"):
         if link.get("name") in gone:
@@ -231,7 +217,7 @@ def _complete_inertials(root: ET.Element) -> bool:
     for link in root.findall("link"):
         if has_inertia(link):
             continue
-        if link.get("name") not in {_end(joint, "child") for joint in root.findall("joint")}:
+        if link.get("name") not in {end_of(joint, "child") for joint in root.findall("joint")}:
             for inertial in link.findall("inertial"):
                 link.remove(inertial)
                 changed = True
@@ -246,30 +232,10 @@ def _complete_inertials(root: ET.Element) -> bool:
     return changed
 
 
-def standing_links(root: ET.Element) -> set[str]:
-    """Links of a URDF that do not move: the base and all links fixed to it.
-
-    Args:
-        root: The URDF.
-    """
-    joints = root.findall("joint")
-    carried = {_end(joint, "child") for joint in joints}
-    standing = {link.get("name", "") for link in root.findall("link")} - carried
-    fixed = [(_end(joint, "parent"), _end(joint, "child")) for joint in joints if joint.get("type") == "fixed"]
-    while more := {child for parent, child in fixed if parent in standing} - standing:
-        standing |= more
-    return standing
-
-
 def _is_frame(root: ET.Element, link: ET.Element) -> bool:
     """True if a link is only a frame: without a collision shape, and fixed to its parent."""
-    mounts = [joint for joint in root.findall("joint") if _end(joint, "child") == link.get("name")]
+    mounts = [joint for joint in root.findall("joint") if end_of(joint, "child") == link.get("name")]
     return link.find("collision") is None and all(joint.get("type") == "fixed" for joint in mounts)
-
-
-def _end(joint: ET.Element, end: str) -> str:
-    found = joint.find(end)
-    return "" if found is None else found.get("link", "")
 
 
 def _triple(text: str) -> tuple[float, float, float]:

@@ -14,8 +14,9 @@ from rgss.findings import Finding, shown
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location
 from rgss.scenes.robot import JointKind, RobotFile
-from rgss.scenes.urdf_chain import carried_by, chain_problems, kind_of, loads_without_inertia, settle
+from rgss.scenes.urdf_chain import chain_problems, kind_of, loads_without_inertia, settle
 from rgss.scenes.urdf_meshes import embed_collision_meshes, files_of, without_meshes
+from rgss.scenes.urdf_structure import carried_by
 
 _LARGEST_BYTES = 1024 * 1024
 _DEEPEST_NESTING = 40

@@ -1,0 +1,79 @@
+"""Structure of a URDF: links that joints connect, that move together, that do not move, and that have an inertia.
+
+Separate from the reading of robot files: trials depend on it.
+"""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable
+
+MOMENTS = ("ixx", "iyy", "izz")
+
+
+def end_of(joint: ET.Element, end: str) -> str:
+    """Name of a link that a joint connects; empty if the joint does not state it.
+
+    Args:
+        joint: The joint's element.
+        end: `parent` or `child`.
+    """
+    found = joint.find(end)
+    return "" if found is None else found.get("link", "")
+
+
+def carried_by(root: ET.Element, names: Iterable[str]) -> set[str]:
+    """Links with all their descendants.
+
+    Args:
+        root: The URDF.
+        names: The links' names.
+    """
+    found = set(names)
+    joints = root.findall("joint")
+    while more := {end_of(joint, "child") for joint in joints if end_of(joint, "parent") in found} - found:
+        found |= more
+    return found
+
+
+def standing_links(root: ET.Element) -> set[str]:
+    """Links of a URDF that do not move: the base and all links fixed to it.
+
+    Args:
+        root: The URDF.
+    """
+    joints = root.findall("joint")
+    carried = {end_of(joint, "child") for joint in joints}
+    standing = {link.get("name", "") for link in root.findall("link")} - carried
+    fixed = [(end_of(joint, "parent"), end_of(joint, "child")) for joint in joints if joint.get("type") == "fixed"]
+    while more := {child for parent, child in fixed if parent in standing} - standing:
+        standing |= more
+    return standing
+
+
+def has_inertia(link: ET.Element) -> bool:
+    """Whether a link states a mass above zero, and an inertia.
+
+    Args:
+        link: The link.
+    """
+    mass = link.find("inertial/mass")
+    return mass is not None and not _is_zero(mass.get("value", "0")) and link.find("inertial/inertia") is not None
+
+
+def has_moments(link: ET.Element) -> bool:
+    """Whether a link states a moment of inertia that is not zero.
+
+    Args:
+        link: The link.
+    """
+    inertia = link.find("inertial/inertia")
+    return inertia is not None and not all(_is_zero(inertia.get(name, "0")) for name in MOMENTS)
+
+
+def _is_zero(text: str) -> bool:
+    """Whether a text is a number that is zero; what is no number is reported elsewhere."""
+    try:
+        return float(text or "0") == 0.0
+    except ValueError:
+        return False
