@@ -54,7 +54,7 @@ def test_the_table_has_the_references(rgss, quick):
     ("more", "expected"),
     [
         (["--only", "RTT"], "unknown planner 'RTT' (did you mean 'RRT'?"),
-        (["--only", "SST"], "planner SST cannot be run: it goes on to its limit"),
+        (["--only", "SST"], "planner SST cannot be run: it always runs to its limit"),
         (["--seeds", "0"], "--seeds must be from 1 to 10000 (omit it for the study's number)"),
     ],
 )

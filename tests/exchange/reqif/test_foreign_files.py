@@ -94,7 +94,7 @@ BREAKS = (
     ("<SOURCE>(.*?)</SOURCE>", r"<SOURCE><OBJECT>\1</OBJECT></SOURCE>"),
 )
 FOREIGN_WORDS = re.compile(r"NoneType|nsmap|attribute '|KeyError|Traceback|lxml|argument|object has|index out")
-OURS = re.compile("not there|not ReqIF that can be read: |has no content of ReqIF")
+OURS = re.compile("does not exist|not there|not ReqIF that can be read: |has no content of ReqIF")
 
 
 @pytest.mark.parametrize(("pattern", "new"), BREAKS)
