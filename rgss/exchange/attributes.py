@@ -54,6 +54,8 @@ class Form(str, Enum):
     """``rule: reason``, separated by semicolons."""
     DETAIL = "detail"
     """A flow, an interaction or a state machine, as JSON."""
+    DETAILS = "details"
+    """Values, ports or connectors of a block, as a JSON list."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,6 +103,10 @@ def _detail(name: str) -> Attribute:
     return Attribute(name=name, path=(name,), form=Form.DETAIL)
 
 
+def _details(name: str) -> Attribute:
+    return Attribute(name=name, path=(name,), form=Form.DETAILS)
+
+
 _EXEMPT = Attribute(name="exempt", path=("exempt",), form=Form.EXEMPTIONS)
 _PARENT = _line("parent", link=LinkKind.CONTAINMENT)
 _STATE = (_choice("priority", Priority), _choice("status", Status), _line("owner"), _EXEMPT)
@@ -145,6 +151,10 @@ ATTRIBUTES: Mapping[Part, tuple[Attribute, ...]] = MappingProxyType(
             _choice("relation", BlockRelation),
             _prose("text"),
             Attribute(name="actor", path=("actor",), form=Form.FLAG),
+            _line("multiplicity"),
+            _details("values"),
+            _details("ports"),
+            _details("connectors"),
             _EXEMPT,
         ),
         Part.BEHAVIOUR: (

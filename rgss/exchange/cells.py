@@ -76,7 +76,7 @@ def _cell(attribute: Attribute, value: Any) -> str:
         return joined(list(dict.fromkeys(value)))
     if attribute.form is Form.EXEMPTIONS:
         return "; ".join(f"{item['rule']}: {_escaped(item['reason'])}" for item in value)
-    if attribute.form is Form.DETAIL:
+    if attribute.form in (Form.DETAIL, Form.DETAILS):
         return canonical_json(value)
     return "true" if value is True else str(value)
 
@@ -90,7 +90,9 @@ def _value(attribute: Attribute, cell: str) -> Any:
     if attribute.form is Form.EXEMPTIONS:
         return [_exemption(item) for item in _divided(text)]
     if attribute.form is Form.DETAIL:
-        return _detail(text)
+        return _json(text, dict, "a JSON object is expected")
+    if attribute.form is Form.DETAILS:
+        return _json(text, list, "a JSON list is expected")
     if attribute.form is Form.FLAG:
         if text.lower() not in ("true", "false"):
             raise CellError("true or false is expected")
@@ -102,13 +104,13 @@ def _value(attribute: Attribute, cell: str) -> Any:
     return text
 
 
-def _detail(text: str) -> Any:
+def _json(text: str, kind: type, expected: str) -> Any:
     try:
         value = json.loads(text)
     except (ValueError, RecursionError):
         raise CellError("JSON is expected") from None
-    if not isinstance(value, dict):
-        raise CellError("a JSON object is expected")
+    if not isinstance(value, kind):
+        raise CellError(expected)
     return value
 
 

@@ -37,6 +37,7 @@ def test_ids_are_set_apart_by_semicolons():
         (Part.BEHAVIOUR, "flow", "{", "JSON is expected"),
         (Part.BEHAVIOUR, "flow", "[" * 100_000, "JSON is expected"),
         (Part.BEHAVIOUR, "flow", "[]", "a JSON object is expected"),
+        (Part.BLOCK, "ports", "{}", "a JSON list is expected"),
         (Part.SYSTEM, "exempt", "wording.R1", "each entry is 'rule: reason'"),
     ],
 )

@@ -80,7 +80,7 @@ def relation_name(long: str) -> str | None:
 
 def is_string(attribute: Attribute) -> bool:
     """True if an attribute is a plain string in ReqIF, without line breaks."""
-    return attribute.form is Form.DETAIL or attribute.name in ("id", "threshold")
+    return attribute.form in (Form.DETAIL, Form.DETAILS) or attribute.name in ("id", "threshold")
 
 
 def is_relation(attribute: Attribute) -> bool:
