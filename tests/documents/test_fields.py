@@ -71,7 +71,7 @@ def test_the_unit_of_a_joints_quantity_says_whether_it_turns_or_slides(name, cas
         (pytest.approx(value), linear) for (_, value), linear in zip(cases, (False, True), strict=True)
     ]
     assert refusal(name, "3 kg")["type"] == "quantity"
-    assert "or of a joint that slides in" in adapter(name).json_schema()["description"]
+    assert "for a prismatic joint" in adapter(name).json_schema()["description"]
 
 
 @pytest.mark.parametrize(("name", "text", "value"), [(name, *case) for name, case in QUANTITIES.items()])
