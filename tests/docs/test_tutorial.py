@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import re
@@ -134,8 +135,10 @@ class Reader:
             path.write_text(changed(text, step.text), encoding="utf-8")
 
 
-def verdicts(table: list[str]) -> dict[str, dict[str, str]]:
-    """What `rgss measure` prints: each variant's cells by the head of their columns."""
+def verdicts(page: list[str]) -> dict[str, dict[str, str]]:
+    """What `rgss measure` prints below the counts of verdicts: each variant's cells by the head of their columns."""
+    begin = next(number for number, line in enumerate(page) if re.match(r"\s*variant {2,}", line))
+    table = itertools.takewhile(str.strip, page[begin:])
     head, _, *rows = ([cell.strip() for cell in re.split(r" {2,}", line.strip())] for line in table)
     return {row[0]: dict(zip(head, row, strict=True)) for row in rows}
 
