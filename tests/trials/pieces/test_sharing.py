@@ -89,7 +89,7 @@ def test_another_process_gives_the_same_bits(replicate, project):
 def test_a_limit_beyond_the_search_is_refused(replicate):
     spec = replace(replicate.specs[65], planning_limit_s=8.5)
 
-    with pytest.raises(DefinitionError, match=r"the planning limit of 8.5 s exceeds the search of 8 s \(let the"):
+    with pytest.raises(DefinitionError, match=r"the planning limit of 8.5 s exceeds the search of 8 s \(set the"):
         Pieces().record(spec)
 
 
