@@ -61,7 +61,7 @@ class Placed:
 
 CASES = {
     "beside its place": ({"at": "counter_end"}, {"aside_m": 0.0501}, "cup is 50.1 mm from counter_end, at most "),
-    "leaning": ({"is_upright": True}, {"tilt_rad": 0.5}, "cup leans by 28.6 deg"),
+    "leaning": ({"is_upright": True}, {"tilt_rad": 0.5}, "cup is tilted by 28.6 deg"),
     "moving": ({"is_at_rest": True}, {}, "cup has moved by 30.00 mm in "),
     "not held": ({"held": True}, {"touching": 1}, "1 of 2 fingers touch cup"),
     "still held": ({"held": False}, {"touching": 2}, "2 of 2 fingers touch cup"),
