@@ -75,7 +75,7 @@ class TrialReplays:
         with self._making:
             try:
                 made.set_result(replay_page(project, variant, seed))
-            except Exception as error:
+            except Exception as error:  # every failure is the answer to whoever waits for the page
                 made.set_exception(error)
 
 
