@@ -15,7 +15,7 @@ TERMS = (
     ("run 'rgss sweep' with at least", "load_study(..., replicates=N).sweep() with at least"),
     ("change the catalogue and run 'rgss sweep'", "change the catalogue and call sweep()"),
     ("see what failed with 'rgss sweep', then run it again", "see what failed, then call sweep() again"),
-    ("'rgss variants' lists all of them", "study.variants lists all of them"),
+    ("run 'rgss variants' to list them", "study.variants lists them"),
     ("--what-if:", "what_if:"),
 )
 """Phrases of the command line and their replacements, applied in order."""

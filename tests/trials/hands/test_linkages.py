@@ -124,5 +124,5 @@ def test_loads_are_the_masses_of_the_links(tmp_path):
 
 
 def test_mujoco_has_no_linkages(spec_of, tmp_path):
-    with pytest.raises(DefinitionError, match="fingers that slide alone, gripper 'two-finger' has a linkage"):
+    with pytest.raises(DefinitionError, match="supports only sliding fingers, gripper 'two-finger' has a linkage"):
         open_world(spec_of().scene, gripper_of(tmp_path, "linkage"), mujoco_settings())
