@@ -14,6 +14,7 @@ from rgss.cli.pictures.progress import film_progress
 from rgss.cli.pictures.replays import add_replay, check_replay, write_replay
 from rgss.engines import require_engines
 from rgss.errors import DefinitionError
+from rgss.reports.replay import REPLAY_SUFFIXES, require_viewer_package
 
 if TYPE_CHECKING:
     from rgss.evidence import TrialRecord
@@ -29,7 +30,7 @@ SUFFIXES = {
     "gif": (".gif",),
     "filmstrip": (".png",),
     "plots": (".png",),
-    "replay": (".html",),
+    "replay": REPLAY_SUFFIXES,
 }
 _DRAWN = ("film", "gif", "filmstrip")
 _PLAYED = ("film", "gif")
@@ -94,6 +95,8 @@ def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
         return None
     require_engines("a picture of a trial", pictures=True)
     _check_files(files)
+    if "replay" in files:
+        require_viewer_package(files["replay"])
     width, height = picture_size(options.size or _SIZE)
     main, plus, inset = (options.camera or _CAMERA).partition("+")
     return PictureOrder(

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rgss.errors import DefinitionError
+from rgss.reports.replay import PAGE_SUFFIX
 
 if TYPE_CHECKING:
     from rgss.reports.replay import PackedReplay
@@ -18,7 +19,10 @@ if TYPE_CHECKING:
 def add_replay(parser: argparse._ArgumentGroup) -> None:
     """Add the options for a replay."""
     parser.add_argument(
-        "--replay", type=Path, metavar="FILE", help="write a page that replays the trial in three dimensions"
+        "--replay",
+        type=Path,
+        metavar="FILE",
+        help="write a replay of the trial in three dimensions: a page (.html), or a file for Foxglove (.mcap)",
     )
     parser.add_argument(
         "--beside", type=int, metavar="ID", help="replay this variant with the same seed too, as a ghost or beside it"
@@ -26,7 +30,7 @@ def add_replay(parser: argparse._ArgumentGroup) -> None:
 
 
 def check_replay(options: argparse.Namespace) -> None:
-    """Check that ``--beside`` names another variant and comes with ``--replay``.
+    """Check that ``--beside`` names another variant and comes with ``--replay`` of a page.
 
     Raises:
         DefinitionError: It does not.
@@ -35,6 +39,10 @@ def check_replay(options: argparse.Namespace) -> None:
         return
     if options.replay is None:
         raise DefinitionError("--beside needs a replay", hint="add --replay FILE.html")
+    if options.replay.suffix.lower() != PAGE_SUFFIX:
+        raise DefinitionError(
+            f"--beside needs a page, got --replay {options.replay}", hint="a .html file shows two trials, others one"
+        )
     if options.beside == options.variant:
         raise DefinitionError(f"--beside must be another variant than {options.variant}", hint="give its id")
 
@@ -73,7 +81,7 @@ def packed_trial(replayed: ReplayedTrial, spec: TrialSpec) -> PackedReplay | Non
 
 
 def write_replay(path: Path, replayed: ReplayedTrial, spec: TrialSpec, other: TrialSpec | None) -> None:
-    """Write the page; a second trial in which nothing moved is left out.
+    """Write the page or the file of another viewer; a second trial in which nothing moved is left out.
 
     Args:
         path: The file.
@@ -86,10 +94,17 @@ def write_replay(path: Path, replayed: ReplayedTrial, spec: TrialSpec, other: Tr
         SimulationError: The physics engine cannot build the world of the second trial.
     """
     from rgss.documents import replaced_file
-    from rgss.reports.replay import replay_to_html
+    from rgss.reports.replay import replay_to_html, replay_to_viewer_file
     from rgss.sweep import compute
     from rgss.trials.replay import run_replayed_trial
 
+    suffix = path.suffix.lower()
+    if suffix != PAGE_SUFFIX and replayed.trace is not None and replayed.scene is not None:
+        joints = spec.scene.robot.joints
+        content = replay_to_viewer_file(suffix, replayed.record, replayed.trace, replayed.scene, joints=joints)
+        with replaced_file(path) as part:
+            part.write_bytes(content)
+        return
     packed = [packed_trial(replayed, spec)]
     if other is not None:
         packed.append(packed_trial(compute(run_replayed_trial, other), other))

@@ -12,8 +12,14 @@ from rgss.evidence.records import TrialTrace
 from rgss.reports.replay.gltf_scene import replay_to_glb
 from rgss.reports.replay.replay_page import PackedReplay
 from rgss.reports.replay.timeline import timeline_of
+from rgss.reports.replay.timeline_json import timeline_to_json
 from rgss.scenes import Joint
 from rgss.trials.replay import ReplayScene
+
+
+def replay_title(record: TrialRecord) -> str:
+    """Title of a trial's replay: its variant and its seed."""
+    return f"Variant {record.variant}, seed {record.seed}"
 
 
 def packed_replay(
@@ -27,8 +33,8 @@ def packed_replay(
         scene: The scene of its replay.
         joints: The joints of the arm.
     """
-    title = f"Variant {record.variant}, seed {record.seed}"
-    timeline = timeline_of(record, trace, scene, joints=joints, title=title)
+    title = replay_title(record)
+    timeline = timeline_to_json(timeline_of(record, trace, scene, joints=joints, title=title), scene)
     return PackedReplay(
         title=title,
         model=_packed(replay_to_glb(scene, title=title)),

@@ -1,10 +1,9 @@
-"""Timeline of a replay: phases, plots and contact forces as plain data for the page."""
+"""Timeline of a replay: phases and plotted quantities over time, for every viewer."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,14 +14,109 @@ from rgss.reports.trials import words
 from rgss.scenes import Joint, JointKind
 from rgss.trials.replay import ReplayScene
 
-_DIGITS = 5
-"""Significant digits of plotted values."""
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TimelinePhase:
+    """Phase of a trial.
+
+    Attributes:
+        key: Its name in the record.
+        name: Its name in words.
+        outcome: Its outcome.
+        start_s: Its start; None if nothing moved in it.
+        end_s: Its end; None if nothing moved in it.
+    """
+
+    key: str
+    name: str
+    outcome: PhaseOutcome
+    start_s: float | None
+    end_s: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Series:
+    """Plotted quantity over time.
+
+    Attributes:
+        name: Its name in words.
+        unit: Its unit: rad, m, rad/s, m/s, N, or 1.
+        values: Its values, shape (n,); NaN where it is unknown.
+        is_commanded: True if it is a command and not a measured value.
+    """
+
+    name: str
+    unit: str
+    values: NDArray[np.float64]
+    is_commanded: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Limit:
+    """Constant limit of a plotted quantity.
+
+    Attributes:
+        name: Its name in words.
+        value: Its value, in the unit of the series.
+    """
+
+    name: str
+    value: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Plot:
+    """Plot of one quantity.
+
+    Attributes:
+        title: Name of the quantity.
+        series: Its series.
+        limit: Its limit; None if there is none.
+    """
+
+    title: str
+    series: tuple[Series, ...]
+    limit: Limit | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Timeline:
+    """Timeline of a trial; n samples in simulated time without planning, SI units.
+
+    Attributes:
+        title: Title of the trial.
+        outcome: Its outcome in one sentence.
+        success: True if it succeeded.
+        time_s: Times of the samples, shape (n,).
+        phases: Its phases in order.
+        joint_names: Names of the joints in the robot's file, in the order of their series.
+        joint_positions: Positions of the joints.
+        joint_speeds: Speeds of the joints: second-order differences of the trace's positions.
+        quantities: Tool speed, finger forces and grip margin.
+        greatest_force_n: Greatest force of a finger on the object, normal and friction; 0 without contact.
+    """
+
+    title: str
+    outcome: str
+    success: bool
+    time_s: NDArray[np.float64]
+    phases: tuple[TimelinePhase, ...]
+    joint_names: tuple[str, ...]
+    joint_positions: Plot
+    joint_speeds: Plot
+    quantities: tuple[Plot, ...]
+    greatest_force_n: float
+
+    @property
+    def end_s(self) -> float:
+        """End of the last phase that moved, at or after the last sample."""
+        return max([float(self.time_s[-1]), *(phase.end_s for phase in self.phases if phase.end_s is not None)])
 
 
 def timeline_of(
     record: TrialRecord, trace: TrialTrace, scene: ReplayScene, *, joints: Sequence[Joint], title: str
-) -> dict[str, Any]:
-    """Timeline that a replay's page shows beside the scene, as plain data for JSON; unknown values are None.
+) -> Timeline:
+    """Timeline of a trial at the samples of its replay.
 
     Args:
         record: The trial.
@@ -31,23 +125,22 @@ def timeline_of(
         joints: The joints of the arm.
         title: Title of the trial.
     """
-    return {
-        "title": title,
-        "outcome": _outcome(record),
-        "success": record.success,
-        "start_s": float(scene.time_s[0]),
-        "end_s": float(scene.time_s[-1]),
-        "time_s": [round(time, 6) for time in scene.time_s.tolist()],
-        "phases": _phases(record, trace),
-        "plots": _plots(trace, scene, joints),
-        "contacts": [{"points_m": _rows(one.points_m), "forces_n": _rows(one.forces_n)} for one in scene.contacts],
-        "greatest_force_n": _greatest([one.forces_n for one in scene.contacts]),
-        "perceived": {
-            "distance_mm": round(1e3 * scene.perceived.distance_m, 2),
-            "angle_deg": round(math.degrees(scene.perceived.angle_rad), 2),
-        },
-        "middle_m": list(scene.middle_m),
-    }
+    # The first trace sample of each interval of the replay, but the worst force and margin of the interval.
+    starts = np.unique(np.clip(np.searchsorted(trace.time_s, scene.time_s - 1e-9), 0, len(trace.time_s) - 1))
+    if len(starts) != len(scene.time_s):
+        raise AssertionError("checked before: a replay is sampled no more often than its trace")
+    return Timeline(
+        title=title,
+        outcome=_outcome(record),
+        success=record.success,
+        time_s=scene.time_s,
+        phases=_phases(record, trace),
+        joint_names=tuple(joint.name for joint in joints),
+        joint_positions=_joint_plot("Joint positions", joints, trace.joint_positions_rad[starts], per=""),
+        joint_speeds=_joint_plot("Joint speeds", joints, _speeds(trace)[starts], per="/s"),
+        quantities=_quantities(trace, starts),
+        greatest_force_n=_greatest([one.forces_n for one in scene.contacts]),
+    )
 
 
 def _outcome(record: TrialRecord) -> str:
@@ -57,72 +150,57 @@ def _outcome(record: TrialRecord) -> str:
     return f"Failed at {words(record.failed_phase)}, {words(record.failure.value)}{detail}."
 
 
-def _phases(record: TrialRecord, trace: TrialTrace) -> list[dict[str, Any]]:
-    """The phases in order; those without motion have no times."""
+def _phases(record: TrialRecord, trace: TrialTrace) -> tuple[TimelinePhase, ...]:
     spans = {span.phase: span for span in trace.spans}
-    return [
-        {
-            "name": words(phase.phase),
-            "outcome": words(phase.outcome.value),
-            "failed": phase.outcome is PhaseOutcome.FAILED,
-            "start_s": spans[phase.phase].start_s if phase.phase in spans else None,
-            "end_s": spans[phase.phase].end_s if phase.phase in spans else None,
-            "key": phase.phase,
-        }
+    return tuple(
+        TimelinePhase(
+            key=phase.phase,
+            name=words(phase.phase),
+            outcome=phase.outcome,
+            start_s=spans[phase.phase].start_s if phase.phase in spans else None,
+            end_s=spans[phase.phase].end_s if phase.phase in spans else None,
+        )
         for phase in record.phases
-    ]
+    )
 
 
-def _plots(trace: TrialTrace, scene: ReplayScene, joints: Sequence[Joint]) -> list[dict[str, Any]]:
-    # The first trace sample of each interval of the replay, but the worst force and margin of the interval.
-    starts = np.unique(np.clip(np.searchsorted(trace.time_s, scene.time_s - 1e-9), 0, len(trace.time_s) - 1))
-    if len(starts) != len(scene.time_s):
-        raise AssertionError("checked before: a replay is sampled no more often than its trace")
-    angles = [
-        {"name": words(joint.name.removesuffix("_joint")), "values": _numbers(_joint(trace, place, joint)[starts])}
-        for place, joint in enumerate(joints)
-    ]
-    sliding = any(joint.kind is JointKind.PRISMATIC for joint in joints)
+def _joint_plot(title: str, joints: Sequence[Joint], columns: NDArray[np.float64], *, per: str) -> Plot:
+    return Plot(
+        title=title,
+        series=tuple(
+            Series(
+                name=words(joint.name.removesuffix("_joint")),
+                unit=("m" if joint.kind is JointKind.PRISMATIC else "rad") + per,
+                values=columns[:, place],
+            )
+            for place, joint in enumerate(joints)
+        ),
+    )
+
+
+def _speeds(trace: TrialTrace) -> NDArray[np.float64]:
+    """Speeds of the joints, shape (n, joints); unknown with a single sample."""
+    if len(trace.time_s) == 1:
+        return np.full_like(trace.joint_positions_rad, np.nan)
+    speeds: NDArray[np.float64] = np.gradient(trace.joint_positions_rad, trace.time_s, axis=0)
+    return speeds
+
+
+def _quantities(trace: TrialTrace, starts: NDArray[np.intp]) -> tuple[Plot, ...]:
     forces = [
-        {"name": f"finger {finger + 1}", "values": _numbers(np.maximum.reduceat(column, starts))}
+        Series(name=f"finger {finger + 1}", unit="N", values=np.maximum.reduceat(column, starts))
         for finger, column in enumerate(trace.finger_forces_n.T)
     ]
-    commanded = {"name": "commanded", "values": _numbers(trace.commanded_force_n[starts]), "dashed": True}
-    margin = {"name": "grip margin", "values": _numbers(np.fmin.reduceat(trace.grip_margin, starts))}
-    speed = {"name": "tool speed", "values": _numbers(trace.tool_speed_m_s[starts])}
-    return [
-        {"title": "Joint positions", "unit": "° or mm" if sliding else "°", "series": angles, "limit": None},
-        {
-            "title": "Tool speed",
-            "unit": "m/s",
-            "series": [speed],
-            "limit": {"name": "limit", "value": trace.tool_speed_limit_m_s},
-        },
-        {"title": "Finger forces", "unit": "N", "series": [*forces, commanded], "limit": None},
-        {"title": "Grip margin", "unit": "1", "series": [margin], "limit": {"name": "slips below", "value": 1.0}},
-    ]
-
-
-def _joint(trace: TrialTrace, place: int, joint: Joint) -> NDArray[np.float64]:
-    """Positions of a joint: degrees, or millimetres of a prismatic one."""
-    factor = 1e3 if joint.kind is JointKind.PRISMATIC else math.degrees(1.0)
-    positions: NDArray[np.float64] = factor * trace.joint_positions_rad[:, place]
-    return positions
+    commanded = Series(name="commanded", unit="N", values=trace.commanded_force_n[starts], is_commanded=True)
+    margin = Series(name="grip margin", unit="1", values=np.fmin.reduceat(trace.grip_margin, starts))
+    speed = Series(name="tool speed", unit="m/s", values=trace.tool_speed_m_s[starts])
+    return (
+        Plot(title="Tool speed", series=(speed,), limit=Limit(name="limit", value=trace.tool_speed_limit_m_s)),
+        Plot(title="Finger forces", series=(*forces, commanded)),
+        Plot(title="Grip margin", series=(margin,), limit=Limit(name="slips below", value=1.0)),
+    )
 
 
 def _greatest(forces: Sequence[NDArray[np.float64]]) -> float:
-    """Greatest magnitude of the forces; 0 if there are none."""
     known = [np.linalg.norm(rows[np.isfinite(rows[:, 0])], axis=1) for rows in forces]
-    return _number(max((float(rows.max(initial=0.0)) for rows in known), default=0.0)) or 0.0
-
-
-def _rows(rows: NDArray[np.float64]) -> list[list[float | None] | None]:
-    return [_numbers(row) if math.isfinite(row[0]) else None for row in rows]
-
-
-def _numbers(values: NDArray[np.float64]) -> list[float | None]:
-    return [_number(value) for value in values.tolist()]
-
-
-def _number(value: float) -> float | None:
-    return float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else None
+    return max((float(rows.max(initial=0.0)) for rows in known), default=0.0)

@@ -5,17 +5,20 @@ from __future__ import annotations
 import base64
 import gzip
 import json
+import math
 import re
 from pathlib import Path
 from types import SimpleNamespace
 
 import av
 import pytest
+from mcap.reader import make_reader
 from PIL import Image
 
 from rgss.cli.main import main
 from rgss.cli.pictures.options import captioned, made_pictures
 from rgss.evidence import Failure
+from rgss.studies import load_project
 from rgss.trials.replay import ReplayedTrial
 from tests.fixtures.eight_states import Phase
 
@@ -98,6 +101,28 @@ def test_a_replay_of_two_trials(capsys, tmp_path, monkeypatch):
 
 
 @pytest.mark.engine
+def test_a_replay_for_another_viewer_ends_where_the_object_was_placed(capsys, tmp_path):
+    path = tmp_path / "trial.mcap"
+    assert main([*RUN, "--json", "--replay", str(path)]) == 0
+    record = json.loads(capsys.readouterr().out)
+    messages = {}
+    with path.open("rb") as file:
+        for _, channel, message in make_reader(file).iter_messages():
+            messages.setdefault(channel.topic, []).append((message.log_time, json.loads(message.data)))
+    place = load_project(REPOSITORY, "studies/nominal_world.yaml").scene.place_pose.position_m
+    time_ns, last = messages["/object_pose"][-1]
+
+    offset = [last["pose"]["position"][axis] - place[index] for index, axis in enumerate("xy")]
+    assert math.hypot(*offset) == pytest.approx(record["metrics"]["place_error_m"], abs=1e-6)
+    assert time_ns == pytest.approx(1e9 * record["metrics"]["motion_time_s"], abs=0.02e9)
+    assert [one["phase"].replace(" ", "_") for _, one in messages["/phase"]] == [
+        one["phase"] for one in record["phases"]
+    ]
+    assert messages["/log"][-1][1]["message"] == "Done: every phase is complete."
+    assert 0.2e6 < path.stat().st_size < 3e6
+
+
+@pytest.mark.engine
 def test_a_file_that_cannot_be_written_after_all(capsys, tmp_path, monkeypatch):
     folder = tmp_path / "folder"
     folder.mkdir()
@@ -159,7 +184,7 @@ class TestRefusals:
             ("gif", "film.mp4", ".gif"),
             ("filmstrip", "strip.jpg", ".png"),
             ("plots", "plots", ".png"),
-            ("replay", "trial.glb", ".html"),
+            ("replay", "trial.glb", ".html or .mcap"),
         ],
     )
     def test_another_kind_of_file(self, capsys, tmp_path, option, name, suffix):
@@ -173,6 +198,10 @@ class TestRefusals:
         [
             (["--beside", "28"], "--beside needs a replay (add --replay FILE.html)"),
             (["--beside", "65", "--replay", "x.html"], "--beside must be another variant than 65 (give its id)"),
+            (
+                ["--beside", "28", "--replay", "x.mcap"],
+                "--beside needs a page, got --replay x.mcap (a .html file shows two trials, others one)",
+            ),
         ],
     )
     def test_nothing_to_be_beside(self, capsys, options, said):
@@ -265,6 +294,27 @@ class TestRefusals:
 
         told = refused(capsys, "--gif", str(tmp_path / "a.gif"))
         assert told == f"a picture of a trial needs the simulation engines, of which {line}"
+
+    @pytest.mark.parametrize(("suffix", "package", "extra"), [(".mcap", "mcap", "mcap")])
+    def test_the_package_of_another_viewer_that_is_missing(self, capsys, tmp_path, monkeypatch, suffix, package, extra):
+        monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == extra else object())
+        line = refused(capsys, "--replay", str(tmp_path / f"trial{suffix.upper()}"))
+
+        assert line == (
+            f"a {suffix} file needs the package {package}, which is not installed "
+            f"(pip install 'rgss[{extra}]', or name a .html file)"
+        )
+
+    @pytest.mark.parametrize("name", ["trial.html", "trial.mcap"])
+    def test_a_replay_replaces_no_source_of_the_project(self, capsys, tmp_path, name):
+        source = REPOSITORY / "requirements" / "measures.yaml"
+        path = tmp_path / name
+        path.symlink_to(source)
+        before = source.read_bytes()
+        line = refused(capsys, "--replay", str(path))
+
+        assert line.startswith("requirements/measures.yaml is a source of the project and is not overwritten")
+        assert source.read_bytes() == before
 
     @pytest.mark.parametrize("fidelity", ["kinematic", "dynamic"])
     def test_fidelities_that_have_nothing_to_show(self, capsys, tmp_path, fidelity):

@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 
 from rgss.reports.replay.timeline import timeline_of
+from rgss.reports.replay.timeline_json import timeline_to_json
 from tests.fixtures.made_replay import JOINTS, made_record, made_scene, made_trace
 
 
 @pytest.fixture(scope="module")
 def timeline():
-    return timeline_of(made_record(), made_trace(), made_scene(), joints=JOINTS, title="Variant 5")
+    made = timeline_of(made_record(), made_trace(), made_scene(), joints=JOINTS, title="Variant 5")
+    return timeline_to_json(made, made_scene())
 
 
 def series(timeline, title):
@@ -66,6 +68,7 @@ def test_a_trial_without_contact_has_no_force():
     scene = made_scene()
     for one in scene.contacts:
         one.points_m[:] = one.forces_n[:] = np.nan
-    found = timeline_of(made_record(fails=False), made_trace(), scene, joints=JOINTS, title="")
+    made = timeline_of(made_record(fails=False), made_trace(), scene, joints=JOINTS, title="")
+    found = timeline_to_json(made, scene)
     assert found["greatest_force_n"] == 0.0
     assert found["outcome"] == "Done: every phase is complete."

@@ -1,0 +1,205 @@
+"""Channels of the three-dimensional scene: transforms, shapes, planned paths, contact forces, poses of the object."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from rgss.physics import SeenSolid
+from rgss.reports.replay.foxglove.channels import Channel, published_schema
+from rgss.reports.replay.foxglove.primitives import (
+    colour,
+    entity,
+    points,
+    pose,
+    quaternion,
+    rotation_from_x,
+    scene_update,
+    timestamp,
+    vector,
+)
+from rgss.reports.replay.timeline import Timeline
+from rgss.reports.replay.viewer_names import LONGEST_ARROW_M, WORLD, frame_of
+from rgss.trials.replay import ContactForce, Line, LineKind, NodeKind, NodeTrack, ReplayScene
+
+START_S = 0.0
+"""Time of what never changes: the start of the trial."""
+
+_LINE_COLOURS = {LineKind.PATH: (0.15, 0.64, 0.85, 1.0), LineKind.GRAPH: (0.77, 0.80, 0.84, 0.6)}
+_ARROW_COLOUR = (0.84, 0.15, 0.16, 1.0)
+_SHAFT_M, _HEAD_M = 0.006, 0.016
+_LINE_STRIP, _LINE_LIST = 0, 2
+_LINE_PIXELS = 2.0
+
+
+def scene_channels(timeline: Timeline, scene: ReplayScene) -> tuple[Channel, ...]:
+    """Channels of the scene.
+
+    Everything that does not change is published once, on topics of its own, so that a viewer that seeks finds it.
+
+    Args:
+        timeline: The timeline.
+        scene: The scene of the replay.
+    """
+    perceived = [track for track in scene.nodes if track.kind is NodeKind.PERCEIVED]
+    bodies = [track for track in scene.nodes if track.kind is not NodeKind.PERCEIVED]
+    fixed = {
+        "/scene": [_body(track) for track in bodies],
+        "/perceived": [_body(track) for track in perceived],
+        "/planned_paths": [_line(line) for line in scene.lines if line.kind is LineKind.PATH],
+        "/search_graphs": [_line(line) for line in scene.lines if line.kind is LineKind.GRAPH],
+    }
+    updates = published_schema("SceneUpdate")
+    return (
+        *_transform_channels(scene),
+        *(
+            Channel(topic=topic, schema=updates, messages=[(START_S, scene_update(entities))])
+            for topic, entities in fixed.items()
+        ),
+        Channel(topic="/contact_forces", schema=updates, messages=_forces(timeline, scene)),
+        *_object_channels(scene, perceived, bodies),
+    )
+
+
+def _transform_channels(scene: ReplayScene) -> tuple[Channel, ...]:
+    schema = published_schema("FrameTransforms")
+    moving = [track for track in scene.nodes if len(track.positions_m) > 1]
+    still = [track for track in scene.nodes if len(track.positions_m) == 1]
+    times = scene.time_s.tolist()
+    return (
+        Channel(topic="/tf_static", schema=schema, messages=[(START_S, _transforms(still, 0, START_S))]),
+        Channel(
+            topic="/tf",
+            schema=schema,
+            messages=[(time_s, _transforms(moving, sample, time_s)) for sample, time_s in enumerate(times)],
+        ),
+    )
+
+
+def _transforms(tracks: Iterable[NodeTrack], sample: int, time_s: float) -> dict[str, Any]:
+    return {
+        "transforms": [
+            {
+                "timestamp": timestamp(time_s),
+                "parent_frame_id": WORLD,
+                "child_frame_id": frame_of(track),
+                "translation": vector(track.positions_m[sample].tolist()),
+                "rotation": quaternion(track.quaternions_xyzw[sample].tolist()),
+            }
+            for track in tracks
+        ]
+    }
+
+
+def _body(track: NodeTrack) -> dict[str, Any]:
+    return entity(
+        frame_of(track),
+        frame=frame_of(track),
+        time_s=START_S,
+        metadata={"kind": track.kind.value},
+        triangles=[_triangles(solid) for solid in track.solids],
+    )
+
+
+def _triangles(solid: SeenSolid) -> dict[str, Any]:
+    return {
+        "pose": pose(solid.pose.position_m, solid.pose.quaternion_xyzw),
+        "points": points(solid.surface.vertices_m),
+        "color": colour(solid.colour),
+        "colors": [],
+        "indices": list(solid.surface.indices),
+    }
+
+
+def _line(line: Line) -> dict[str, Any]:
+    drawn = {
+        "type": _LINE_STRIP if line.kind is LineKind.PATH else _LINE_LIST,
+        "pose": pose(),
+        "thickness": _LINE_PIXELS,
+        "scale_invariant": True,
+        "points": points(line.points_m.tolist()),
+        "color": colour(_LINE_COLOURS[line.kind]),
+        "colors": [],
+        "indices": [],
+    }
+    return entity(
+        f"{line.kind.value} of {line.phase}",
+        frame=WORLD,
+        time_s=START_S,
+        metadata={"kind": line.kind.value, "phase": line.phase},
+        lines=[drawn],
+    )
+
+
+def _forces(timeline: Timeline, scene: ReplayScene) -> list[tuple[float, dict[str, Any]]]:
+    """One entity with the arrows of all fingers at each sample; it replaces that of the previous sample."""
+    return [
+        (
+            time_s,
+            scene_update(
+                [
+                    entity(
+                        "contact forces",
+                        frame=WORLD,
+                        time_s=time_s,
+                        arrows=_arrows(scene.contacts, sample, timeline.greatest_force_n),
+                    )
+                ]
+            ),
+        )
+        for sample, time_s in enumerate(scene.time_s.tolist())
+    ]
+
+
+def _arrows(contacts: Sequence[ContactForce], sample: int, greatest_n: float) -> list[dict[str, Any]]:
+    arrows = []
+    for contact in contacts:
+        force_n = float(np.linalg.norm(contact.forces_n[sample]))
+        if not force_n > 0.0:  # NaN without contact
+            continue
+        length_m = LONGEST_ARROW_M * force_n / greatest_n
+        head_m = min(_HEAD_M, length_m / 2)
+        arrows.append(
+            {
+                "pose": pose(contact.points_m[sample].tolist(), rotation_from_x(contact.forces_n[sample])),
+                "shaft_length": length_m - head_m,
+                "shaft_diameter": _SHAFT_M,
+                "head_length": head_m,
+                "head_diameter": 2 * _SHAFT_M,
+                "color": colour(_ARROW_COLOUR),
+            }
+        )
+    return arrows
+
+
+def _object_channels(
+    scene: ReplayScene, perceived: Sequence[NodeTrack], bodies: Sequence[NodeTrack]
+) -> tuple[Channel, ...]:
+    """True pose of the first object over time, and its perceived pose."""
+    (seen,) = perceived
+    true = next(track for track in bodies if track.kind is NodeKind.OBJECT and track.name == seen.name)
+    schema = published_schema("PoseInFrame")
+    times = scene.time_s.tolist()
+    samples = times if len(true.positions_m) > 1 else [START_S]
+    return (
+        Channel(
+            topic="/object_pose",
+            schema=schema,
+            messages=[(time_s, _pose_in_frame(true, sample, time_s)) for sample, time_s in enumerate(samples)],
+        ),
+        Channel(
+            topic="/perceived_object_pose",
+            schema=schema,
+            messages=[(START_S, _pose_in_frame(seen, 0, START_S))],
+        ),
+    )
+
+
+def _pose_in_frame(track: NodeTrack, sample: int, time_s: float) -> dict[str, Any]:
+    return {
+        "timestamp": timestamp(time_s),
+        "frame_id": WORLD,
+        "pose": pose(track.positions_m[sample].tolist(), track.quaternions_xyzw[sample].tolist()),
+    }
