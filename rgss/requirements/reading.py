@@ -93,4 +93,5 @@ class FolderReader:
 
 
 def _is_ours(path: Path) -> bool:
-    return path.suffix in (".yaml", ".yml") and not path.name.startswith(".")
+    name = path.name.lower()
+    return name.endswith((".yaml", ".yml", ".yaml.txt", ".yml.txt")) and not name.startswith(".")

@@ -89,12 +89,13 @@ def test_a_folder_without_files(project):
     ]
 
 
-def test_a_file_that_would_be_passed_over_is_reported(project):
+@pytest.mark.parametrize("name", ["1-early.yml", "1-early.YAML", "1-early.yaml.txt"])
+def test_a_file_that_would_be_passed_over_is_reported(project, name):
     divided(project)
-    (project.folder / "system" / "1-early.yaml").rename(project.folder / "system" / "1-early.yml")
+    (project.folder / "system" / "1-early.yaml").rename(project.folder / "system" / name)
     assert project.findings() == [
         (
-            "requirements/system/1-early.yml:1:1: error: the name of a requirements file must end in .yaml "
+            f"requirements/system/{name}:1:1: error: the name of a requirements file must end in .yaml "
             "(rename it) [document.name]"
         )
     ]

@@ -37,10 +37,10 @@ def from_xhtml(node: Any, *, exact: bool) -> PlainText:
     Args:
         node: The element around the XHTML, of lxml.
         exact: True if rgss wrote the file, so that a value with only its elements is inverted exactly;
-            any other is laid out as by a browser.
+            any other, such as one that another tool has edited, is laid out as by a browser.
     """
     inner = list(node.iterdescendants())
-    if exact and all(not isinstance(each.tag, str) or _name(each) in _OWN_ELEMENTS for each in inner):
+    if exact and all(_is_own(each) for each in inner):
         parts = [node.text or ""]
         for each in inner:
             if isinstance(each.tag, str):
@@ -48,6 +48,11 @@ def from_xhtml(node: Any, *, exact: bool) -> PlainText:
             parts.append(each.tail or "")
         return PlainText(text="".join(parts).strip(), losses=())
     return plain_text(node)
+
+
+def _is_own(node: Any) -> bool:
+    """True for an element as rgss writes it: without attributes, which may strike out or shift its text."""
+    return not isinstance(node.tag, str) or (_name(node) in _OWN_ELEMENTS and not node.attrib)
 
 
 def _name(node: Any) -> str:

@@ -29,6 +29,8 @@ _SHIFTED = re.compile(r"vertical-align\s*:\s*(super|sub)\b", re.IGNORECASE)
 _GONE = re.compile(r"display\s*:\s*none|visibility\s*:\s*hidden", re.IGNORECASE)
 _SIMPLE = re.compile(r"[+\-\u2212]?\w+(?:\.\d+)?", re.ASCII)
 _BETWEEN_CELLS = " | "
+_LETTERED = re.compile(r"list-style(?:-type)?\s*:[^;]*\b(lower|upper)-(?:alpha|latin)", re.IGNORECASE)
+_LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,6 +70,8 @@ class _Reader:
     losses: list[str] = field(default_factory=list)
     counters: list[int | None] = field(default_factory=list)
     """Number of the last item of each enclosing list; None for unnumbered lists."""
+    letters: list[str] = field(default_factory=list)
+    """Letters that number each enclosing list; empty for numbers."""
     literal: bool = False
 
     def children(self, node: Any) -> None:
@@ -135,10 +139,12 @@ class _Reader:
             start = node.get("start") or "1"
             first = int(start) if re.fullmatch(r"-?\d{1,6}", start) else 1
             self.counters.append(first - 1 if name == "ol" else None)
+            self.letters.append(_letters_of(node))
             self.children(node)
             self.counters.pop()
+            self.letters.pop()
         elif name == "li":
-            self.parts.append(_INDENT * max(0, len(self.counters) - 1) + self.bullet())
+            self.parts.append(_INDENT * max(0, len(self.counters) - 1) + self.bullet(node.get("value") or ""))
             self.children(node)
         else:
             before, self.literal = self.literal, self.literal or name == "pre"
@@ -146,11 +152,13 @@ class _Reader:
             self.literal = before
         self.break_line()
 
-    def bullet(self) -> str:
+    def bullet(self, value: str) -> str:
         if not self.counters or self.counters[-1] is None:
             return "- "
-        self.counters[-1] += 1
-        return f"{self.counters[-1]}. "
+        number = int(value) if re.fullmatch(r"-?\d{1,6}", value) else self.counters[-1] + 1
+        self.counters[-1] = number
+        letters = self.letters[-1]
+        return f"{letters[number - 1] if 0 < number <= len(letters) else number}. "
 
     def table(self, node: Any) -> None:
         for row in node.iter("{*}tr"):
@@ -194,3 +202,12 @@ class _Reader:
         if name == "object":
             # Its content is the alternative shown in place of the attachment.
             self.children(node)
+
+
+def _letters_of(node: Any) -> str:
+    """Letters that number a list, since other texts refer to its items by them; empty for numbers."""
+    styled = _LETTERED.search(node.get("style") or "")
+    kind = node.get("type") or ""
+    if kind == "A" or (styled and styled[1].lower() == "upper"):
+        return _LETTERS.upper()
+    return _LETTERS if kind == "a" or styled else ""

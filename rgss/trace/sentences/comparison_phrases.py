@@ -102,6 +102,8 @@ LOWER_BEHIND = (
     "or longer",
     "or more",
     "or over",
+    "or upwards",
+    "upwards",
 )
 """Phrases behind a number that the quantity may exceed."""
 

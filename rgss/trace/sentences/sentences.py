@@ -116,6 +116,9 @@ def read_sentence(text: str) -> Sentence:
     tokens = _tokens(flat)
     # Also without their capitals, as terms are found that are no abbreviations.
     words = frozenset([token.word for token in tokens]) | frozenset([token.word.lower() for token in tokens])
+    if "-" in flat:
+        # A phrase with hyphens for its spaces is found by its first word.
+        words |= {word.partition("-")[0] for word in words}
     shalls = tuple([match.end() for match in _SHALL.finditer(flat)])
     before = flat[: shalls[0] - len("shall")] if shalls else ""
     response = flat[shalls[0] :].strip() if shalls else ""

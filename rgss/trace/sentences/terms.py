@@ -87,6 +87,15 @@ class TermList:
             ):
                 name = sentence.text[here[0].start : here[-1].end].lower() if _ANY_WORD in words else term
                 return Match(term=name, first=index, after=after)
+        return self._hyphenated(said.lower(), index) if "-" in said else None
+
+    def _hyphenated(self, said: str, index: int) -> Match | None:
+        """Phrase with a ``*`` that is written as one word with hyphens, such as ``easy-to-use``."""
+        parts = said.split("-")
+        for _, words in self._by_first.get(parts[0], ()):
+            spelt = zip(parts, words, strict=True) if _ANY_WORD in words and len(words) == len(parts) else ()
+            if spelt and all(word in (part, _ANY_WORD) for part, word in spelt):
+                return Match(term=said, first=index, after=index + 1)
         return None
 
 

@@ -36,6 +36,9 @@ def plain(markup, *, exact=False):
             "of:\n1. one\n2. two\n  - inner\n3. three",
         ),
         ('<ol start="3"><li>c</li></ol>', "3. c"),
+        ('<ol><li>a</li><li value="7">b</li><li>c</li></ol>', "1. a\n7. b\n8. c"),
+        ('<ol type="a"><li>x<ol><li>y</li></ol></li><li>z</li></ol>', "a. x\n  1. y\nb. z"),
+        ('<ol style="list-style-type: upper-alpha"><li>x</li></ol>', "A. x"),
         (
             "<table><tr><th>mass</th><th>speed</th></tr><tr><td>1 kg</td><td>2 m/s</td></tr></table>",
             "mass | speed\n1 kg | 2 m/s",
@@ -99,3 +102,9 @@ def test_a_table_in_a_cell_is_said_once():
 
 def test_our_own_texts_come_back_as_they_were():
     assert plain("a  b <br/>  c &lt;sup&gt;", exact=True).text == "a  b \n  c <sup>"
+
+
+def test_a_text_of_ours_that_another_tool_struck_out_is_omitted():
+    found = plain('<div style="text-decoration: line-through">old</div>new', exact=True)
+
+    assert (found.text, found.losses) == ("new", ("the struck-out text 'old' is omitted",))

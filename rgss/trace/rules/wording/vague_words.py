@@ -76,6 +76,7 @@ RULES: tuple[SentenceRule, ...] = (
             "The panel shall be user friendly.",
             "The panel shall be User-Friendly.",
             "The panel shall be easy to use.",
+            "The panel shall be easy-to-use.",
             "The panel shall be Simple to Learn.",
             "The cell shall use STATE OF THE ART sensors.",
             "The gripper shall hold SEVERAL cups.",
