@@ -68,6 +68,15 @@ def test_of_enumerated_designs_too(cases, seeded, scip, program):
     assert check.text == "independent solver agrees: SCIP comes to the same answer"
 
 
+def test_scip_cuts_off_no_feasible_design(guard_cases, runs_alone, scip):
+    """With a tolerance of 1e-9 SCIP proved 2.5 for this problem's first stage, where brute force finds 4."""
+    case = guard_cases.level_case(22, largest=1e5)
+    decision = decide_levels(case.problem, independent=(scip,))
+    assert case.missed_by(decision.variant - 1) <= 1e-9
+    assert opinions(decision.certificate)
+    assert all(check.agrees for check in opinions(decision.certificate))
+
+
 def test_without_the_option_nothing_is_different(guard_cases, runs_alone):
     case = guard_cases.small_case(1, (3, 4, 3, 4), "additive")
     certificate = decide_levels(case.problem).certificate

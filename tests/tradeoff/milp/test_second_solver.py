@@ -13,7 +13,7 @@ from rgss.tradeoff.milp.stage import StageSolution, StageSolver
 SOLVERS = {
     "HIGHS": {},
     "SCIP": {
-        "scip_params": {"numerics/feastol": 1e-9, "limits/gap": 0.0, "limits/absgap": 0.0, "parallel/maxnthreads": 1}
+        "scip_params": {"numerics/feastol": 1e-6, "limits/gap": 0.0, "limits/absgap": 0.0, "parallel/maxnthreads": 1}
     },
 }
 
