@@ -16,6 +16,7 @@ from rgss.studies.robot_project import robot_summary, write_robot_project
 from rgss.studies.robot_project.draft import drafted_robot
 from tests.fixtures.serial_arms import SIX_WITHOUT_DECOMPOSITION as SIX
 from tests.fixtures.serial_arms import serial_urdf
+from tests.robots.test_arm_sizes import FOUR
 
 CLEAN = serial_urdf(SIX)
 
@@ -286,3 +287,29 @@ def test_an_arm_whose_shapes_reach_below_its_base_has_a_lower_pedestal(tmp_path)
     scene = (tmp_path / "project" / "scenes" / "kitchen.yaml").read_text(encoding="utf-8")
     assert "height: 0.45 m" in scene
     assert "The pedestal ends below the arm's base" in scene
+
+
+def test_rounded_right_angles_of_an_arm_of_few_joints_are_exact(draft):
+    """An arm whose pitch axes are 0.8 mrad off could never turn its tool exactly down."""
+    text = serial_urdf(FOUR)
+    rounded = text.replace('rpy="0.0 0.0 0.0"', 'rpy="0 -1.57 3.1416"')
+    foreign = draft(rounded)
+    assert "Rounded right angles are made exact, of the frames of joint_1, joint_2" in rationales(foreign)
+    exact = draft(text.replace('rpy="0.0 0.0 0.0"', f'rpy="0 {-np.pi / 2} {np.pi}"'))
+    q = [0.3, -0.4, 0.5, 0.6]
+    assert tool(foreign, q) == pytest.approx(tool(exact, q), abs=1e-9)
+    assert "right angles" not in rationales(draft(CLEAN.replace('rpy="0.0 0.0 0.0"', 'rpy="0 -1.57 0"')))
+
+
+def test_materials_without_a_colour_are_left_out(draft, capfd):
+    shape = '<geometry><box size="0.1 0.1 0.1"/></geometry>'
+    plain = f'<visual>{shape}<material name="none"/></visual><visual>{shape}<material name="given"/></visual></link>'
+    text = CLEAN.replace("</link>", plain, 1).replace(
+        "</robot>",
+        '<material name="none"><color/></material><material name="given"><color rgba="1 0 0 1"/></material></robot>',
+    )
+    foreign = draft(text)
+    tool(foreign, [0.0] * 6)
+    assert "none" not in foreign.robot.urdf
+    assert 'name="given"' in foreign.robot.urdf
+    assert "Material" not in "".join(capfd.readouterr())

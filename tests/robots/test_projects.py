@@ -10,7 +10,9 @@ import pytest
 from rgss.cli.main import main
 from rgss.guard.schema import record_schema
 from rgss.studies import load_project
+from tests.fixtures.serial_arms import Link, serial_urdf
 from tests.robots.conftest import urdf_of
+from tests.robots.test_arm_sizes import FOUR
 
 
 def run(capsys, project, *arguments):
@@ -141,4 +143,24 @@ def test_an_arm_that_cannot_turn_its_tool_down(tmp_path, capsys):
         encoding="utf-8",
     )
     assert main(["init", "--robot", str(urdf), str(tmp_path / "new")]) == 2
-    assert "no layout was found in which r grasps a cup" in capsys.readouterr().err
+    error = " ".join(capsys.readouterr().err.split())
+    assert "no layout was found in which r grasps a cup" in error
+    urdf.write_text(
+        urdf.read_text(encoding="utf-8").replace("<axis", '<origin rpy="0.7 0.6 0"/><axis'), encoding="utf-8"
+    )
+    assert main(["init", "--robot", str(urdf), str(tmp_path / "new")]) == 2
+    error = " ".join(capsys.readouterr().err.split())
+    assert "r does not turn any axis of tip down: in 2048 configurations the nearest, " in error
+    assert "deg from the vertical on a level base (name the link that carries the gripper" in error
+
+
+def test_an_arm_that_points_down_at_none_of_its_places(tmp_path, capsys):
+    """A tool that is bent by 20 deg from the last of two parallel axes."""
+    bent = Link("revolute", (0.0, 0.0, 0.1), (0.35, 0.0, 0.0))
+    urdf = tmp_path / "arm.urdf"
+    urdf.write_text(serial_urdf((*FOUR[:3], bent)), encoding="utf-8")
+    assert main(["init", "--robot", str(urdf), str(tmp_path / "new")]) == 2
+    error = " ".join(capsys.readouterr().err.split())
+    assert "no layout was found in which serial grasps a cup on a table with its tool pointing down: with the " in error
+    assert "the tool points down at none of 63 places within its reach" in error
+    assert "An arm that cannot turn its tool down needs a scene and a task of its own)" in error

@@ -15,9 +15,10 @@ from rgss.studies.robot_project.masses import complete_masses
 from rgss.studies.robot_project.robot_text import robot_text
 from rgss.studies.robot_project.tool_axis import add_tool_frame, likely_tool_axes
 from rgss.studies.robot_project.urdf_files import copy_named_files
-from rgss.studies.robot_project.urdf_reading import read_arm_urdf
+from rgss.studies.robot_project.urdf_reading import read_arm_urdf, snap_right_angles
 
 _DRAFT_PAYLOAD_KG = 1.0
+_POSE_FREEDOMS = 6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,6 +62,8 @@ def drafted_robot(
     """
     root, notes = read_arm_urdf(urdf)
     arm = arm_of_urdf(root, flange=flange)
+    if len(arm.joints) < _POSE_FREEDOMS:
+        notes += snap_right_angles(root)
     likely = likely_tool_axes(root, arm, urdf)
     notes += complete_masses(root, urdf, leave=arm.hands, mass_kg=mass_kg)
     id_ = _identifier(arm.name)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from rgss.kinematics import Arm, inverse_kinematics
 from rgss.scenes import GripperGeometry, JointKind, Pose, Robot, Scene, Waypoint, load_scene, waypoint_poses
+from rgss.studies.robot_project.descent_search import descent_search
+from rgss.studies.robot_project.hand_size import HandSize
 from rgss.studies.robot_project.layout import Layout, layouts, scene_text
 from rgss.studies.robot_project.overhead_layout import overhead_layouts
 from rgss.studies.robot_project.reach import horizontal_reach_m, sampled_configurations
@@ -21,21 +23,15 @@ from rgss.trials import Workcell, every_stop_is_feasible, infeasible_waypoints, 
 
 Array = NDArray[np.float64]
 
+POINTS_INTO_ARM = "the gripper touches the arm in most configurations"
+"""Reason for which another axis of the flange is tried, and not a smaller gripper."""
+
 _POINTING_SAMPLES, _MOST_TOUCHING = 96, 0.9
 _PEDESTAL, _PEDESTAL_GAP_M = "pedestal", 0.15
 _LEAST_REACH_M = 0.2
 _POSE_FREEDOMS = 6
+_CARRY_STATES = 64
 _ROOM = {JointKind.REVOLUTE: 0.6, JointKind.PRISMATIC: 0.15}
-_CLEARANCE_M = 0.008
-
-
-def is_yaw_free(robot: Robot) -> bool:
-    """True for an arm that cannot turn its tool to every pose, whose task constrains the tool's axis alone.
-
-    Args:
-        robot: The arm.
-    """
-    return len(robot.joints) < _POSE_FREEDOMS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,57 +51,98 @@ class FittedCell:
     upper: tuple[float, ...]
 
 
-def fitted(
-    folder: Path, robot: Robot, robot_file: str, geometries: Sequence[GripperGeometry]
-) -> tuple[FittedCell | None, str]:
-    """The first layout in which the arm reaches every waypoint with every gripper, and a home for it.
+class CellSearch:
+    """Search for a cell in which an arm reaches every waypoint with every gripper.
 
-    Args:
-        folder: The project, with all files but the scene.
-        robot: The arm.
-        robot_file: Name of its file.
-        geometries: The grippers.
-
-    Returns:
-        The cell; None without one, and an example of what prevents it.
+    Attributes:
+        reason: An example of what prevents a cell.
     """
-    path = folder / "scenes" / "kitchen.yaml"
-    reach_m = horizontal_reach_m(robot)
-    on_pedestal = layouts(reach_m) if reach_m >= _LEAST_REACH_M else ()
-    gap_m: float | None = None
-    reason = "the tool does not come down to an object on a table"
-    for tried in itertools.chain(on_pedestal, _overhead(robot, geometries)):
-        layout = tried if not gap_m or tried.is_overhead else replace(tried, pedestal_gap_m=gap_m)
-        scene = _scene(path, layout, robot, robot_file)
-        if not all(_reaches_ends(scene, geometry) for geometry in geometries):
-            continue
-        if gap_m is None and not layout.is_overhead:
-            gap_m = _PEDESTAL_GAP_M if _stands_in_pedestal(_cells(scene, geometries)[0]) else 0.0
-            layout = replace(layout, pedestal_gap_m=gap_m)
-            scene = _scene(path, layout, robot, robot_file)
-        cells = _cells(scene, geometries)
+
+    def __init__(
+        self, folder: Path, robot: Robot, robot_file: str, geometries: Sequence[GripperGeometry], *, size: HandSize
+    ) -> None:
+        """Prepare the search.
+
+        Args:
+            folder: The project, with all files but the scene.
+            robot: The arm.
+            robot_file: Name of its file.
+            geometries: The grippers.
+            size: Scale of object and grippers.
+        """
+        self._path, self._robot, self._robot_file = folder / "scenes" / "kitchen.yaml", robot, robot_file
+        self._geometries, self._size = geometries, size
+        self._gap_m: float | None = None
+        self.reason = "the tool does not come down to an object on a table"
+
+    def cells(self) -> Iterator[FittedCell]:
+        """Cells with a home for the arm, computed lazily, the most common layout first."""
+        size, robot = self._size, self._robot
+        reach_m, is_yaw_free = horizontal_reach_m(robot), len(robot.joints) < _POSE_FREEDOMS
+        usual = layouts(reach_m, scale=size.scale, is_yaw_free=is_yaw_free)
+        overhead = (replace(one, is_yaw_free=is_yaw_free) for one in _overhead(robot, self._geometries, size))
+        common = self._fitting(itertools.chain(usual if reach_m >= _LEAST_REACH_M * size.scale else (), overhead))
+        yield from itertools.islice(common, 1)
+        if self.reason == POINTS_INTO_ARM:
+            return
+        longest = max(self._geometries, key=lambda geometry: geometry.grasp_depth_m)
+        search = descent_search(robot, longest, scale=size.scale)
+        self.reason = search.reason or self.reason
+        yield from self._fitting(search.layouts, is_direct=True)
+        yield from common
+        yield from self._fitting(search.layouts)
+
+    def _fitting(self, tried: Iterable[Layout], *, is_direct: bool = False) -> Iterator[FittedCell]:
+        """Cells of the layouts that suit the arm; direct ones let it carry the object by a straight joint move."""
+        for layout in tried:
+            found = self._fitted(layout, is_direct=is_direct)
+            if found is not None:
+                yield found
+            elif self.reason == POINTS_INTO_ARM:
+                return
+
+    def _fitted(self, tried: Layout, *, is_direct: bool) -> FittedCell | None:
+        layout = tried if not self._gap_m or tried.is_overhead else replace(tried, pedestal_gap_m=self._gap_m)
+        scene = self._scene(layout)
+        if not all(_reaches_ends(scene, geometry) for geometry in self._geometries):
+            return None
+        if self._gap_m is None and not layout.is_overhead:
+            self._gap_m = _PEDESTAL_GAP_M if _stands_in_pedestal(self._cells(scene)[0]) else 0.0
+            layout = replace(layout, pedestal_gap_m=self._gap_m)
+            scene = self._scene(layout)
+        cells = self._cells(scene)
         if any(_points_into_arm(cell) for cell in cells):
-            return None, "the gripper touches the arm in most configurations"
+            self.reason = POINTS_INTO_ARM
+            return None
         unserved = next((cell for cell in cells if not every_stop_is_feasible(cell)), None)
         if unserved is not None:
-            reason = next((str(one) for one in infeasible_waypoints(unserved).values()), reason)
-            continue
+            self.reason = next((str(one) for one in infeasible_waypoints(unserved).values()), self.reason)
+            return None
         # Valid configurations at the waypoints, with the least travel from one to the next.
         stops = [waypoint_configurations(cell) for cell in cells]
-        if all(len(one) == len(Waypoint) for one in stops):
-            lower, upper = _ranges(robot, np.array([q for one in stops for q in one.values()]))
-            home = stops[0][Waypoint.GRASP_DEPARTURE].tolist()
-            return FittedCell(layout=layout, home=tuple(home), lower=lower, upper=upper), ""
-    return None, reason
+        if not all(len(one) == len(Waypoint) for one in stops):
+            return None
+        if is_direct and not all(_carries_straight(cell, one) for cell, one in zip(cells, stops, strict=True)):
+            return None
+        lower, upper = _ranges(self._robot, np.array([q for one in stops for q in one.values()]))
+        home = stops[0][Waypoint.GRASP_DEPARTURE].tolist()
+        return FittedCell(layout=layout, home=tuple(home), lower=lower, upper=upper)
+
+    def _scene(self, layout: Layout) -> Scene:
+        self._path.write_text(scene_text(layout, robot=self._robot_file), encoding="utf-8")
+        return load_scene(self._path, project=self._path.parents[1])
+
+    def _cells(self, scene: Scene) -> list[Workcell]:
+        task = default_task()
+        return [Workcell(scene, one, clearance_m=self._size.clearance_m, task=task) for one in self._geometries]
 
 
-def _scene(path: Path, layout: Layout, robot: Robot, robot_file: str) -> Scene:
-    path.write_text(scene_text(layout, robot=robot_file, is_yaw_free=is_yaw_free(robot)), encoding="utf-8")
-    return load_scene(path, project=path.parents[1])
-
-
-def _cells(scene: Scene, geometries: Sequence[GripperGeometry]) -> list[Workcell]:
-    return [Workcell(scene, geometry, clearance_m=_CLEARANCE_M, task=default_task()) for geometry in geometries]
+def _carries_straight(cell: Workcell, stops: Mapping[str, Array]) -> bool:
+    """Whether the straight move of the joints that carries the object from table to table is free of collisions."""
+    start, goal = stops[Waypoint.GRASP_DEPARTURE], stops[Waypoint.PLACE_APPROACH]
+    leg = next(leg for leg in cell.route.legs if cell.route.stops[leg.goal].name == Waypoint.PLACE_APPROACH)
+    model = cell.planning[leg.step.name]
+    return all(model.is_valid(start + share * (goal - start)) for share in np.linspace(0.0, 1.0, _CARRY_STATES))
 
 
 def _stands_in_pedestal(cell: Workcell) -> bool:
@@ -129,12 +166,12 @@ def _points_into_arm(cell: Workcell) -> bool:
     return touching > _MOST_TOUCHING * len(samples)
 
 
-def _overhead(robot: Robot, geometries: Sequence[GripperGeometry]) -> Iterator[Layout]:
+def _overhead(robot: Robot, geometries: Sequence[GripperGeometry], size: HandSize) -> Iterator[Layout]:
     """Layouts under an arm that hangs; computed lazily."""
     samples = sampled_configurations(robot)
     tools = np.array([Arm(replace(robot, base=Pose()), Pose()).tool_matrix(q) for q in samples])
     tool_m = max(geometry.grasp_centre.position_m[2] for geometry in geometries)
-    yield from overhead_layouts(tools[:, :3, 3], tools[:, :3, 2], tool_m=tool_m)
+    yield from overhead_layouts(tools[:, :3, 3], tools[:, :3, 2], tool_m=tool_m, scale=size.scale)
 
 
 def _ranges(robot: Robot, configurations: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -152,4 +189,4 @@ def _reaches_ends(scene: Scene, geometry: GripperGeometry) -> bool:
         waypoint_poses(scene),
     )
     ends = (Waypoint.GRASP, Waypoint.GRASP_DEPARTURE, Waypoint.PLACE)
-    return all(inverse.nearest(poses[waypoint], scene.robot.home_rad) is not None for waypoint in ends)
+    return all(inverse.solve(poses[waypoint]) for waypoint in ends)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,6 @@ from rgss.studies.robot_project.layout import Layout
 Array = NDArray[np.float64]
 
 _TABLE_M = 0.6
-_CUP_HALF_HEIGHT_M = 0.05
 _DOWN_COSINE = math.cos(math.radians(2.0))
 _FEWEST = 32
 # The ends of the range of each coordinate, in per cent of the samples: the corners of a workspace are left out.
@@ -24,13 +24,14 @@ _LENGTH_OF_DEPTH = 2.0
 _LEAST_SIZE_M = 0.05
 
 
-def overhead_layouts(positions_m: Array, axes: Array, *, tool_m: float) -> Iterator[Layout]:
+def overhead_layouts(positions_m: Array, axes: Array, *, tool_m: float, scale: float = 1.0) -> Iterator[Layout]:
     """Layouts to try: the tables in the middle of where the tool points down, along the longer side of it.
 
     Args:
         positions_m: Sampled positions of the flange in the frame of the base, shape (k, 3).
         axes: Its z axis there, shape (k, 3).
         tool_m: Distance of the grasp centre of the longest gripper from the flange.
+        scale: Scale of the object.
     """
     down = positions_m[axes[:, 2] < -_DOWN_COSINE]
     if len(down) < _FEWEST:
@@ -48,13 +49,15 @@ def overhead_layouts(positions_m: Array, axes: Array, *, tool_m: float) -> Itera
     for depth in _SHARES_OF_DEPTH:
         for share in _SHARES_OF_HALF_LENGTH:
             lowest_m = float(low[2]) + depth * depth_m
-            base_m = _TABLE_M + _CUP_HALF_HEIGHT_M + tool_m - lowest_m
-            yield Layout(
+            layout = Layout(
                 reach_m=min(length_m, _LENGTH_OF_DEPTH * depth_m),
                 x_m=0.0,
                 y_m=share * length_m / 2,
                 table_m=_TABLE_M,
-                base_m=(round(float(x), 3) + 0.0, round(float(y), 3) + 0.0, round(base_m, 3)),
                 base_yaw_rad=yaw_rad,
                 is_overhead=True,
+                scale=scale,
             )
+            base_m = _TABLE_M + layout.cup_half_height_m + tool_m - lowest_m
+            place = (round(float(x), 3) + 0.0, round(float(y), 3) + 0.0, round(base_m, 3))
+            yield replace(layout, base_m=place)

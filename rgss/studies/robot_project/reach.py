@@ -10,7 +10,8 @@ from rgss.scenes import Pose, Robot
 
 Array = NDArray[np.float64]
 
-_SAMPLES = 2048
+SAMPLES = 2048
+"""Number of sampled configurations."""
 
 
 def horizontal_reach_m(robot: Robot) -> float:
@@ -31,6 +32,6 @@ def sampled_configurations(robot: Robot) -> Array:
         robot: The arm.
     """
     lower, upper = (np.array([getattr(joint, end) for joint in robot.joints]) for end in ("lower_rad", "upper_rad"))
-    shares = np.random.default_rng(0).random((_SAMPLES, len(robot.joints)))
+    shares = np.random.default_rng(0).random((SAMPLES, len(robot.joints)))
     samples: Array = lower + shares * (upper - lower)
     return samples

@@ -35,7 +35,7 @@ def likely_tool_axes(root: ET.Element, arm: UrdfArm, urdf: Path) -> tuple[str, .
     """Axes of the flange along which a gripper may point, the most likely first.
 
     That towards a hand that the URDF has there; z where it is parallel to the last joint's axis, as conventions have
-    it; that from the last joint to the flange; the last joint's axis, away from its link.
+    it; that from the last joint to the flange; the last joint's axis, away from its link; then the others.
 
     Args:
         root: The URDF.
@@ -110,7 +110,7 @@ def _likely(root: ET.Element, arm: UrdfArm, urdf: Path) -> Iterator[str]:
         outward = turned @ _seen_from(flange, _centre(root, chain.links[last], urdf))
         opposite = along[1:] if along.startswith("-") else f"-{along}"
         yield from (along, opposite) if outward >= 0.0 else (opposite, along)
-    yield from ("z", "-z")
+    yield from TOOL_AXES
 
 
 def _hand_offset(root: ET.Element, arm: UrdfArm) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
@@ -16,6 +17,7 @@ _LARGEST_URDF_BYTES = 1024 * 1024
 _KEPT = frozenset({"link", "joint", "material"})
 _PREFIX = re.compile(r"</?([A-Za-z_][\w.-]*):")
 _SUBSTITUTION = re.compile(r"\$[({][^)}]*[)}]?")
+_LARGEST_ROUNDING_RAD = 2e-3
 _SHAPES = {"box": ("size",), "cylinder": ("radius", "length"), "sphere": ("radius",)}
 
 
@@ -51,6 +53,7 @@ def read_arm_urdf(urdf: Path) -> tuple[ET.Element, list[Note]]:
     if not root.get("name", "").strip():
         root.set("name", urdf.stem)
     notes = [*_rename(root), *_drop_empty_shapes(root)]
+    _drop_undefined_materials(root)
     _complete_limits(root)
     problems = [
         f"{urdf.name} {problem}"
@@ -162,6 +165,22 @@ def _drop_empty_shapes(root: ET.Element) -> Iterator[Note]:
         yield Note(about="description", rationale=f"Collision shapes of zero size are left out, of {names}.")
 
 
+def _drop_undefined_materials(root: ET.Element) -> None:
+    """Remove colours without numbers and materials without a definition, of which parsers report each."""
+    for material in root.iter("material"):
+        for colour in material.findall("color"):
+            if not colour.get("rgba", "").strip():
+                material.remove(colour)
+    for material in root.findall("material"):
+        if len(material) == 0:
+            root.remove(material)
+    defined = {material.get("name") for material in root.iter("material") if len(material)}
+    for visual in root.iter("visual"):
+        for material in visual.findall("material"):
+            if len(material) == 0 and material.get("name") not in defined:
+                visual.remove(material)
+
+
 def _complete_limits(root: ET.Element) -> None:
     """Write a speed and an effort of zero, which are reported as lacking, where parsers require the attributes."""
     for joint in root.findall("joint"):
@@ -179,3 +198,33 @@ def _is_empty(shape: ET.Element) -> bool:
         return bool(sizes) and any(float(word) == 0.0 for word in sizes)
     except ValueError:
         return False
+
+
+def snap_right_angles(root: ET.Element) -> Iterator[Note]:
+    """Make rounded right angles of joint frames exact, such as 1.57 and 3.1416.
+
+    An arm of few joints turns its tool exactly down only if its axes are exactly parallel or perpendicular.
+
+    Args:
+        root: The URDF; modified in place.
+    """
+    snapped = []
+    for joint in root.findall("joint"):
+        origin = joint.find("origin")
+        words = [] if origin is None else origin.get("rpy", "").split()
+        exact = [_right_angle(word) for word in words]
+        if origin is not None and exact != words:
+            origin.set("rpy", " ".join(exact))
+            snapped.append(joint.get("name", ""))
+    if snapped:
+        names = ", ".join(snapped)
+        yield Note(about="description", rationale=f"Rounded right angles are made exact, of the frames of {names}.")
+
+
+def _right_angle(word: str) -> str:
+    try:
+        quarters = round(float(word) / (math.pi / 2))
+    except (ValueError, OverflowError):
+        return word
+    exact = quarters * math.pi / 2
+    return repr(exact) if quarters and 0.0 < abs(float(word) - exact) < _LARGEST_ROUNDING_RAD else word

@@ -2,24 +2,34 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 import re
 import shutil
 import tempfile
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path, PurePosixPath
 
 from rgss.errors import DefinitionError
 from rgss.scenes import load_gripper
-from rgss.studies.robot_project.draft import drafted_robot
-from rgss.studies.robot_project.fitting import fitted, is_yaw_free
+from rgss.studies.robot_project.descent_search import NEVER_DOWN, angles_from_vertical_rad
+from rgss.studies.robot_project.draft import DraftedRobot, drafted_robot
+from rgss.studies.robot_project.first_trial import carries_object
+from rgss.studies.robot_project.fitting import POINTS_INTO_ARM, CellSearch, FittedCell
+from rgss.studies.robot_project.hand_size import HandSize, hand_sizes
 from rgss.studies.robot_project.holding import payload_at_reach_kg
 from rgss.studies.robot_project.layout import scene_text
+from rgss.studies.robot_project.reach import SAMPLES
 from rgss.studies.robot_project.robot_text import robot_text
 from rgss.studies.robot_project.urdf_reading import Note
 from rgss.studies.scaffolding import scaffold_texts
 from rgss.studies.schema_headers import cannot_write
 
-_MOST_AXES = 3
+_MOST_AXES, _MOST_CELLS = 3, 4
+# Greatest angle from the vertical, in a sampled configuration, of an axis that an arm may turn down.
+_NEAR_DOWN_RAD = math.radians(30.0)
 _ITERATIONS = "solver_iterations: 100 # joints follow their targets with any distribution of the arm's masses"
 
 
@@ -84,41 +94,80 @@ def _write_files(
     id_ = drafted.robot.id
     texts = scaffold_texts()
     (old,) = (PurePosixPath(name).stem for name in texts if re.fullmatch(r"scenes/robots/[^/]+\.yaml", name))
+    axes = _axes_down(drafted, tool_axis)
+    reasons: dict[str, str] = {}
+    renamed = partial(_renamed, old=old, id_=id_, name=drafted.arm.name)
+    for size, axis in itertools.product(tuple(hand_sizes(drafted.robot)), axes):
+        if reasons.get(axis) in (POINTS_INTO_ARM, NEVER_DOWN):
+            continue
+        _write_texts(project, texts, size, renamed=renamed)
+        geometries = [load_gripper(path) for path in sorted((project / "scenes" / "grippers").glob("*.yaml"))]
+        drafted = drafted_robot(urdf, project, flange=flange, tool_axis=axis, mass_kg=mass_kg)
+        search = CellSearch(project, drafted.robot, drafted.file.name, geometries, size=size)
+        if _is_written(project, drafted, search):
+            return drafted.arm.notes
+        reasons.setdefault(axis, search.reason)
+    found = "; ".join(f"with the gripper along {axis}, {reason}" for axis, reason in reasons.items())
+    raise DefinitionError(
+        f"no layout was found in which {id_} grasps a cup on a table with its tool pointing down: {found}",
+        hint=f"is {drafted.flange} the link that carries the gripper (--flange), and one of these its axis out of "
+        "the arm (--tool-axis)? An arm that cannot turn its tool down needs a scene and a task of its own",
+    )
+
+
+def _is_written(project: Path, drafted: DraftedRobot, search: CellSearch) -> bool:
+    """Write the first cell in which the task succeeds, else the first that suits the arm; False if none does."""
+    first = None
+    for cell in itertools.islice(search.cells(), _MOST_CELLS):
+        _write_cell(project, drafted, cell)
+        if carries_object(project):
+            return True
+        first = first or cell
+    if first is not None:
+        _write_cell(project, drafted, first)
+    return first is not None
+
+
+def _write_cell(project: Path, drafted: DraftedRobot, cell: FittedCell) -> None:
+    arm, id_ = drafted.arm, drafted.robot.id
+    ranges = zip(arm.joints, cell.lower, cell.upper, strict=True)
+    narrowed = replace(arm, joints=tuple(replace(joint, lower=low, upper=high) for joint, low, high in ranges))
+    payload_kg = payload_at_reach_kg(drafted.robot)
+    text = robot_text(narrowed, id_=id_, urdf=f"{id_}.urdf", home=cell.home, payload_kg=payload_kg)
+    drafted.file.write_text(text, encoding="utf-8")
+    (project / "scenes" / "kitchen.yaml").write_text(scene_text(cell.layout, robot=drafted.file.name), encoding="utf-8")
+
+
+def _axes_down(drafted: DraftedRobot, tool_axis: str | None) -> tuple[str, ...]:
+    """Axes of the flange to try, of those that the arm can turn down, the most likely first."""
+    angles = angles_from_vertical_rad(drafted.robot)
+    likely = {axis: angles[axis] for axis in drafted.likely_tool_axes}
+    if tool_axis is not None:
+        likely = {tool_axis: angles["z"]}
+    axes = tuple(axis for axis, angle in likely.items() if angle <= _NEAR_DOWN_RAD)
+    if not axes:
+        nearest = min(likely, key=lambda axis: likely[axis])
+        of = "any axis" if tool_axis is None else f"the axis {tool_axis}"
+        raise DefinitionError(
+            f"{drafted.robot.id} does not turn {of} of {drafted.flange} down: in {SAMPLES} configurations the nearest, "
+            f"{nearest}, stays {math.degrees(likely[nearest]):.0f} deg from the vertical on a level base",
+            hint="name the link that carries the gripper with --flange, and its axis out of the arm with --tool-axis; "
+            "a task in which objects are grasped from above is not for an arm that cannot do so",
+        )
+    return axes[:_MOST_AXES]
+
+
+def _write_texts(project: Path, texts: Mapping[str, str], size: HandSize, *, renamed: Callable[[str], str]) -> None:
+    """Write the scaffold without its arm and scene, with hands of a size."""
     for name, content in texts.items():
         if name.startswith("scenes/robots/") or name == "scenes/kitchen.yaml":
             continue
         path = project / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(_renamed(content, old, id_, drafted.arm.name), encoding="utf-8", newline="\n")
-    geometries = [load_gripper(path) for path in sorted((project / "scenes" / "grippers").glob("*.yaml"))]
-    axes = drafted.likely_tool_axes[:_MOST_AXES] if tool_axis is None else (tool_axis,)
-    reasons = []
-    for axis in axes:
-        drafted = drafted_robot(urdf, project, flange=flange, tool_axis=axis, mass_kg=mass_kg)
-        cell, reason = fitted(project, drafted.robot, drafted.file.name, geometries)
-        if cell is not None:
-            break
-        reasons.append(f"with the gripper along {axis}, {reason}")
-    else:
-        raise DefinitionError(
-            f"no layout was found in which {id_} grasps a cup on a table with its tool pointing down: "
-            f"{'; '.join(reasons)}",
-            hint=f"is {drafted.flange} the link that carries the gripper (--flange), and one of these its axis out of "
-            "the arm (--tool-axis)? Does the arm turn its tool down at all?",
-        )
-    arm, robot = drafted.arm, drafted.robot
-    ranges = zip(arm.joints, cell.lower, cell.upper, strict=True)
-    narrowed = replace(arm, joints=tuple(replace(joint, lower=low, upper=high) for joint, low, high in ranges))
-    payload_kg = payload_at_reach_kg(robot)
-    text = robot_text(narrowed, id_=id_, urdf=f"{id_}.urdf", home=cell.home, payload_kg=payload_kg)
-    drafted.file.write_text(text, encoding="utf-8")
-    (project / "scenes" / "kitchen.yaml").write_text(
-        scene_text(cell.layout, robot=drafted.file.name, is_yaw_free=is_yaw_free(robot)), encoding="utf-8"
-    )
-    return arm.notes
+        path.write_text(renamed(size.fitted_text(name, content)), encoding="utf-8", newline="\n")
 
 
-def _renamed(text: str, old: str, id_: str, name: str) -> str:
+def _renamed(text: str, *, old: str, id_: str, name: str) -> str:
     """A file of the scaffold with the arm's name in the place of the scaffold's."""
     text = text.replace(f"scenes/robots/{old}.yaml", f"scenes/robots/{id_}.yaml")
     text = re.sub(r"solver_iterations: \d+", _ITERATIONS, text)
