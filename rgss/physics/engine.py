@@ -19,6 +19,7 @@ from rgss.scenes import with_mesh_files
 _Owner = TypeVar("_Owner", bound="ClientOwner")
 
 _STANDARD_OUTPUT, _STANDARD_ERROR = 1, 2
+_BETWEEN_TAGS = re.compile(r">\s*<")
 _MESSAGE = re.compile(r"b3(Error|Warning)\[[^\]]*\]:\s*")
 
 
@@ -88,7 +89,7 @@ def load_urdf_text(
             return str(path)
 
         name = str(Path(folder) / "robot.urdf")
-        Path(name).write_text(with_mesh_files(text, write_mesh), encoding="utf-8")
+        Path(name).write_text(_tags_on_lines(with_mesh_files(text, write_mesh)), encoding="utf-8")
         with _engine_output() as output:
             try:
                 body = module.loadURDF(
@@ -100,6 +101,11 @@ def load_urdf_text(
                     f"the physics engine cannot load the robot: {reasons}", hint="check its URDF"
                 ) from error
     return int(body)
+
+
+def _tags_on_lines(urdf: str) -> str:
+    """URDF with each tag on a line of its own: the engine breaks lines after 8191 bytes, also within a number."""
+    return _BETWEEN_TAGS.sub(">\n<", urdf)
 
 
 @contextmanager
