@@ -122,9 +122,7 @@ def convex_link_urdf(
         moments_kg_m2: Its principal moments of inertia.
         principal: Transform of the principal axes to the link's frame.
     """
-    from scipy.spatial.transform import Rotation
-
-    angles = Rotation.from_quat(principal.quaternion_xyzw).as_euler("xyz")
+    angles = principal.roll_pitch_yaw_rad()
     root = ET.Element("robot", {"name": name})
     link = ET.SubElement(root, "link", {"name": name})
     inertial = ET.SubElement(link, "inertial")

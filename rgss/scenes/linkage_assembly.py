@@ -135,10 +135,7 @@ def _add_elements(element: ET.Element, pad: LinkagePad, layout: PadLayout) -> No
 
 
 def _add_origin(element: ET.Element, pose: Pose) -> None:
-    from scipy.spatial.transform import Rotation
-
-    angles = Rotation.from_quat(pose.quaternion_xyzw).as_euler("xyz")
-    ET.SubElement(element, "origin", {"xyz": _numbers(pose.position_m), "rpy": _numbers(angles)})
+    ET.SubElement(element, "origin", {"xyz": _numbers(pose.position_m), "rpy": _numbers(pose.roll_pitch_yaw_rad())})
 
 
 def _numbers(values: Sequence[float]) -> str:

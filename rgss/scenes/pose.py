@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+_GIMBAL_LOCK = 1.0e-6
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pose:
@@ -34,6 +36,17 @@ class Pose:
             cr * cp * cy + sr * sp * sy,
         )
         return Pose(position_m=position_m, quaternion_xyzw=quaternion)
+
+    def roll_pitch_yaw_rad(self) -> tuple[float, float, float]:
+        """Fixed-axis rotations about x, then y, then z, as in URDF; at a pitch of 90 deg the yaw is 0."""
+        from scipy.spatial.transform import Rotation
+
+        rotation = Rotation.from_quat(self.quaternion_xyzw)
+        (xx, _, _), (yx, yy, yz), (zx, _, _) = rotation.as_matrix().tolist()
+        if math.hypot(xx, yx) < _GIMBAL_LOCK:
+            return math.atan2(-yz, yy), math.copysign(math.pi / 2, -zx), 0.0
+        roll, pitch, yaw = rotation.as_euler("xyz").tolist()
+        return roll, pitch, yaw
 
     def rotate(self, vector: tuple[float, float, float]) -> tuple[float, float, float]:
         """Rotate a vector from this frame to the outer frame, without translation."""

@@ -97,3 +97,17 @@ def test_a_pose_seen_from_another_is_in_that_ones_frame(pose, frame):
     expected = np.linalg.inv(matrix(frame)) @ matrix(pose)
     assert np.allclose(matrix(pose.relative_to(frame)), expected, atol=1e-10)
     assert pose.relative_to(frame).quaternion_xyzw == pytest.approx((frame.inverse() @ pose).quaternion_xyzw, abs=1e-12)
+
+
+@given(pose=poses)
+def test_angles_give_the_orientation_back(pose):
+    again = Pose.from_roll_pitch_yaw(pose.position_m, pose.roll_pitch_yaw_rad())
+    assert np.abs(np.dot(again.quaternion_xyzw, pose.quaternion_xyzw)) == pytest.approx(1.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("pitch", [math.pi / 2, -math.pi / 2, math.pi / 2 - 1e-7, -math.pi / 2 + 1e-9])
+@pytest.mark.parametrize(("roll", "yaw"), [(0.0, 0.0), (0.7, 0.0), (0.4, -2.1), (-3.0, 1.0)])
+def test_angles_at_gimbal_lock_give_the_orientation_back(roll, pitch, yaw):
+    pose = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (roll, pitch, yaw))
+    again = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), pose.roll_pitch_yaw_rad())
+    assert np.abs(np.dot(again.quaternion_xyzw, pose.quaternion_xyzw)) == pytest.approx(1.0, abs=1e-12)
