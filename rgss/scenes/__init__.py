@@ -42,6 +42,7 @@ from rgss.scenes.hands import (
     at_object,
     at_opening,
     at_top,
+    find_pads,
     misfit,
     palm_fit,
     suction_point_of,

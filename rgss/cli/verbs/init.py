@@ -11,6 +11,7 @@ EXAMPLE = "rgss init my_project"
 MORE_EXAMPLES = (
     ("rgss init", "in the current folder, whose files are kept"),
     ("rgss init --robot my_arm.urdf my_project", "for your own arm, from its URDF"),
+    ("rgss init --robot my_arm.urdf --gripper my_gripper.urdf my_project", "and your own gripper"),
 )
 
 
@@ -33,6 +34,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="with --robot: the axis of that link along which the gripper points (default: the first that works)",
     )
     add_arm_mass(parser, "with --robot")
+    parser.add_argument(
+        "--gripper",
+        type=Path,
+        metavar="URDF",
+        help="with --robot: the URDF of your gripper, or again that of the arm for the hand that it has",
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -47,7 +54,12 @@ def run(options: argparse.Namespace) -> int:
     folder: Path = options.folder
     if options.project is not None:
         raise DefinitionError("--project names an existing project", hint=f"rgss init {options.project}")
-    for name, what in (("flange", "names a link"), ("tool_axis", "names an axis"), ("mass", "is that of the arm")):
+    for name, what in (
+        ("flange", "names a link"),
+        ("tool_axis", "names an axis"),
+        ("mass", "is that of the arm"),
+        ("gripper", "is for the arm"),
+    ):
         if getattr(options, name) is not None and options.robot is None:
             option = f"--{name.replace('_', '-')}"
             raise DefinitionError(f"{option} {what} of a URDF", hint="give the URDF with --robot")
@@ -79,5 +91,6 @@ def _robot_files(options: argparse.Namespace) -> tuple[tuple[str, ...], tuple[st
         flange=options.flange,
         tool_axis=options.tool_axis,
         mass_kg=arm_mass_kg(options.mass),
+        gripper=options.gripper,
     )
     return written.files, tuple(note.rationale for note in written.notes)

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from rgss.scenes.hands.linkage_document import LinkageGripperDocument
     from rgss.scenes.hands.linkage_fit import at_object, at_opening
     from rgss.scenes.hands.linkage_gripper import LinkageGripper
+    from rgss.scenes.hands.pad_search import find_pads
     from rgss.scenes.hands.parallel_gripper import ParallelGripperDocument
     from rgss.scenes.hands.vacuum_gripper import VacuumGripperDocument, at_top
 else:

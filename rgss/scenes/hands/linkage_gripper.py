@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from rgss.documents import Document
@@ -15,7 +15,7 @@ from rgss.scenes.gripper import GripperDrive, GripperFile, GripperGeometry
 from rgss.scenes.hands.linkage_document import LinkageGripperDocument
 from rgss.scenes.hands.linkage_pads import DrivenRange, PadError, linkage_of
 from rgss.scenes.hands.linkage_urdf import driven_joints, links_of, mechanism_problems, palm_of, prune
-from rgss.scenes.linkage import Linkage, LinkageMotion
+from rgss.scenes.linkage import Linkage, LinkageLink, LinkageMotion
 from rgss.scenes.pose import Pose
 from rgss.scenes.shapes import Box, Cylinder
 from rgss.scenes.urdf_file import UrdfError, number_problems, parse_urdf
@@ -122,6 +122,27 @@ def pad_limits(motion: LinkageMotion) -> tuple[float, float]:
     return force_n, speed_m_s
 
 
+def driven_range(root: ET.Element, links: Sequence[LinkageLink]) -> DrivenRange:
+    """Driven joint of a gripper with its limits.
+
+    Args:
+        root: The gripper's part of a URDF, without problems.
+        links: Its links.
+    """
+    (driven,) = driven_joints(root)
+    joint = next(joint for joint in root.findall("joint") if joint.get("name") == driven)
+    limit, child = joint.find("limit"), joint.find("child")
+    values = {} if limit is None else limit.attrib
+    name = "" if child is None else child.get("link", "")
+    return DrivenRange(
+        link=[link.name for link in links].index(name),
+        lower=float(values.get("lower", "0")),
+        upper=float(values.get("upper", "0")),
+        effort=float(values.get("effort", "0")),
+        speed=float(values.get("velocity", "0")),
+    )
+
+
 def _gripper_file(entry: LinkageGripperDocument, motion: LinkageMotion) -> GripperFile:
     linkage = motion.linkage
     one, other = linkage.pads
@@ -193,21 +214,7 @@ def _linkage(root: ET.Element, entry: LinkageGripperDocument, palm: str) -> Link
     mount = Pose.from_roll_pitch_yaw(entry.mount.at, (entry.mount.roll, entry.mount.pitch, entry.mount.yaw))
     links = links_of(root, palm, mount)
     names = [link.name for link in links]
-    (driven,) = driven_joints(root)
-    joint = next(joint for joint in root.findall("joint") if joint.get("name") == driven)
-    limit, child = joint.find("limit"), joint.find("child")
-    values = {} if limit is None else limit.attrib
-    return linkage_of(
-        links,
-        (names.index(entry.pads[0]), names.index(entry.pads[1])),
-        DrivenRange(
-            link=names.index("" if child is None else child.get("link", "")),
-            lower=float(values.get("lower", "0")),
-            upper=float(values.get("upper", "0")),
-            effort=float(values.get("effort", "0")),
-            speed=float(values.get("velocity", "0")),
-        ),
-    )
+    return linkage_of(links, (names.index(entry.pads[0]), names.index(entry.pads[1])), driven_range(root, links))
 
 
 def _palm_radius_m(linkage: Linkage, least_m: float) -> float:

@@ -66,7 +66,7 @@ def drafted_robot(
         notes += snap_right_angles(root)
     likely = likely_tool_axes(root, arm, urdf)
     notes += complete_masses(root, urdf, leave=arm.hands, mass_kg=mass_kg)
-    id_ = _identifier(arm.name)
+    id_ = identifier_of(arm.name, prefix="arm")
     robots = project / "scenes" / "robots"
     robots.mkdir(parents=True, exist_ok=True)
     notes += copy_named_files(root, urdf, robots)
@@ -91,6 +91,12 @@ def drafted_robot(
     return DraftedRobot(arm=arm, robot=robot, file=file, likely_tool_axes=likely, flange=link)
 
 
-def _identifier(name: str) -> str:
+def identifier_of(name: str, *, prefix: str) -> str:
+    """Identifier from a name of a URDF.
+
+    Args:
+        name: The name.
+        prefix: What precedes a name that begins with no letter.
+    """
     found = re.sub(r"[^A-Za-z0-9_.-]+", "_", name).strip("_.-").lower()
-    return found if found[:1].isalpha() else f"arm_{found}"
+    return found if found[:1].isalpha() else f"{prefix}_{found}"

@@ -102,7 +102,9 @@ class CellSearch:
                 return
 
     def _fitted(self, tried: Layout, *, is_direct: bool) -> FittedCell | None:
-        layout = tried if not self._gap_m or tried.is_overhead else replace(tried, pedestal_gap_m=self._gap_m)
+        layout = replace(tried, own_cup=self._size.own_cup)
+        if self._gap_m and not layout.is_overhead:
+            layout = replace(layout, pedestal_gap_m=self._gap_m)
         scene = self._scene(layout)
         if not all(_reaches_ends(scene, geometry) for geometry in self._geometries):
             return None

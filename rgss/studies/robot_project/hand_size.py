@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from rgss.scenes import Robot
 from rgss.studies.robot_project.holding import payload_at_reach_kg, weak_joints
+from rgss.studies.robot_project.layout import Cup
 from rgss.studies.robot_project.reach import horizontal_reach_m
 
 _SCALES = (1.0, 0.7, 0.5, 0.35, 0.25)
@@ -26,9 +27,11 @@ class HandSize:
 
     Attributes:
         scale: Factor of lengths and speeds. Masses follow its cube, forces its square.
+        own_cup: The object of a gripper that is not scaled; None where hands and object are.
     """
 
     scale: float = 1.0
+    own_cup: Cup | None = None
 
     @property
     def clearance_m(self) -> float:
@@ -44,7 +47,8 @@ class HandSize:
         """
         if self.scale == 1.0:
             return text
-        for pattern, power in _QUANTITIES.get(name.rpartition("/")[0] if "/grippers/" in name else name, ()):
+        scaled = {} if self.own_cup is not None else _QUANTITIES
+        for pattern, power in scaled.get(name.rpartition("/")[0] if "/grippers/" in name else name, ()):
             text = re.sub(pattern, self._scaled(power), text)
         return text.replace("clearance: 8 mm", f"clearance: {self.clearance_m * 1e3:g} mm")
 
@@ -70,12 +74,17 @@ _QUANTITIES = {
 }
 
 
-def hand_sizes(robot: Robot) -> Iterator[HandSize]:
+def hand_sizes(robot: Robot, cups: Sequence[Cup] = ()) -> Iterator[HandSize]:
     """Sizes to try, the largest first that the arm can carry and whose hand leaves room to reach.
 
     Args:
         robot: The arm.
+        cups: Objects of a gripper that has its own size, the largest first; its scale is that of the tables.
     """
+    if cups:
+        scale = next((one for one in _SCALES if one <= horizontal_reach_m(robot) / _REACH_M), _SCALES[-1])
+        yield from (HandSize(scale=scale, own_cup=cup) for cup in cups)
+        return
     # Efforts that do not hold the arm itself are no measure of what it carries; `rgss check` reports them.
     by_weight = 1.0 if weak_joints(robot) else (payload_at_reach_kg(robot) / _CARRIED_KG) ** (1 / 3)
     largest = min(1.0, by_weight, horizontal_reach_m(robot) / _REACH_M)

@@ -95,6 +95,19 @@ _FREE_YAW = "  free_yaw: true # the cup is round: the arm turns the gripper as i
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Cup:
+    """The object of a new project.
+
+    Attributes:
+        radius_m: Its radius.
+        height_m: Its height.
+    """
+
+    radius_m: float = _CUP_RADIUS_M
+    height_m: float = _CUP_HEIGHT_M
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Layout:
     """Positions of the tables.
 
@@ -111,6 +124,7 @@ class Layout:
         rise_share: Height to which the gripper rises over the object, as a share of the reach; 0.24 m at most.
         is_yaw_free: Whether the gripper may be turned about the vertical as suits the arm.
         has_low_post: Whether the object is carried over the post, which is half as high as the gripper rises.
+        own_cup: The object of a gripper that it was made for; None for a cup of 100 mm to the scale.
     """
 
     reach_m: float
@@ -125,6 +139,12 @@ class Layout:
     rise_share: float = _RISE_SHARE
     is_yaw_free: bool = False
     has_low_post: bool = False
+    own_cup: Cup | None = None
+
+    @property
+    def cup(self) -> Cup:
+        """The object."""
+        return self.own_cup or Cup(radius_m=_CUP_RADIUS_M * self.scale, height_m=_CUP_HEIGHT_M * self.scale)
 
     @property
     def rise_m(self) -> float:
@@ -134,7 +154,7 @@ class Layout:
     @property
     def cup_half_height_m(self) -> float:
         """Half of the object's height."""
-        return self.scale * _CUP_HEIGHT_M / 2
+        return self.cup.height_m / 2
 
     @property
     def depth_m(self) -> float:
@@ -221,8 +241,8 @@ def scene_text(layout: Layout, *, robot: str) -> str:
         lift=min(0.06, 0.05 * reach) * 1e3,
         high=layout.rise_m * 1e3,
         clearance=max(1.0, round(3.0 * scale, 1)),
-        cup_radius=_CUP_RADIUS_M * scale * 1e3,
-        cup_height=_CUP_HEIGHT_M * scale * 1e3,
+        cup_radius=layout.cup.radius_m * 1e3,
+        cup_height=layout.cup.height_m * 1e3,
         cup_mass=_CUP_KG * scale**3,
         cup_force=_CUP_N * scale**2,
         place_radius=40.0 * scale,

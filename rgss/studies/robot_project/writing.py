@@ -13,11 +13,13 @@ from functools import partial
 from pathlib import Path, PurePosixPath
 
 from rgss.errors import DefinitionError
-from rgss.scenes import load_gripper
+from rgss.scenes import load_gripper_file
 from rgss.studies.robot_project.descent_search import NEVER_DOWN, angles_from_vertical_rad
 from rgss.studies.robot_project.draft import DraftedRobot, drafted_robot
+from rgss.studies.robot_project.drafted_gripper import DraftedGripper, drafted_gripper, drafted_hand
 from rgss.studies.robot_project.first_trial import carries_object
 from rgss.studies.robot_project.fitting import POINTS_INTO_ARM, CellSearch, FittedCell
+from rgss.studies.robot_project.gripper_texts import with_gripper
 from rgss.studies.robot_project.hand_size import HandSize, hand_sizes
 from rgss.studies.robot_project.holding import payload_at_reach_kg
 from rgss.studies.robot_project.layout import scene_text
@@ -53,6 +55,7 @@ def write_robot_project(
     flange: str | None = None,
     tool_axis: str | None = None,
     mass_kg: float | None = None,
+    gripper: Path | None = None,
 ) -> RobotProject:
     """Write a new project round the arm of a URDF into a folder, which is made if it is not there.
 
@@ -65,13 +68,15 @@ def write_robot_project(
         flange: The link that carries the gripper; found where None.
         tool_axis: The axis of that link along which the gripper points; the first that works where None.
         mass_kg: Mass of the arm with its base, for a URDF without masses.
+        gripper: The URDF of a gripper, or that of the arm for the hand that it has; two grippers with sliding fingers
+            where None.
 
     Raises:
-        DefinitionError: The URDF is wrong or has no arm that the task can be fitted to, or a file is there already.
+        DefinitionError: A URDF is wrong or has no arm that the task can be fitted to, or a file is there already.
     """
     with tempfile.TemporaryDirectory() as scratch:
         project = Path(scratch) / "project"
-        notes = _write_files(project, urdf, flange, tool_axis, mass_kg)
+        notes = _write_files(project, urdf, flange, tool_axis, mass_kg, gripper)
         names = tuple(sorted(path.relative_to(project).as_posix() for path in project.rglob("*") if path.is_file()))
         try:
             for name in names:
@@ -88,24 +93,31 @@ def write_robot_project(
 
 
 def _write_files(
-    project: Path, urdf: Path, flange: str | None, tool_axis: str | None, mass_kg: float | None
+    project: Path, urdf: Path, flange: str | None, tool_axis: str | None, mass_kg: float | None, gripper: Path | None
 ) -> tuple[Note, ...]:
     drafted = drafted_robot(urdf, project, flange=flange, tool_axis=tool_axis or "z", mass_kg=mass_kg)
     id_ = drafted.robot.id
+    own = None if gripper is None else _drafted_gripper(gripper, project, urdf, drafted)
     texts = scaffold_texts()
     (old,) = (PurePosixPath(name).stem for name in texts if re.fullmatch(r"scenes/robots/[^/]+\.yaml", name))
     axes = _axes_down(drafted, tool_axis)
     reasons: dict[str, str] = {}
     renamed = partial(_renamed, old=old, id_=id_, name=drafted.arm.name)
-    for size, axis in itertools.product(tuple(hand_sizes(drafted.robot)), axes):
+    if own is not None:
+        texts = with_gripper(texts, own)
+    sizes = tuple(hand_sizes(drafted.robot, () if own is None else own.cups))
+    for size, axis in itertools.product(sizes, axes):
         if reasons.get(axis) in (POINTS_INTO_ARM, NEVER_DOWN):
             continue
         _write_texts(project, texts, size, renamed=renamed)
-        geometries = [load_gripper(path) for path in sorted((project / "scenes" / "grippers").glob("*.yaml"))]
         drafted = drafted_robot(urdf, project, flange=flange, tool_axis=axis, mass_kg=mass_kg)
+        if own is not None and gripper is not None:
+            own = _drafted_gripper(gripper, project, urdf, drafted)
+        files = sorted((project / "scenes" / "grippers").glob("*.yaml"))
+        geometries = [load_gripper_file(path, project=project).geometry for path in files]
         search = CellSearch(project, drafted.robot, drafted.file.name, geometries, size=size)
         if _is_written(project, drafted, search):
-            return drafted.arm.notes
+            return drafted.arm.notes if own is None else (*drafted.arm.notes, *own.notes)
         reasons.setdefault(axis, search.reason)
     found = "; ".join(f"with the gripper along {axis}, {reason}" for axis, reason in reasons.items())
     raise DefinitionError(
@@ -113,6 +125,13 @@ def _write_files(
         hint=f"is {drafted.flange} the link that carries the gripper (--flange), and one of these its axis out of "
         "the arm (--tool-axis)? An arm that cannot turn its tool down needs a scene and a task of its own",
     )
+
+
+def _drafted_gripper(gripper: Path, project: Path, urdf: Path, drafted: DraftedRobot) -> DraftedGripper:
+    """The gripper of a URDF; a hand for the URDF of the arm itself."""
+    if gripper.is_file() and urdf.is_file() and gripper.samefile(urdf):
+        return drafted_hand(urdf, project, drafted)
+    return drafted_gripper(gripper, project)
 
 
 def _is_written(project: Path, drafted: DraftedRobot, search: CellSearch) -> bool:

@@ -1,0 +1,216 @@
+"""A new project with the gripper of a URDF: the hand that an arm has, or a gripper alone."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import xml.etree.ElementTree as ET
+
+import pytest
+import yaml
+
+from rgss.cli.main import main
+from rgss.scenes import load_gripper_file
+from rgss.studies.robot_project.drafted_gripper import drafted_gripper
+from tests.robots.conftest import urdf_of
+from tests.scenes.linkage_texts import JAWS
+from tests.trials.hands.gripper_files import TWO_FINGER
+
+pytestmark = pytest.mark.engine
+
+CLOSED_ALONG = ("z", "x", "y", "-x", "-y", "-z")
+TURNS = {
+    "z": (0, 0, 0),
+    "x": (0, 90, 0),
+    "y": (-90, 0, 0),
+    "-x": (0, -90, 0),
+    "-y": (90, 0, 0),
+    "-z": (180, 0, 0),
+}
+RIGHT_ALONE = JAWS.replace(
+    '<mimic joint="left_joint"/>', '<limit lower="-0.01" upper="0.03" effort="30" velocity="0.1"/>'
+)
+WITH_A_HAND = ("arm with a hand", "gripper alone")
+
+
+def init(folder, *options):
+    return main(["init", "--robot", *options, str(folder)])
+
+
+def one_gripper(project):
+    (file,) = (project / "scenes" / "grippers").glob("*.yaml")
+    return yaml.safe_load(file.read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module", params=WITH_A_HAND)
+def project(request, tmp_path_factory):
+    """A project round an arm with its own hand, and round one with a gripper of cranks."""
+    folder = tmp_path_factory.mktemp("own") / "project"
+    arm, gripper = (
+        (urdf_of("seven with a hand"), urdf_of("seven with a hand"))
+        if request.param == WITH_A_HAND[0]
+        else (urdf_of("six"), TWO_FINGER)
+    )
+    assert init(folder, str(arm), "--gripper", str(gripper)) == 0
+    return folder
+
+
+def test_the_project_ends_in_a_decision_by_contact_trials(project, capsys):
+    study = project / "studies" / "pick_place.yaml"
+    study.write_text(
+        study.read_text(encoding="utf-8").replace("replicates: 2", "replicates: 1"),
+        encoding="utf-8",
+    )
+    status = main(["check", "--project", str(project)])
+    text = capsys.readouterr().out
+    assert status == (1 if "robot.inertia" in text else 0)  # one of the arms has inertias that no body has
+    assert "error" not in text
+    assert main(["sweep", "--jobs", "1", "--json", "--project", str(project)]) == 0
+    capsys.readouterr()
+    assert main(["measure", "--json", "--project", str(project)]) == 0
+    measured = json.loads(capsys.readouterr().out)
+    successes = {row["variant"]: row["value"] for row in measured if row["measure"] == "success"}
+    assert successes == dict.fromkeys((1, 2, 3, 4), 1.0)
+    assert main(["trade", "--json", "--project", str(project)]) in (0, 1)
+    # The firmer grip has the greater payload.
+    assert json.loads(capsys.readouterr().out)["chosen"] in (3, 4)
+
+
+def test_a_mechanism_of_several_followers_has_a_finer_step(project):
+    study = (project / "studies" / "pick_place.yaml").read_text(encoding="utf-8")
+    followers = (project / "scenes" / "grippers" / "two_finger.urdf").is_file()
+    assert ("rate: 960 Hz" in study, "rate: 240 Hz" in study) == (followers, not followers)
+
+
+def test_the_hand_is_where_the_urdf_has_it(tmp_path):
+    assert (
+        init(tmp_path / "new", str(urdf_of("seven with a hand")), "--gripper", str(urdf_of("seven with a hand"))) == 0
+    )
+    gripper = one_gripper(tmp_path / "new")
+    root = ET.parse(urdf_of("seven with a hand")).getroot()  # noqa: S314 - it comes with the engine
+    joint = next(one for one in root if one.get("name") == "panda_hand_joint")
+    roll, pitch, yaw = (math.degrees(float(word)) for word in joint.find("origin").get("rpy").split())
+
+    assert gripper["palm"] == "panda_hand"
+    assert gripper["pads"] == ["panda_leftfinger", "panda_rightfinger"]
+    assert gripper["mount"] == {"yaw": f"{yaw:.0f} deg"}
+    assert (roll, pitch) == (0.0, 0.0)
+    robot = yaml.safe_load((tmp_path / "new" / "scenes" / "robots" / "panda.yaml").read_text(encoding="utf-8"))
+    assert robot["without"] == ["panda_hand"]
+
+
+def turned(text, angles_deg):
+    """A gripper whose base frame is turned, with the gripper itself as it was."""
+    roll, pitch, yaw = (math.radians(angle) for angle in angles_deg)
+    base = (
+        '<link name="base"/><joint name="base_joint" type="fixed"><parent link="base"/><child link="palm"/>'
+        f'<origin xyz="0 0 0" rpy="{roll!r} {pitch!r} {yaw!r}"/></joint></robot>'
+    )
+    return text.replace("</robot>", base)
+
+
+@pytest.mark.parametrize("axis", CLOSED_ALONG)
+def test_a_gripper_is_mounted_along_its_own_axis(tmp_path, axis):
+    """The same gripper in a frame whose axis is any of six is the same gripper at the flange."""
+    plain, other = tmp_path / "plain.urdf", tmp_path / "other.urdf"
+    text = TWO_FINGER.read_text(encoding="utf-8")
+    plain.write_text(text, encoding="utf-8")
+    other.write_text(turned(text, TURNS[axis]), encoding="utf-8")
+    one, same = drafted_gripper(plain, tmp_path / "one"), drafted_gripper(other, tmp_path / "same")
+
+    for name in ("largest_opening_m", "stroke_m", "grasp_depth_m"):
+        assert getattr(same.geometry, name) == pytest.approx(getattr(one.geometry, name), abs=1e-9)
+    assert (same.force_n, same.cups) == (one.force_n, one.cups)
+    text = (tmp_path / "same" / "scenes" / "grippers" / "two_finger.yaml").read_text(encoding="utf-8")
+    assert "pads: [left_tip, right_tip]" in text
+    assert ("mount:" in text) is (axis != "z")
+
+
+def test_fingers_that_are_driven_alike_follow_each_other(tmp_path):
+    alone, with_mimic = tmp_path / "alone.urdf", tmp_path / "mimic.urdf"
+    alone.write_text(RIGHT_ALONE, encoding="utf-8")
+    with_mimic.write_text(JAWS, encoding="utf-8")
+    found, expected = drafted_gripper(alone, tmp_path / "one"), drafted_gripper(with_mimic, tmp_path / "other")
+
+    assert found.geometry == expected.geometry
+    assert found.notes[0].rationale == (
+        "The URDF drives left_joint and right_joint alike; right_joint follows left_joint here."
+    )
+    file = load_gripper_file(tmp_path / "one" / "scenes" / "grippers" / "jaws.yaml")
+    assert file.geometry == found.geometry
+
+
+def test_a_mirrored_range_is_followed_backwards(tmp_path):
+    mirrored = RIGHT_ALONE.replace('<axis xyz="0 -1 0"/>', '<axis xyz="0 1 0"/>').replace(
+        '<limit lower="-0.01" upper="0.03" effort="30" velocity="0.1"/>\n  </joint>\n  <joint name="camera',
+        '<limit lower="-0.03" upper="0.01" effort="30" velocity="0.1"/>\n  </joint>\n  <joint name="camera',
+    )
+    urdf, plain = tmp_path / "mirrored.urdf", tmp_path / "plain.urdf"
+    urdf.write_text(mirrored, encoding="utf-8")
+    plain.write_text(JAWS, encoding="utf-8")
+    found, expected = drafted_gripper(urdf, tmp_path / "one"), drafted_gripper(plain, tmp_path / "other")
+
+    assert 'multiplier="-1"' in (tmp_path / "one" / "scenes" / "grippers" / "jaws.urdf").read_text(encoding="utf-8")
+    assert found.geometry.largest_opening_m == pytest.approx(expected.geometry.largest_opening_m)
+    assert found.geometry.stroke_m == pytest.approx(expected.geometry.stroke_m)
+
+
+def test_a_fast_gripper_of_long_pads_is_slowed_and_grasps_near_its_tips(tmp_path):
+    drafted = drafted_gripper(TWO_FINGER, tmp_path)
+    text = (tmp_path / "scenes" / "grippers" / "two_finger.yaml").read_text(encoding="utf-8")
+
+    assert "speed: 50 mm/s" in text
+    assert "grasp_from_tip: 14 mm" in text
+    assert [note.about for note in drafted.notes] == ["speed", "grasp_from_tip"]
+
+
+ONE_FINGER = re.sub(
+    r"  <link name=\"right\">(?s:.*?)</link>\n|  <joint name=\"right_joint\"(?s:.*?)</joint>\n", "", JAWS
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            ONE_FINGER.replace("<collision>", "<visual>").replace("</collision>", "</visual>"),
+            "no two links with a coll",
+        ),
+        (ONE_FINGER, "gripper.urdf has no two links that close on an object (a pad is a link with a flat face)"),
+        (
+            RIGHT_ALONE.replace('upper="0.03"', 'upper="0.02"', 1),
+            "gripper.urdf has 2 driven joints (left_joint, right_j",
+        ),
+        (JAWS.replace("0 1 0", "1 0 0").replace("0 -1 0", "1 0 0"), "never lets the pads 'left' and 'right' meet"),
+        (JAWS.replace("</robot>", ""), "is not XML"),
+    ],
+)
+def test_what_is_no_gripper_is_said_in_one_line(tmp_path, capsys, text, message):
+    urdf = tmp_path / "gripper.urdf"
+    urdf.write_text(text, encoding="utf-8")
+
+    assert init(tmp_path / "new", str(urdf_of("six")), "--gripper", str(urdf)) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert len(error.splitlines()) == 1
+    assert not (tmp_path / "new").exists()
+
+
+def test_an_arm_without_a_hand_has_none_to_use(tmp_path, capsys):
+    assert init(tmp_path / "new", str(urdf_of("seven")), "--gripper", str(urdf_of("seven"))) == 2
+    assert capsys.readouterr().err == (
+        "rgss: model.urdf has no hand at lbr_iiwa_link_7: one link that is fixed to it and carries the fingers is "
+        "expected, found nothing (name the link that carries the hand with --flange, or give the URDF of a gripper "
+        "alone)\n"
+    )
+
+
+def test_a_gripper_needs_an_arm(tmp_path, capsys):
+    assert main(["init", "--gripper", str(TWO_FINGER), str(tmp_path / "new")]) == 2
+    assert capsys.readouterr().err == "rgss: --gripper is for the arm of a URDF (give the URDF with --robot)\n"
+
+
+def test_a_gripper_that_is_not_there(tmp_path, capsys):
+    assert init(tmp_path / "new", str(urdf_of("six")), "--gripper", str(tmp_path / "no.urdf")) == 2
+    assert "no.urdf cannot be read" in capsys.readouterr().err
