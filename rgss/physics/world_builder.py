@@ -15,7 +15,7 @@ from typing import Any
 from rgss.errors import SimulationError
 from rgss.physics.bodies import add_body, add_object
 from rgss.physics.engine import load_urdf_text
-from rgss.physics.linkage_drive import LEAST_ITERATIONS, LinkageDrive
+from rgss.physics.linkage_drive import LinkageDrive, least_iterations
 from rgss.physics.settings import PhysicsSettings
 from rgss.physics.suction_seal import SuctionSeal
 from rgss.scenes import (
@@ -97,8 +97,8 @@ class WorldBuilder:
     @property
     def solver_iterations(self) -> int:
         """Iterations of the solver, at least those that the gears of a linkage need."""
-        iterations = self.settings.solver_iterations
-        return iterations if self.gripper.geometry.linkage is None else max(iterations, LEAST_ITERATIONS)
+        iterations, linkage = self.settings.solver_iterations, self.gripper.geometry.linkage
+        return iterations if linkage is None else max(iterations, least_iterations(linkage))
 
     def add_scene(self) -> dict[int, str]:
         """Add the fixed bodies; returns their names by id."""

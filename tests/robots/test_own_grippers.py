@@ -77,12 +77,6 @@ def test_the_project_ends_in_a_decision_by_contact_trials(project, capsys):
     assert json.loads(capsys.readouterr().out)["chosen"] in (3, 4)
 
 
-def test_a_mechanism_of_several_followers_has_a_finer_step(project):
-    study = (project / "studies" / "pick_place.yaml").read_text(encoding="utf-8")
-    followers = (project / "scenes" / "grippers" / "two_finger.urdf").is_file()
-    assert ("rate: 960 Hz" in study, "rate: 240 Hz" in study) == (followers, not followers)
-
-
 def test_the_hand_is_where_the_urdf_has_it(tmp_path):
     assert (
         init(tmp_path / "new", str(urdf_of("seven with a hand")), "--gripper", str(urdf_of("seven with a hand"))) == 0

@@ -23,8 +23,6 @@ _FACTOR = """\
       - {{id: gentle, sets: {{finger_force: {gentle:g} N}}}}
       - {{id: firm, sets: {{finger_force: {firm:g} N}}}}
 """
-_ONE_FOLLOWER = 2
-_FINE_RATE = "rate: 960 Hz # the joints that follow the gripper's driven one yield at a coarser step"
 _VALUES = """\
   values:
     - {measure: payload, weight: 0.4, worst: 0.2 kg, best: 1.5 kg}
@@ -74,12 +72,5 @@ def _edits(gripper: DraftedGripper) -> Mapping[str, tuple[tuple[str, str], ...]]
             (r"Cost of the gripper with a drive for each finger\.", "Cost of the gripper with its drive."),
             (r"gripper_cost \+ fingers \* drive_cost", "gripper_cost"),
         ),
-        "studies/pick_place.yaml": ((r"  values:\n(?:    .*\n)+", _VALUES), *_rate(gripper)),
+        "studies/pick_place.yaml": ((r"  values:\n(?:    .*\n)+", _VALUES),),
     }
-
-
-def _rate(gripper: DraftedGripper) -> tuple[tuple[str, str], ...]:
-    """A finer step where several joints follow the driven one: at 240 Hz the couplings yield, and an object slips."""
-    linkage = gripper.geometry.linkage
-    moving = 0 if linkage is None else sum(link.kind is not None for link in linkage.links)
-    return ((r"rate: 240 Hz", _FINE_RATE),) if moving > _ONE_FOLLOWER else ()
