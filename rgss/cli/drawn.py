@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from rgss.trials import DrawnValue
 
+_FACTOR = "_factor"
 _SHOWN_AS = {"m": ("mm", 1e3), "rad": ("deg", 57.29577951308232), "s": ("ms", 1e3)}
 
 
@@ -43,5 +44,12 @@ def print_drawn(workload: str, drawn: Sequence[DrawnValue]) -> None:
     for one in drawn:
         unit, factor = _SHOWN_AS.get(one.unit, (one.unit, 1.0))
         shown = unit if unit != "1" else "–"
-        rows.append([one.name, shown, number(factor * one.nominal, 4), number(factor * one.drawn, 4)])
+        rows.append([_acted_on(one), shown, number(factor * one.nominal, 4), number(factor * one.drawn, 4)])
     print_table(["uncertain quantity", "unit", "nominal", "drawn"], rows, right=(2, 3))
+
+
+def _acted_on(one: DrawnValue) -> str:
+    """Name of a draw; of a factor, whose values are those of the quantity that it multiplies, with that quantity."""
+    if not one.name.endswith(_FACTOR) or one.unit == "1":
+        return one.name
+    return f"{one.name.removesuffix(_FACTOR)} (by its factor)"
