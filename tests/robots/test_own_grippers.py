@@ -159,6 +159,7 @@ def test_a_fast_gripper_of_long_pads_is_slowed_and_grasps_near_its_tips(tmp_path
     assert [note.about for note in drafted.notes] == ["speed", "grasp_from_tip"]
 
 
+BACK_TO_THE_PALM = '<joint name="back" type="fixed"><parent link="left"/><child link="palm"/></joint></robot>'
 ONE_FINGER = re.sub(
     r"  <link name=\"right\">(?s:.*?)</link>\n|  <joint name=\"right_joint\"(?s:.*?)</joint>\n", "", JAWS
 )
@@ -178,6 +179,10 @@ ONE_FINGER = re.sub(
         ),
         (JAWS.replace("0 1 0", "1 0 0").replace("0 -1 0", "1 0 0"), "never lets the pads 'left' and 'right' meet"),
         (JAWS.replace("</robot>", ""), "is not XML"),
+        (
+            JAWS.replace("</robot>", BACK_TO_THE_PALM),
+            "gripper.urdf has a joint that carries its palm (a gripper begins",
+        ),
     ],
 )
 def test_what_is_no_gripper_is_said_in_one_line(tmp_path, capsys, text, message):

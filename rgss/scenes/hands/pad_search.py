@@ -85,6 +85,8 @@ def _mechanism(urdf: Path, palm: str | None, project: Path) -> tuple[ET.Element,
         gripper="gripper", kind="linkage", description=urdf.name, palm=palm, pads=("one", "other")
     )
     name = palm_of(root, entry)
+    if not name:
+        raise DefinitionError(f"{urdf.name} has a joint that carries its palm", hint="a gripper begins at its palm")
     prune(root, name)
     shaped = [link.get("name", "") for link in root.findall("link") if link.find("collision") is not None]
     if len(shaped) < _PADS:
