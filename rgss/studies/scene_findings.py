@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -10,7 +10,7 @@ from rgss.documents import Document, read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
-from rgss.scenes import GRIPPER_BASE_LINK, GripperGeometry, Waypoint, at_object, misfit, palm_fit
+from rgss.scenes import GRIPPER_BASE_LINK, GripperGeometry, Waypoint, at_object, half_extents_m, misfit, palm_fit
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
@@ -71,6 +71,7 @@ def check_scene(project: Project) -> SceneCheck:
     found = [places.finding(problem, ()) for problem in of_bodies]
     every = len(_gripper_files(project))
     found += [places.finding(problem, files if len(files) < every else ()) for problem, files in of_reach.items()]
+    found += places.outgrown_regions()
     found += [places.too_tall(tall, files, serves=len(files) < every) for tall, files in too_tall.items()]
     return SceneCheck(findings=tuple(sorted(found)))
 
@@ -126,6 +127,7 @@ class _Places:
         self.at: dict[str, tuple[str | int, ...]] = {
             body.id: ("bodies", index, "foot") for index, body in enumerate(project.scene.bodies)
         }
+        self._scene = project.scene
         self._workpiece = project.scene.workpiece.id
         self.at[self._workpiece] = ("workpiece", "at")
 
@@ -199,6 +201,24 @@ class _Places:
             hint = "designs with this gripper fail at the grasp, and the others do not"
         severity = Severity.INFO if serves else Severity.ERROR
         return self.document.finding("scene.too-tall", message, ("workpiece", key), hint=hint, severity=severity)
+
+    def outgrown_regions(self) -> Iterator[Finding]:
+        """Notes on objects that are wider than their place region."""
+        for index, object_ in enumerate(self._scene.objects):
+            above = ("workpieces", index - 1) if index else ()
+            location: tuple[str | int, ...] = (*above, "place_region", "radius")
+            half_m, radius_m = min(half_extents_m(object_.workpiece.shape)[:2]), object_.place.radius_m
+            if half_m <= radius_m:
+                continue
+            message = (
+                f"{object_.workpiece.id} does not fit its place region: half of its width is {half_m * 1e3:.4g} mm, "
+                f"and the radius of the region is {radius_m * 1e3:.4g} mm"
+            )
+            hint = (
+                f"make the radius at least {half_m * 1e3:.4g} mm, or take a smaller object; a trial compares the "
+                "radius with the distance of the object's axis from the centre"
+            )
+            yield self.document.finding("scene.place-region", message, location, hint=hint, severity=Severity.INFO)
 
     def _named(self, body: str) -> str:
         """A body with its place in the file, where it has one."""

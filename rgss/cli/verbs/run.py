@@ -39,6 +39,7 @@ def run(options: argparse.Namespace) -> int:
     """Run the trial; 1 if it does not succeed."""
     from rgss.cli.drawn import drawn_as_json
     from rgss.cli.driven import check_driver, run_driven
+    from rgss.cli.failure_hints import failure_hint
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
     from rgss.engines import require_engines
@@ -66,11 +67,14 @@ def run(options: argparse.Namespace) -> int:
     digest = record_digest(record)
     drawn = drawn_values(spec)
     control = spec.settings.controller.origin if spec.fidelity is Fidelity.DYNAMIC else ""
+    hint = "" if record.success else failure_hint(record, project)
     if options.json:
-        shown = {**_as_json(record, digest), **drawn_as_json(record.workload, drawn)}
+        shown = {**_as_json(record, digest, hint), **drawn_as_json(record.workload, drawn)}
         print_json({**shown, "control": control} if control else shown)
     else:
         _show(record, digest, drawn, control)
+        if hint:
+            print(f"To mend it: {hint}.")
     if order is not None and seen is not None:
         lines = made_pictures(order, spec, seen, beside=beside)
         if not options.json:
@@ -78,13 +82,14 @@ def run(options: argparse.Namespace) -> int:
     return CLEAN if record.success else FINDINGS
 
 
-def _as_json(record: Any, digest: str) -> dict[str, Any]:
+def _as_json(record: Any, digest: str, hint: str) -> dict[str, Any]:
     return {
         "variant": record.variant,
         "seed": record.seed,
         "success": record.success,
         "failure": None if record.failure is None else record.failure.value,
         "failure_detail": record.failure_detail,
+        "failure_hint": hint,
         "phases": [
             {
                 "phase": phase.phase,

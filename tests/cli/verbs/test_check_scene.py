@@ -167,3 +167,15 @@ def test_an_object_too_tall_for_one_hand_of_two_is_a_result(check_with, folder):
     (one,) = [finding for finding in findings if finding["rule"] == "scene.too-tall"]
     assert (status, one["severity"]) == (0, "info")
     assert one["message"].startswith("cup is too tall for scenes/grippers/kg-2.yaml: ")
+
+
+def test_an_object_wider_than_its_place_region_is_noted_with_both_sizes(check_with):
+    status, findings, text = check_with(("radius: 40 mm", "radius: 30 mm"))
+
+    (one,) = findings
+    assert (status, one["rule"], one["severity"]) == (0, "scene.place-region", "info")
+    assert one["line"] == line_of(text, "radius: 30 mm")
+    assert one["message"] == (
+        "cup does not fit its place region: half of its width is 35 mm, and the radius of the region is 30 mm"
+    )
+    assert one["hint"].startswith("make the radius at least 35 mm, or take a smaller object")
