@@ -10,7 +10,8 @@ import yaml
 
 from rgss.cli.main import main
 from rgss.studies.robot_project import write_robot_project
-from rgss.studies.robot_project.hand_size import HandSize
+from rgss.studies.robot_project.draft import drafted_robot
+from rgss.studies.robot_project.hand_size import HandSize, hand_sizes, moving_mass_kg
 from rgss.studies.robot_project.layout import Layout, layouts, raised_layout
 from rgss.studies.scaffolding import scaffold_texts
 from tests.fixtures.serial_arms import FIVE, SEVEN, serial_urdf
@@ -57,8 +58,18 @@ def test_the_hand_of_a_small_arm_is_small_with_its_object_masses_and_forces(tmp_
     scale = float(hand["grasp_depth"].split()[0]) / 145
 
     assert scale < 0.7
-    assert float(scene["workpiece"]["radius"].split()[0]) == pytest.approx(35 * scale)
+    assert float(scene["workpiece"]["radius"].split()[0]) == pytest.approx(35 * scale, rel=1e-3)
     assert float(scene["workpiece"]["mass"].split()[0]) == pytest.approx(0.25 * scale**3, rel=0.01)
+
+
+def test_a_light_arm_carries_a_light_hand(tmp_path):
+    """Five links of 100 g each, which bear 2 kg by their efforts."""
+    urdf = tmp_path / "arm.urdf"
+    urdf.write_text(serial_urdf(FIVE).replace('mass value="1"', 'mass value="0.1"'), encoding="utf-8")
+    robot = drafted_robot(urdf, tmp_path / "project").robot
+
+    assert moving_mass_kg(robot) == pytest.approx(0.5)
+    assert [size.scale for size in hand_sizes(robot)] == [0.5, 0.25]
 
 
 def test_quantities_of_a_smaller_hand_are_those_of_similarity():

@@ -306,7 +306,8 @@ def test_materials_without_a_colour_are_left_out(draft, capfd):
     plain = f'<visual>{shape}<material name="none"/></visual><visual>{shape}<material name="given"/></visual></link>'
     text = CLEAN.replace("</link>", plain, 1).replace(
         "</robot>",
-        '<material name="none"><color/></material><material name="given"><color rgba="1 0 0 1"/></material></robot>',
+        '<material name="none"><color/><texture filename="none.png"/></material>'
+        '<material name="given"><color rgba="1 0 0 1"/></material></robot>',
     )
     foreign = draft(text)
     tool(foreign, [0.0] * 6)

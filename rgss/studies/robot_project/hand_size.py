@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
+import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from rgss.scenes import Robot
+from rgss.scenes import Robot, standing_links
 from rgss.studies.robot_project.holding import payload_at_reach_kg, weak_joints
 from rgss.studies.robot_project.layout import Cup
 from rgss.studies.robot_project.reach import horizontal_reach_m
@@ -16,6 +18,8 @@ _SCALES = (1.0, 0.7, 0.5, 0.35, 0.25)
 _CARRIED_KG = 2.0
 # Reach at which a hand of scale 1 takes half of the reach.
 _REACH_M = 0.3
+# Greatest mass of hand and object, as a share of the arm's: joints with heavier loads follow their targets badly.
+_SHARE_OF_ARM = 0.5
 _STEP = 2
 _LEAST_CLEARANCE_MM = 2.0
 _NUMBER = r"(\d+(?:\.\d+)?)"
@@ -54,7 +58,7 @@ class HandSize:
 
     def _scaled(self, power: int) -> Callable[[re.Match[str]], str]:
         def scaled(found: re.Match[str]) -> str:
-            return f"{found[1]}{float(found[2]) * self.scale**power:.3g}{found[3]}"
+            return f"{found[1]}{float(found[2]) * self.scale**power:.4g}{found[3]}"
 
         return scaled
 
@@ -87,6 +91,19 @@ def hand_sizes(robot: Robot, cups: Sequence[Cup] = ()) -> Iterator[HandSize]:
         return
     # Efforts that do not hold the arm itself are no measure of what it carries; `rgss check` reports them.
     by_weight = 1.0 if weak_joints(robot) else (payload_at_reach_kg(robot) / _CARRIED_KG) ** (1 / 3)
-    largest = min(1.0, by_weight, horizontal_reach_m(robot) / _REACH_M)
+    by_mass = (_SHARE_OF_ARM * moving_mass_kg(robot) / _CARRIED_KG) ** (1 / 3)
+    largest = min(1.0, by_weight, by_mass, horizontal_reach_m(robot) / _REACH_M)
     smaller = [scale for scale in _SCALES if scale <= largest + 1e-9] or [_SCALES[-1]]
     yield from (HandSize(scale=scale) for scale in smaller[::_STEP])
+
+
+def moving_mass_kg(robot: Robot) -> float:
+    """Mass of the links that the joints of an arm move.
+
+    Args:
+        robot: The arm.
+    """
+    root = ET.fromstring(robot.urdf)  # noqa: S314 - checked on reading
+    still = standing_links(root)
+    masses = (link.find("inertial/mass") for link in root.findall("link") if link.get("name") not in still)
+    return math.fsum(float(mass.get("value", "0")) for mass in masses if mass is not None)

@@ -35,6 +35,7 @@ def copy_named_files(root: ET.Element, urdf: Path, robots: Path) -> list[Note]:
         DefinitionError: A collision mesh is missing or too large.
     """
     notes = list(_leave_out_missing_looks(root, urdf))
+    _drop_undefined_materials(root)
     for element in (one for tag in ("mesh", "texture") for one in root.iter(tag)):
         name = element.get("filename", "").strip()
         source = find_named_file(name, urdf)
@@ -126,3 +127,19 @@ def _leave_out_missing_looks(root: ET.Element, urdf: Path) -> Iterator[Note]:
             rationale=f"{len(gone)} visual meshes and textures are not there and left out, {gone[0] or 'nameless'} the"
             " first; they take part in no simulation.",
         )
+
+
+def _drop_undefined_materials(root: ET.Element) -> None:
+    """Remove colours without numbers and materials without a definition, of which parsers report each."""
+    for material in root.iter("material"):
+        for colour in material.findall("color"):
+            if not colour.get("rgba", "").strip():
+                material.remove(colour)
+    for material in root.findall("material"):
+        if len(material) == 0:
+            root.remove(material)
+    defined = {material.get("name") for material in root.iter("material") if len(material)}
+    for visual in root.iter("visual"):
+        for material in visual.findall("material"):
+            if len(material) == 0 and material.get("name") not in defined:
+                visual.remove(material)

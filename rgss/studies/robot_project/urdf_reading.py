@@ -53,7 +53,6 @@ def read_arm_urdf(urdf: Path) -> tuple[ET.Element, list[Note]]:
     if not root.get("name", "").strip():
         root.set("name", urdf.stem)
     notes = [*_rename(root), *_drop_empty_shapes(root)]
-    _drop_undefined_materials(root)
     _complete_limits(root)
     problems = [
         f"{urdf.name} {problem}"
@@ -163,22 +162,6 @@ def _drop_empty_shapes(root: ET.Element) -> Iterator[Note]:
     if dropped:
         names = ", ".join(dict.fromkeys(dropped))
         yield Note(about="description", rationale=f"Collision shapes of zero size are left out, of {names}.")
-
-
-def _drop_undefined_materials(root: ET.Element) -> None:
-    """Remove colours without numbers and materials without a definition, of which parsers report each."""
-    for material in root.iter("material"):
-        for colour in material.findall("color"):
-            if not colour.get("rgba", "").strip():
-                material.remove(colour)
-    for material in root.findall("material"):
-        if len(material) == 0:
-            root.remove(material)
-    defined = {material.get("name") for material in root.iter("material") if len(material)}
-    for visual in root.iter("visual"):
-        for material in visual.findall("material"):
-            if len(material) == 0 and material.get("name") not in defined:
-                visual.remove(material)
 
 
 def _complete_limits(root: ET.Element) -> None:
