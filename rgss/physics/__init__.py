@@ -8,6 +8,7 @@ from rgss.physics.opening import OtherEngineSettings, open_world
 from rgss.physics.rendering import Picture
 from rgss.physics.servo_loop import VelocityLoop, mean_commands
 from rgss.physics.settings import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ, MOST_ITERATIONS, PhysicsSettings
-from rgss.physics.stage import Posture, SeenSolid, Stage, object_surfaces
+from rgss.physics.shape_surfaces import object_surfaces
+from rgss.physics.stage import Posture, SeenSolid, Stage
 from rgss.physics.torque_arm import TorqueArm
 from rgss.physics.world import World

@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from rgss.physics.hulls import hull_triangles
-from rgss.scenes import Box, Cylinder
+from rgss.scenes import Box, Cylinder, DrawnMesh
 
 _FACETS = 32
 _WALL_SHARE, _BOTTOM_SHARE = 0.90, 0.08
@@ -64,6 +64,12 @@ def hull_surface(corners: Sequence[Vector]) -> Surface:
         vertices += [corners[index] for index in triangle]
         normals += [(x, y, z)] * 3
     return Surface(vertices_m=tuple(vertices), normals=tuple(normals), indices=tuple(range(len(vertices))))
+
+
+def mesh_surface(mesh: DrawnMesh) -> Surface:
+    """Surface of a visual mesh in its own frame."""
+    vertices, normals = ([(x, y, z) for x, y, z in rows.tolist()] for rows in (mesh.vertices_m, mesh.normals))
+    return Surface(vertices_m=tuple(vertices), normals=tuple(normals), indices=tuple(mesh.triangles.ravel().tolist()))
 
 
 def cylinder_surface(shape: Cylinder) -> Surface:

@@ -8,7 +8,7 @@ seem to float.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
@@ -16,22 +16,22 @@ from typing import Any
 from rgss.errors import SimulationError
 from rgss.physics.engine import load_urdf_text, open_client, pybullet
 from rgss.physics.finger_joints import finger_joint_names, finger_joint_positions
-from rgss.physics.solids import Surface, box_surface, cup_surface, cylinder_surface, hull_surface
+from rgss.physics.shape_surfaces import half_extent, half_size, object_surfaces, shape_surface
+from rgss.physics.solids import Surface, box_surface, cylinder_surface, hull_surface, mesh_surface
 from rgss.scenes import (
     CUP_LINK,
     GRIPPER_BASE_LINK,
     Box,
     Cylinder,
     Gripper,
-    LyingCylinder,
-    MeshShape,
-    ObjectShape,
     Pose,
     Scene,
     Shape,
     assembled_urdf,
     convex_parts,
+    drawn_mesh,
     finger_link,
+    link_names_of,
 )
 
 Colour = Sequence[float]
@@ -104,7 +104,7 @@ class Stage:
         try:
             self.still, self.moving, self._machine = self._open(), self._open(), self._open()
             for body in scene.bodies:
-                self._add(self.still, _surface(body.primitive), body.pose, body.colour)
+                self._add(self.still, shape_surface(body.primitive), body.pose, body.colour)
             mat = Cylinder(radius_m=scene.place.radius_m, height_m=_MAT_THICKNESS_M)
             centre = Pose(position_m=scene.place.centre_m).raised(_MAT_THICKNESS_M / 2)
             self._add(self.still, cylinder_surface(mat), centre, PLACE_COLOUR)
@@ -219,27 +219,49 @@ class Stage:
         if CUP_LINK in links:
             colours[links[CUP_LINK]] = FINGER_COLOUR
         self._parts = []
+        self._seen = self._add_looks(links, colours)
         for _, link, kind, size, _, position, orientation, colour, *_ in engine.getVisualShapeData(
             self._robot, physicsClientId=client
         ):
-            if kind == engine.GEOM_MESH:
+            if kind == engine.GEOM_MESH or link in self._seen:
                 continue
             shape: Shape = (
                 Box(size_m=tuple(size)) if kind == engine.GEOM_BOX else Cylinder(radius_m=size[1], height_m=size[0])
             )
             pose = Pose(position_m=tuple(position), quaternion_xyzw=tuple(orientation))
-            part = self._add(self.moving, _surface(shape), Pose(), colours.get(link, colour))
-            self._half_sizes[part] = _half_size(shape)
+            part = self._add(self.moving, shape_surface(shape), Pose(), colours.get(link, colour))
+            self._half_sizes[part] = half_size(shape)
             self._parts.append((part, link, pose))
         links[engine.getBodyInfo(self._robot, physicsClientId=client)[0].decode()] = -1
         for convex in convex_parts(assembled)[1]:
+            if links[convex.link] in self._seen:
+                continue
             colour = colours.get(links[convex.link], ARM_COLOUR)
             part = self._add(self.moving, hull_surface(convex.vertices_m), Pose(), colour)
-            self._half_sizes[part] = _half_extent(convex.vertices_m)
+            self._half_sizes[part] = half_extent(convex.vertices_m)
             self._parts.append((part, links[convex.link], convex.pose))
         self._link_names = {index: name for name, index in links.items()}
         if self._gripper.geometry.linkage is None:
             self._add_rails(links[GRIPPER_BASE_LINK])
+
+    def _add_looks(self, links: Mapping[str, int], colours: Mapping[int, Colour]) -> frozenset[int]:
+        """Add a rendered part for each visual mesh that can be read; the links that are seen by these alone."""
+        gripper = self._gripper.geometry.linkage
+        looks = [(links.get(look.link), look) for look in self._scene.robot.looks]
+        if gripper is not None:
+            names = dict(zip((link.name for link in gripper.links), link_names_of(gripper), strict=True))
+            looks += [(links[names[look.link]], look) for look in gripper.looks]
+        seen = set()
+        for link, look in looks:
+            mesh = None if link is None else drawn_mesh(look)
+            if link is None or mesh is None:
+                continue
+            surface = mesh_surface(mesh)
+            part = self._add(self.moving, surface, Pose(), colours.get(link, look.colour or ARM_COLOUR))
+            self._half_sizes[part] = half_extent(surface.vertices_m)
+            self._parts.append((part, link, look.pose))
+            seen.add(link)
+        return frozenset(seen)
 
     def _add_rails(self, base_link: int) -> None:
         geometry = self._gripper.geometry
@@ -254,7 +276,7 @@ class Stage:
             )
             pose = Pose.from_roll_pitch_yaw(centre, (0.0, 0.0, azimuth))
             part = self._add(self.moving, box_surface(rail), Pose(), RAIL_COLOUR)
-            self._half_sizes[part] = _half_size(rail)
+            self._half_sizes[part] = half_size(rail)
             self._parts.append((part, base_link, pose))
 
     def _link_pose(self, link: int) -> Pose:
@@ -262,32 +284,3 @@ class Stage:
             return self._scene.robot.base
         state = self._engine.getLinkState(self._robot, link, computeForwardKinematics=1, physicsClientId=self._machine)
         return Pose(position_m=tuple(state[4]), quaternion_xyzw=tuple(state[5]))
-
-
-def object_surfaces(shape: ObjectShape) -> list[tuple[Surface, Pose, tuple[float, float, float]]]:
-    """Surfaces of the object with their transforms to its frame and half sizes; a cylinder is drawn as a cup."""
-    if isinstance(shape, MeshShape):
-        return [(hull_surface(part), Pose(), _half_extent(part)) for part in shape.parts_m]
-    if isinstance(shape, LyingCylinder):
-        along_x = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (0.0, math.pi / 2, 0.0))
-        return [(cylinder_surface(shape.upright), along_x, _half_size(shape.upright))]
-    if isinstance(shape, Box):
-        return [(box_surface(shape), Pose(), _half_size(shape))]
-    return [(cup_surface(shape), Pose(), _half_size(shape))]
-
-
-def _surface(shape: Shape) -> Surface:
-    return box_surface(shape) if isinstance(shape, Box) else cylinder_surface(shape)
-
-
-def _half_extent(corners: Sequence[tuple[float, float, float]]) -> tuple[float, float, float]:
-    """Half sizes of the bounding box about the origin."""
-    x, y, z = (max(abs(corner[axis]) for corner in corners) for axis in range(3))
-    return x, y, z
-
-
-def _half_size(shape: Shape) -> tuple[float, float, float]:
-    if isinstance(shape, Box):
-        x, y, z = shape.size_m
-        return x / 2, y / 2, z / 2
-    return shape.radius_m, shape.radius_m, shape.half_height_m

@@ -52,6 +52,7 @@ from rgss.scenes.hands import (
 from rgss.scenes.link_solids import LinkSolid, link_solid
 from rgss.scenes.linkage import Linkage, LinkageMotion
 from rgss.scenes.linkage_assembly import linkage_masses_kg
+from rgss.scenes.looks import DrawnMesh, drawn_mesh
 from rgss.scenes.mass_properties import (
     Gyration,
     centre_of_mass,
@@ -64,7 +65,7 @@ from rgss.scenes.mesh_shapes import mesh_summary
 from rgss.scenes.objects import ObjectPlacement, grasp_opening_m, initial_placements, scene_about
 from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import RIBS
-from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, Robot
+from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, LinkLook, Robot
 from rgss.scenes.robot_file import load_robot
 from rgss.scenes.scene import (
     FORCE_WINDOW_S,

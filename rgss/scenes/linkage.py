@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from rgss.scenes.pose import Pose
-from rgss.scenes.robot import JointKind
+from rgss.scenes.robot import JointKind, LinkLook
 
 Triple = tuple[float, float, float]
 
@@ -73,6 +73,7 @@ class Linkage:
         closed: Position of the driven joint with the gripper closed.
         effort: Greatest torque in N·m or force in N of the driven joint.
         speed: Its greatest speed in rad/s or m/s.
+        looks: The visual meshes of its links, for pictures; no content of a trial.
     """
 
     links: tuple[LinkageLink, ...]
@@ -82,6 +83,7 @@ class Linkage:
     closed: float
     effort: float
     speed: float
+    looks: tuple[LinkLook, ...] = field(default=(), compare=False, repr=False)
 
     @property
     def palm_links(self) -> tuple[int, ...]:

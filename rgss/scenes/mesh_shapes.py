@@ -71,7 +71,7 @@ def mesh_summary(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1
     Raises:
         DefinitionError: The file is not a mesh.
     """
-    mesh = _read(path, scale)
+    mesh = read_mesh(path, scale)
     closed = bool(mesh.is_watertight)
     x, y, z = (float(value) for value in mesh.extents)
     return MeshSummary(
@@ -94,7 +94,7 @@ def mesh_corners(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1
     """
     from scipy.spatial import ConvexHull, QhullError
 
-    points = np.asarray(_read(path, scale).vertices, dtype=float)
+    points = np.asarray(read_mesh(path, scale).vertices, dtype=float)
     try:
         corners: Array = points[ConvexHull(points).vertices]
     except QhullError:
@@ -127,7 +127,7 @@ def mesh_mass(path: Path, *, scale: float = 1.0) -> MeshMass:
     Raises:
         DefinitionError: The file is not a mesh, or encloses no volume.
     """
-    mesh = _read(path, (scale, scale, scale))
+    mesh = read_mesh(path, (scale, scale, scale))
     if not mesh.is_watertight or not mesh.volume > 0.0:
         raise DefinitionError(
             f"{path.name} must be closed for mass properties",
@@ -142,7 +142,7 @@ def mesh_mass(path: Path, *, scale: float = 1.0) -> MeshMass:
 
 @lru_cache(maxsize=256)
 def _shapes(path: Path, _sha256: str, scale: tuple[float, float, float], how: CollisionShapes) -> tuple[Vertices, ...]:
-    mesh = _read(path, scale)
+    mesh = read_mesh(path, scale)
     if how is CollisionShapes.BOXES:
         edges = np.asarray(mesh.bounds, dtype=float).T.tolist()
         return (tuple((x, y, z) for x in edges[0] for y in edges[1] for z in edges[2]),)
@@ -152,7 +152,16 @@ def _shapes(path: Path, _sha256: str, scale: tuple[float, float, float], how: Co
     return (_reduced_hull(np.asarray(mesh.vertices, dtype=float), path),)
 
 
-def _read(path: Path, scale: tuple[float, float, float]) -> Any:
+def read_mesh(path: Path, scale: tuple[float, float, float]) -> Any:
+    """Mesh of a file, scaled, with the corners merged that differ only in normal or texture.
+
+    Args:
+        path: The file.
+        scale: Factors along its axes.
+
+    Raises:
+        DefinitionError: The file is not a mesh.
+    """
     import trimesh
 
     if path.suffix.lower() not in _SUFFIXES:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
+from pathlib import Path
 
 from rgss.scenes.pose import Pose
 from rgss.scenes.servos import Calibration
@@ -59,6 +60,25 @@ class RobotFile:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LinkLook:
+    """Visual mesh of a link.
+
+    Attributes:
+        link: The link.
+        mesh: The mesh's file.
+        pose: Transform of the mesh's frame to the link.
+        scale: Factors along the axes of the mesh.
+        colour: Red, green, blue and opacity of its material; None if the URDF states none.
+    """
+
+    link: str
+    mesh: Path
+    pose: Pose
+    scale: tuple[float, float, float]
+    colour: tuple[float, float, float, float] | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Robot:
     """A serial arm.
 
@@ -75,6 +95,7 @@ class Robot:
         files: The meshes and textures referenced by the URDF, with digests of their content.
         tool_speed_m_s: Greatest speed of the tool centre if no design sets it; None if the file has none.
         calibration: The fitted servos of its joints; None if the file names none.
+        looks: The visual meshes of its links, for pictures; no content of a trial.
     """
 
     id: str
@@ -88,3 +109,4 @@ class Robot:
     files: tuple[RobotFile, ...] = ()
     tool_speed_m_s: float | None = None
     calibration: Calibration | None = None
+    looks: tuple[LinkLook, ...] = field(default=(), compare=False, repr=False)

@@ -84,6 +84,7 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
         tool_acceleration_m_s2=entry.tool_acceleration,
         home_rad=tuple(position.value for position in entry.home),
         files=urdf.files,
+        looks=urdf.looks,
         tool_speed_m_s=entry.tool_speed,
         calibration=calibration,
     )

@@ -13,7 +13,8 @@ from rgss.documents import Document
 from rgss.findings import Finding, shown
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location
-from rgss.scenes.robot import JointKind, RobotFile
+from rgss.scenes.looks import looks_of
+from rgss.scenes.robot import JointKind, LinkLook, RobotFile
 from rgss.scenes.urdf_chain import chain_problems, kind_of, loads_without_inertia, settle
 from rgss.scenes.urdf_meshes import embed_collision_meshes, files_of, without_meshes
 from rgss.scenes.urdf_structure import carried_by
@@ -49,12 +50,14 @@ class ReadUrdf:
     Attributes:
         text: Its text in the form passed to engines; valid only without findings.
         files: The meshes and textures that it references.
+        looks: Its visual meshes.
         kinds: Kind of each joint by name; None if it is unsupported in an arm.
         findings: Every problem found.
     """
 
     text: str = ""
     files: tuple[RobotFile, ...] = ()
+    looks: tuple[LinkLook, ...] = ()
     kinds: Mapping[str, JointKind | None] = field(default_factory=dict)
     findings: tuple[Finding, ...] = ()
 
@@ -81,6 +84,7 @@ def read_urdf(path: Path, document: Document, entry: RobotDocument, *, project: 
     ]
     if findings or named.findings:
         return ReadUrdf(findings=(*findings, *named.findings))
+    looks = looks_of(root, named.paths)
     kinds = {joint.get("name", ""): kind_of(joint) for joint in root.findall("joint")}
     changed = settle(root, entry)
     if any(collision.find("geometry/mesh") is not None for collision in root.iter("collision")):
@@ -90,7 +94,7 @@ def read_urdf(path: Path, document: Document, entry: RobotDocument, *, project: 
             for problem, hint in embed_collision_meshes(root, named, entry.collision)
         ]
     settled = ET.tostring(root, encoding="unicode") if changed else text
-    return ReadUrdf(text=without_meshes(settled), files=named.files, kinds=kinds, findings=tuple(findings))
+    return ReadUrdf(text=without_meshes(settled), files=named.files, looks=looks, kinds=kinds, findings=tuple(findings))
 
 
 class UrdfError(Exception):

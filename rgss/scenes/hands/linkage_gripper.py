@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from rgss.documents import Document
@@ -16,6 +17,7 @@ from rgss.scenes.hands.linkage_document import LinkageGripperDocument
 from rgss.scenes.hands.linkage_pads import DrivenRange, PadError, linkage_of
 from rgss.scenes.hands.linkage_urdf import driven_joints, links_of, mechanism_problems, palm_of, prune
 from rgss.scenes.linkage import Linkage, LinkageLink, LinkageMotion
+from rgss.scenes.looks import looks_of
 from rgss.scenes.pose import Pose
 from rgss.scenes.shapes import Box, Cylinder
 from rgss.scenes.urdf_file import UrdfError, number_problems, parse_urdf
@@ -195,6 +197,7 @@ def _read_linkage(entry: LinkageGripperDocument, document: Document, *, path: Pa
     ]
     named = files_of(ET.tostring(root, encoding="unicode"), urdf, project=project, label=name)
     found += named.findings
+    looks = looks_of(root, named.paths)
     if not found:
         found += [
             document.finding("scene.mesh", problem, ("description",), hint=hint)
@@ -203,7 +206,7 @@ def _read_linkage(entry: LinkageGripperDocument, document: Document, *, path: Pa
     if found:
         raise DocumentError(sorted(found))
     try:
-        return _linkage(root, entry, palm)
+        return replace(_linkage(root, entry, palm), looks=looks)
     except PadError as error:
         message, location, hint = error.problem
         problem = document.finding("scene.linkage", f"{shown(name)} {message}", location, hint=hint)

@@ -11,11 +11,13 @@ from typing import Any
 def to_plain(value: Any) -> Any:
     """Convert a value of frozen dataclasses to plain mappings, lists, texts and numbers.
 
+    Fields that do not take part in a comparison are no content, and are omitted.
+
     Args:
         value: A dataclass, an enumeration, a tuple, a list, a mapping, or plain data.
     """
     if dataclasses.is_dataclass(value):
-        return {f.name: to_plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+        return {f.name: to_plain(getattr(value, f.name)) for f in dataclasses.fields(value) if f.compare}
     if isinstance(value, Enum):
         return value.value
     if isinstance(value, (tuple, list)):

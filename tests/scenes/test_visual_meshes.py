@@ -1,0 +1,105 @@
+"""Visual meshes of links: what is read of a URDF, and the triangles that are drawn."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+
+from rgss.scenes import LinkLook, Pose, drawn_mesh
+from rgss.scenes.looks.visual_meshes import MOST_TRIANGLES, looks_of
+
+URDF = """\
+<robot name="r">
+  <material name="steel"><color rgba="0.5 0.6 0.7 1"/></material>
+  <link name="arm">
+    <visual><origin xyz="1 2 3"/><geometry><mesh filename="arm.stl" scale="0.001 0.001 0.002"/></geometry>
+      <material name="steel"/></visual>
+    <visual><geometry><mesh filename="cover.obj"/></geometry>
+      <material name="own"><color rgba="2 0 -1 0.5"/></material></visual>
+  </link>
+  <link name="bare"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+  <link name="plain"><visual><geometry><mesh filename="plain.stl"/></geometry><material name="gone"/></visual></link>
+  <link name="odd"><visual><geometry><mesh filename="odd.stl"/></geometry>
+    <material name="x"><color rgba="a b"/></material></visual></link>
+  <link name="lost"><visual><geometry><mesh filename="lost.stl"/></geometry></visual></link>
+</robot>
+"""
+
+
+@pytest.fixture
+def look(tmp_path):
+    """Makes the look of a mesh."""
+
+    def make(mesh, name="mesh.stl"):
+        mesh.export(tmp_path / name)
+        return LinkLook(link="arm", mesh=tmp_path / name, pose=Pose(), scale=(1.0, 1.0, 1.0), colour=None)
+
+    return make
+
+
+def test_looks_have_pose_scale_and_colour(tmp_path):
+    paths = {name: tmp_path / name for name in ("arm.stl", "cover.obj", "plain.stl", "odd.stl")}
+    arm, cover, plain, odd = looks_of(ET.fromstring(URDF), paths)  # noqa: S314 - our own text
+
+    assert (arm.link, arm.mesh, arm.scale) == ("arm", tmp_path / "arm.stl", (0.001, 0.001, 0.002))
+    assert arm.pose.position_m == (1.0, 2.0, 3.0)
+    assert arm.colour == (0.5, 0.6, 0.7, 1.0)
+    assert cover.colour == (1.0, 0.0, 0.0, 0.5)
+    assert (plain.link, plain.colour, odd.colour) == ("plain", None, None)
+
+
+def test_a_small_mesh_is_drawn_as_it_is(look):
+    box = trimesh.creation.box((0.1, 0.2, 0.3))
+    drawn = drawn_mesh(look(box))
+
+    assert len(drawn.triangles) == 12
+    # Three normals at each corner: its edges are sharp.
+    assert len(drawn.vertices_m) == 24
+    corners = drawn.vertices_m[drawn.triangles]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    across /= np.linalg.norm(across, axis=1)[:, np.newaxis]
+    assert np.einsum("ij,ij->i", across, drawn.normals[drawn.triangles[:, 0]]) == pytest.approx(1.0)
+
+
+def test_a_mesh_of_many_triangles_is_drawn_with_few_and_stays_where_it_is(look):
+    ball = trimesh.creation.icosphere(subdivisions=6, radius=0.1)
+    drawn = drawn_mesh(look(ball))
+    distances_m = np.linalg.norm(drawn.vertices_m, axis=1)
+
+    assert len(ball.faces) == 81_920
+    assert 500 < len(drawn.triangles) <= MOST_TRIANGLES
+    assert distances_m == pytest.approx(0.1, abs=0.003)
+    # Smooth all round: the normal of a ball is its radius.
+    assert np.einsum("ij,ij->i", drawn.normals, drawn.vertices_m / distances_m[:, np.newaxis]).min() > 0.9
+
+
+def test_the_scale_applies(look):
+    one = look(trimesh.creation.box((100.0, 200.0, 300.0)))
+    drawn = drawn_mesh(replace(one, scale=(0.001, 0.001, 0.001)))
+
+    assert np.ptp(drawn.vertices_m, axis=0) == pytest.approx([0.1, 0.2, 0.3])
+
+
+def test_a_file_that_changes_is_read_again(look, tmp_path):
+    import os
+
+    one = look(trimesh.creation.box((0.1, 0.1, 0.1)))
+    before = drawn_mesh(one)
+    trimesh.creation.box((0.2, 0.2, 0.2)).export(one.mesh)
+    os.utime(one.mesh, ns=(1, 1))
+
+    assert np.ptp(drawn_mesh(one).vertices_m) == pytest.approx(2 * np.ptp(before.vertices_m))
+
+
+def test_what_cannot_be_read_is_not_drawn(look, tmp_path):
+    one = look(trimesh.creation.box((0.1, 0.1, 0.1)))
+    broken = tmp_path / "broken.stl"
+    broken.write_bytes(b"solid")
+
+    assert drawn_mesh(replace(one, mesh=tmp_path / "gone.stl")) is None
+    assert drawn_mesh(replace(one, mesh=broken)) is None
+    assert drawn_mesh(replace(one, mesh=tmp_path / "mesh.step")) is None
