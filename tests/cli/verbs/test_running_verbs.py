@@ -42,14 +42,15 @@ def test_run_as_json(rgss, untouched):
 
 
 @pytest.mark.verifies("SYS-021")
-def test_run_shows_the_same_trial_to_people(rgss, rgss_process, untouched):
-    told = rgss("run", 65, "--seed", 2, "--project", untouched)
-    # A process of its own: its exit status tells that the engines let the interpreter end.
+def test_run_shows_the_same_trial_to_people(rgss_process, untouched):
+    # Processes of their own: their exit status tells that the engines let the interpreter end, and the last digits of
+    # a clearance can depend on what a process computed before the trial.
+    told = rgss_process("run", 65, "--seed", 2, "--project", untouched)
     done = rgss_process("run", 65, "--seed", 2, "--json", "--project", untouched)
 
-    assert (told.status, told.errors) == (0, "")
+    assert (told.returncode, told.stderr) == (0, "")
     assert (done.returncode, done.stderr) == (0, "")
-    lines = told.output.splitlines()
+    lines = told.stdout.splitlines()
     assert lines[0].startswith("Variant 65, seed 2")
     assert [line.split()[1] for line in lines[3:11]] == [phase["phase"] for phase in json.loads(done.stdout)["phases"]]
     assert any(line.startswith("Success in ") for line in lines)
