@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -129,6 +130,7 @@ def arm_parts(model: Any, robot: Robot) -> list[Part]:
     """
     import pinocchio
 
+    _settle_box_supports()
     text, convex = convex_parts(robot.urdf)
     try:
         solids = pinocchio.buildGeomFromUrdfString(model, text, pinocchio.GeometryType.COLLISION)
@@ -191,5 +193,29 @@ def solid_of(shape: Shape) -> Any:
     import coal
 
     if isinstance(shape, Box):
+        _settle_box_supports()
         return coal.Box(*shape.size_m)
     return coal.Cylinder(shape.radius_m, shape.height_m)
+
+
+@lru_cache(maxsize=1)
+def _settle_box_supports() -> None:
+    """Make distances from boxes independent of the first query of the process.
+
+    Coal 3.0 enlarges all boxes by a relative 1e-10 for the life of a process if the first direction in which it
+    evaluates a box's support has a component of 0 (a function-local constant of `getShapeSupport`). A trial in a
+    process that had checked a scene then differed from the same trial elsewhere in the last digits of a clearance.
+    The query below is the first, and no component of its direction in the box's frame is 0.
+    """
+    import coal
+
+    turned = Pose.from_roll_pitch_yaw((3.0, 0.2, 0.1), (0.4, 0.5, 0.6))
+    place = transform(turned)
+    coal.distance(
+        coal.Cylinder(0.1, 0.2),
+        coal.Transform3s.Identity(),
+        coal.Box(0.1, 0.2, 0.3),
+        coal.Transform3s(place.rotation, place.translation),
+        coal.DistanceRequest(),
+        coal.DistanceResult(),
+    )

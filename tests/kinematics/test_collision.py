@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
+import subprocess
+import sys
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 
@@ -340,3 +342,36 @@ def test_the_clearance_is_the_least_of_all_pairs_that_keep_one(scene, gripper, e
         assert model.clearance_m(q) == min(everything)
         inside += min(everything) < 0.0
     assert 20 < inside < 290
+
+
+_DISTANCES = """
+import sys
+import coal
+from rgss.kinematics.description import transform
+from rgss.kinematics.geometry import solid_of
+from rgss.kinematics.overlap_search import Solid, overlaps
+from rgss.scenes import Box, Cylinder, Pose
+
+box, cup = Box(size_m=(0.4, 0.3, 0.2)), Cylinder(radius_m=0.04, height_m=0.1)
+if sys.argv[1] == "boxes first":
+    places = {"a": Pose(), "b": Pose(position_m=(1.0, 0.0, 0.0))}
+    solids = [Solid(name=name, shape=box, pose=pose) for name, pose in places.items()]
+    assert overlaps(solids, deeper_than_m=0.0) == ()
+for step in range(20):
+    place = transform(Pose.from_roll_pitch_yaw((0.4, 0.1 * step, 0.3), (0.1 + 0.2 * step, 0.3, 0.5)))
+    there = coal.Transform3s(place.rotation, place.translation)
+    one = coal.Transform3s.Identity()
+    print(coal.distance(solid_of(cup), there, solid_of(box), one, coal.DistanceRequest(), coal.DistanceResult()))
+"""
+
+
+@pytest.mark.verifies("SYS-021")
+def test_distances_do_not_depend_on_the_first_query_of_a_process():
+    """Coal sizes all boxes of a process by the direction of its first query of one."""
+    first, after = (
+        subprocess.run([sys.executable, "-c", _DISTANCES, order], capture_output=True, text=True, check=True).stdout
+        for order in ("cup first", "boxes first")
+    )
+
+    assert len(first.split()) == 20
+    assert first == after

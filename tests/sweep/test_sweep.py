@@ -375,7 +375,7 @@ def test_records_depend_on_neither_processes_nor_order_nor_sharing(specs_of, ope
 
     specs = specs_of(1, 2, 3, 10, 65, 66)
     stores = {name: opened(name) for name in ("one", "two", "apart")}
-    # In workers, which have done nothing else: this process may have checked scenes before.
+    # In workers: another test may have used the collision engine in this process before `rgss` did.
     _, alone = run(specs, stores["one"], jobs=1, maker=make)
     _, together = run(specs[::-1], stores["two"], jobs=2, maker=doubles.noted)
     _, apart = run(specs[4:5], stores["apart"], jobs=1, share=False, maker=make)

@@ -43,8 +43,7 @@ def test_run_as_json(rgss, untouched):
 
 @pytest.mark.verifies("SYS-021")
 def test_run_shows_the_same_trial_to_people(rgss_process, untouched):
-    # Processes of their own: their exit status tells that the engines let the interpreter end, and the last digits of
-    # a clearance can depend on what a process computed before the trial.
+    # Processes of their own: their exit status tells that the engines let the interpreter end.
     told = rgss_process("run", 65, "--seed", 2, "--project", untouched)
     done = rgss_process("run", 65, "--seed", 2, "--json", "--project", untouched)
 
