@@ -202,10 +202,10 @@ def solid_of(shape: Shape) -> Any:
 def _settle_box_supports() -> None:
     """Make distances from boxes independent of the first query of the process.
 
-    Coal 3.0 enlarges all boxes by a relative 1e-10 for the life of a process if the first direction in which it
-    evaluates a box's support has a component of 0 (a function-local constant of `getShapeSupport`). A trial in a
-    process that had checked a scene then differed from the same trial elsewhere in the last digits of a clearance.
-    The query below is the first, and no component of its direction in the box's frame is 0.
+    Coal 3.0 enlarges the negative half of every box by a relative 1e-10 for the life of a process if the first
+    direction in which it evaluates a box's support has a component of 0 (a static constant of `getShapeSupport`). A
+    trial in a process that had checked a scene then differed from the same trial elsewhere in the last digits of a
+    clearance. The query below is the first, and no component of its direction in the box's frame is 0.
     """
     import coal
 
