@@ -7,10 +7,13 @@ requirements into the file, and the run the digests of what was tested; `rgss tr
 
 from __future__ import annotations
 
+import gc
 import os
 import re
 import signal
 import sys
+from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 
@@ -22,7 +25,7 @@ from hypothesis import HealthCheck, settings
 
 from rgss.trials.code.kernel_environment import is_in_force, numeric_environment
 
-from . import story as story_module
+from .in_shares import files_of_share
 from .processor_time import ProcessorTimes, file_of, name_of, slow_tests
 
 PROJECT = Path(__file__).parents[1]
@@ -41,8 +44,9 @@ settings.load_profile("repeatable")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """An option that measures which tests take long."""
+    """Options that measure which tests take long, and that leave tests to other processes."""
     parser.addoption("--measure-slow", action="store_true", help="write the tests that take long to slow_tests.txt")
+    parser.addoption("--share", metavar="K/N", help="read the K-th of N shares of the files only, from 0")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -71,14 +75,27 @@ _ALL_NEED_AN_ENGINE = re.compile(r"^pytestmark = \[?pytest\.mark\.(engine|browse
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Leave out files of which nothing would be run, where slow tests or engines are not wanted: reading takes long."""
-    wanted = config.option.markexpr
     if collection_path.suffix != ".py":
         return None
-    if "not slow" in wanted and collection_path.relative_to(config.rootpath).as_posix() in slow_tests():
+    wanted, share = config.option.markexpr, config.getoption("--share")
+    if _has_none(collection_path, wanted):
         return True
-    if "not engine and not browser" in wanted and _ALL_NEED_AN_ENGINE.search(collection_path.read_text("utf-8")):
+    is_anothers = share and collection_path.match("test_*.py") and collection_path not in _share(share, wanted)
+    return True if is_anothers else None
+
+
+def _has_none(file: Path, wanted: str) -> bool:
+    """True if none of a file's tests would be run."""
+    if "not slow" in wanted and file.relative_to(PROJECT).as_posix() in slow_tests():
         return True
-    return None
+    return "not engine and not browser" in wanted and bool(_ALL_NEED_AN_ENGINE.search(file.read_text("utf-8")))
+
+
+@cache
+def _share(named: str, wanted: str) -> frozenset[Path]:
+    number, _, count = named.partition("/")
+    files = [file for file in (PROJECT / "tests").rglob("test_*.py") if not _has_none(file, wanted)]
+    return files_of_share(files, int(number), int(count))
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -93,6 +110,21 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             from rgss.trace.evidence.junit_file import TEST_ID, VERIFIES
 
             item.user_properties += [(TEST_ID, item.nodeid), *((VERIFIES, name) for name in names)]
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection(session: pytest.Session) -> Iterator[None]:
+    """Let the collector of garbage pass over what stays until the end.
+
+    Thousands of tests and what they import are garbage at no time, and it takes long to look through them again
+    and again.
+    """
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.enable()
+        gc.freeze()
 
 
 @pytest.hookimpl(trylast=True)
@@ -121,4 +153,6 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 @pytest.fixture(scope="session")
 def story() -> ModuleType:
     """A small project with evidence, whose every link is known by heart."""
+    from . import story as story_module
+
     return story_module

@@ -22,7 +22,7 @@ from pathlib import Path
 import pytest
 
 LIST = Path(__file__).parent / "slow_tests.txt"
-LONGEST_S = 0.03
+LONGEST_S = 0.015
 _HEAD = f"""\
 # Tests whose mean processor time exceeds {LONGEST_S} s, their share of what tests use together included, and files
 # that have no others; `make fast` leaves them out. Written by: pytest --measure-slow

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 from rgss.designs.compatibility import Rule
 from rgss.designs.components import Catalogue, Component
@@ -31,7 +32,7 @@ class ExcludedCombination:
     rules: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class DesignSpace:
     """Design space.
 
@@ -55,17 +56,7 @@ class DesignSpace:
 
     def expand(self) -> tuple[DesignVariant, ...]:
         """Variants allowed by the rules, by id."""
-        return tuple(
-            DesignVariant(
-                id=number,
-                parameters=parameters,
-                components=self.components_of(parameters),
-                levels=levels,
-                definitions=self.parameters,
-            )
-            for number, levels, parameters in self.combinations()
-            if not self.rules_against(parameters)
-        )
+        return self._variants
 
     def excluded(self) -> tuple[ExcludedCombination, ...]:
         """Combinations excluded by a rule, by id."""
@@ -82,10 +73,10 @@ class DesignSpace:
         Raises:
             DefinitionError: The id is unknown.
         """
+        found = self._by_id.get(number)
+        if found is not None:
+            return found
         variants = self.expand()
-        for variant in variants:
-            if variant.id == number:
-                return variant
         known = f"from {variants[0].id} to {variants[-1].id}" if variants else "none"
         raise DefinitionError(f"unknown variant {number}", hint=f"ids of variants: {known}")
 
@@ -104,6 +95,24 @@ class DesignSpace:
                 values.update(level.values)
             ids = {factor.id: level.id for factor, level in zip(self.factors, levels, strict=True)}
             yield number, ids, {item.id: values[item.id] for item in self.parameters if item.id in values}
+
+    @cached_property
+    def _variants(self) -> tuple[DesignVariant, ...]:
+        return tuple(
+            DesignVariant(
+                id=number,
+                parameters=parameters,
+                components=self.components_of(parameters),
+                levels=levels,
+                definitions=self.parameters,
+            )
+            for number, levels, parameters in self.combinations()
+            if not self.rules_against(parameters)
+        )
+
+    @cached_property
+    def _by_id(self) -> Mapping[int, DesignVariant]:
+        return {variant.id: variant for variant in self._variants}
 
     def _points(self) -> Iterable[tuple[int, tuple[Level, ...]]]:
         if self.sample is not None:
