@@ -1,4 +1,4 @@
-"""How often verdicts err, and whether the probabilities of a decision are what they say, on emulated data.
+"""Error rates of verdicts and calibration of the reported probabilities, on emulated data.
 
 Run it from the repository's folder; nothing is simulated:
 
@@ -41,7 +41,7 @@ LIMIT = 0.9
 
 
 def main() -> int:
-    """Do what the arguments say; 1 if a stated rate is exceeded."""
+    """Run the command of the arguments; 1 if a stated rate is exceeded."""
     command, *arguments = sys.argv[1:] or ["all"]
     count = int(arguments[0]) if arguments else None
     parts: Mapping[str, Callable[[], bool]] = {
@@ -56,7 +56,7 @@ def main() -> int:
 
 
 def _mixture(share: float) -> Drawing:
-    """Times of which some take ten times as long; the mean is 1."""
+    """Mixture of times of which some are ten times as long; the mean is 1."""
 
     def draw(generator: np.random.Generator, shape: tuple[int, ...]) -> Array:
         longer = np.where(generator.random(shape) < share, 10.0, 1.0)
@@ -98,7 +98,7 @@ def johnson(rows: Array) -> tuple[Array, Array]:
 
 
 def shipped(rows: Array) -> tuple[Array, Array]:
-    """The product's limits of a time without a declared bound."""
+    """Limits by the product of a time without a declared bound."""
     limits = [mean_limits(row, least=0.0, most=None, tail=NOMINAL) for row in rows.tolist()]
     return np.array([low for low, _ in limits]), np.array([high for _, high in limits])
 

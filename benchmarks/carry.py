@@ -48,7 +48,7 @@ class Carried:
         iterations: Iterations of the solver.
         margin: Least grip margin of the carry.
         slip_mm: Greatest distance of the object from where it was grasped.
-        failure: What ended the task; empty if nothing did.
+        failure: Failure that ended the task; empty without one.
     """
 
     fingers: int
@@ -96,13 +96,13 @@ class Task:
 
 
 def tasks(project: Project, fingers: int) -> list[Task]:
-    """One task a seed of the hand with a number of fingers."""
+    """One task for each seed, for the hand with a number of fingers."""
     variants = [project.designs.variant(VARIANTS[fingers])]
     return [Task(spec) for spec in trial_specs(project, variants=variants, seeds=SEEDS)]
 
 
 def measure(project: Project, fingers: int) -> list[Carried]:
-    """Every mass, rate, number of iterations and seed for one hand."""
+    """Run every mass, rate, number of iterations and seed for one hand."""
     found = []
     for task in tasks(project, fingers):
         spec = task.spec

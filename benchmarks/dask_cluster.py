@@ -5,10 +5,10 @@
     python benchmarks/dask_cluster.py --fidelity kinematic  without contact, which is quicker
     python benchmarks/dask_cluster.py --json dask.json
 
-The cluster is there before the first sweep, as with `--dask` it always is. Runs of both kinds take
+The cluster is started before the first sweep, as `--dask` requires. Runs of both kinds take
 turns, each `rgss sweep` a process of its own on a copy of the project with an empty store, and their
 medians are compared; so the load that other programs make is the same for both. Then one of the
-cluster's workers is killed with -9 in the middle of a sweep. Every store is held against the first.
+cluster's workers is killed with -9 in the middle of a sweep. Every store is compared with the first.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ WORKERS = 2
 
 
 def records(run: Run) -> dict[str, str]:
-    """What every trial of a sweep came to, by its key."""
+    """Outcome of every trial of a sweep, by its key."""
     from rgss.evidence import EvidenceStore
 
     with EvidenceStore.open(run.folder / ".rgss" / "evidence.sqlite", create=False) as store:
@@ -39,12 +39,12 @@ def records(run: Run) -> dict[str, str]:
 
 
 def busy(run: Run) -> float:
-    """The share of the workers' time that they spent on tasks."""
+    """Share of the workers' time spent on tasks."""
     return run.document["busy_s"] / (run.document["elapsed_s"] * WORKERS)
 
 
 def processor_s(cluster: Any) -> float:
-    """The processor's seconds so far of a cluster: scheduler, workers, and what these have started and ended."""
+    """Processor time of a cluster so far: scheduler, workers, and processes that these have started and ended."""
     ticks = 0
     for worker in cluster.workers.values():
         fields = Path(f"/proc/{worker.process.pid}/stat").read_text().rpartition(")")[2].split()
@@ -53,7 +53,7 @@ def processor_s(cluster: Any) -> float:
 
 
 def killed_in_the_middle(cluster: Any, after_s: float) -> tuple[threading.Thread, list[int]]:
-    """Kill one of a cluster's workers after a time; returns the one who does, and whom it has killed."""
+    """Kill one of a cluster's workers after a time; returns the thread that does it, and the killed processes."""
     killed: list[int] = []
 
     def kill() -> None:
@@ -67,7 +67,7 @@ def killed_in_the_middle(cluster: Any, after_s: float) -> tuple[threading.Thread
 
 
 def main() -> int:
-    """Measure, print a table, and say whether the bars are kept."""
+    """Measure, print a table, and report whether the limits are kept."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--replicates", type=int, default=1, help="replicates (default: 1)")
     parser.add_argument("--runs", type=int, default=3, help="runs of each kind (default: 3)")

@@ -1,10 +1,10 @@
-"""How much of a worker's time goes into the engines, and how much into what lies around them.
+"""Share of a worker's time in the engines and outside of them.
 
     python benchmarks/engine_share.py --seeds 1
 
 One process makes all pieces of a sweep, as a worker does. The entrances of the engines (OMPL,
 Pinocchio with Coal, toppra, PyBullet) are timed, and their calls back into Python are not: the time
-is that of the innermost side that runs. What is left is outside: bindings' arguments, watching,
+is attributed to the innermost side that runs. The rest is outside: arguments of bindings, monitoring,
 recording, grasp analysis, texts and digests.
 """
 
@@ -28,7 +28,7 @@ _CALLS = 20_000
 
 
 class Sides:
-    """Tells how long each side has run; exactly one side runs at any time."""
+    """Stopwatch of the two sides; exactly one runs at any time."""
 
     def __init__(self) -> None:
         self.seconds: Counter[str] = Counter()
@@ -37,7 +37,7 @@ class Sides:
         self._since = time.perf_counter()
 
     def timed(self, side: str, function: Callable[..., Any]) -> Callable[..., Any]:
-        """The function with its time told as that of a side."""
+        """The function, with its time attributed to a side."""
 
         @functools.wraps(function, updated=())
         def call(*arguments: Any, **options: Any) -> Any:
@@ -57,7 +57,7 @@ class Sides:
         return before
 
     def cost_of_a_call(self) -> tuple[float, float]:
-        """What timing adds to each call of an engine: seconds counted to the engine, and outside of it."""
+        """Overhead of the timing of one call of an engine, in s: within the engine and outside of it."""
         bare = _nothing
         timed = self.timed("nothing", bare)
         best = (float("inf"), float("inf"))
@@ -84,14 +84,14 @@ class Sides:
         return self.seconds[OUTSIDE]
 
     def restart(self) -> None:
-        """Forget what was told so far."""
+        """Reset the times."""
         self._turn(self._side)
         self.seconds.clear()
         self.calls.clear()
 
 
 def _nothing(*_: Any) -> None:
-    """Stands for a call of an engine."""
+    """Placeholder for a call of an engine."""
 
 
 def time_engines(sides: Sides) -> None:
@@ -153,7 +153,7 @@ def measure(seeds: int, *, fidelity: str = "contact", project: Path = REPOSITORY
 
     Args:
         seeds: Replicates of each variant.
-        fidelity: How much physics.
+        fidelity: Fidelity of the trials.
         project: The project's folder.
         top: How many functions to show of a profile by cProfile, which itself costs time; 0 for none.
     """

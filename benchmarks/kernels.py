@@ -1,4 +1,4 @@
-"""Trials under other kernels: which records differ, bit for bit, where a processor or a user chooses others.
+"""Records of trials under other numeric kernels, compared bit for bit.
 
     python benchmarks/kernels.py [--variants 1,10,28,40,65] [--seed 1]
 
@@ -53,7 +53,7 @@ print(json.dumps({"found": found, "numerics": dict(numerics()), "took_s": took_s
 
 
 def settings() -> dict[str, dict[str, str]]:
-    """What a processor or a user may choose, by name."""
+    """Environments that a processor or a user may choose, by name."""
     import numpy as np
 
     dispatched = " ".join(np.show_config(mode="dicts").get("SIMD Extensions", {}).get("found", []))
@@ -76,7 +76,7 @@ def settings() -> dict[str, dict[str, str]]:
 
 
 def run(environment: dict[str, str], variants: list[int], seed: int) -> dict[str, object]:
-    """Run the trials in a process with an environment; returns what was found."""
+    """Run the trials in a process with an environment; returns their records."""
     words = [sys.executable, "-c", _RUN, str(PROJECT), json.dumps(variants), str(seed)]
     done = subprocess.run(words, env=environment, capture_output=True, text=True, check=False)  # noqa: S603
     if done.returncode:

@@ -1,4 +1,4 @@
-"""How often a study chooses the same, and names the same as tied, under other master seeds.
+"""Stability of the choice and of the named ties of a study under other master seeds.
 
     rgss sweep STUDY --replicates 64
     python benchmarks/master_seeds.py STUDY --pool 64                    20 master seeds, drawn from the pool
@@ -8,7 +8,7 @@
 Nothing is simulated: the trials are those of the project's evidence store, the study's seed and the next ones.
 A master seed is emulated by as many seeds of the pool as the study has replicates, each workload case by
 its own, with replacement; with ``--disjoint`` by seeds that follow each other and that no other master seed has.
-What the whole pool says is taken for the truth, against which the reported probabilities are compared.
+The decision from the whole pool is taken as the truth for the calibration of the reported probabilities.
 It ends with 1 if fewer than 19 of 20 agree, or if a probability is off by more than 3 points in at least 200.
 """
 
@@ -41,7 +41,7 @@ ENOUGH = 200
 
 @dataclass(frozen=True, kw_only=True)
 class Outcome:
-    """What one master seed came to.
+    """Outcome of one master seed.
 
     Attributes:
         chosen: The variant that is chosen; None if none meets every requirement by the estimates.
@@ -132,7 +132,7 @@ def read_pool(folder: Path, study: str, size: int) -> Pool:
 
 
 def main() -> int:
-    """Read the pool, emulate the master seeds and say what is the same."""
+    """Read the pool, emulate the master seeds and report the agreement."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("study")
     parser.add_argument("--project", type=Path, default=Path())

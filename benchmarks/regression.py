@@ -1,4 +1,4 @@
-"""How often the guard of metrics gives a false alarm, and what it catches.
+"""False-alarm rate and power of the guard of metrics.
 
 Run it from the repository's folder:
 
@@ -52,7 +52,7 @@ Pool = Mapping[Key, Mapping[int, Mapping[int, float | None]]]
 
 
 def main() -> int:
-    """Do what the arguments say; 1 if a stated rate is exceeded."""
+    """Run the command of the arguments; 1 if a stated rate is exceeded."""
     command, *arguments = sys.argv[1:] or ["synthetic"]
     if command == "pool":
         return write_pool(Path(arguments[0]), int(arguments[1]), jobs=int(arguments[2]) if arguments[2:] else 2)

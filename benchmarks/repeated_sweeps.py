@@ -44,7 +44,7 @@ ENOUGH = 200
 
 @dataclass(frozen=True, kw_only=True)
 class Outcome:
-    """What one repetition came to.
+    """Outcome of one repetition.
 
     Attributes:
         chosen: The variant that is chosen; None if none meets every requirement by the estimates.

@@ -176,7 +176,7 @@ REPORTS: Mapping[str, Callable[[TraceReport], bytes]] = {
 
 
 def write_project(folder: Path, size: int) -> Path:
-    """Write the requirements of a project that is sound, and as large as is asked for.
+    """Write the requirements of a project that is sound and of the given size.
 
     Every system requirement has one link to what it derives from and two to what satisfies it;
     the texts keep the rules of wording. The same size gives the same files.

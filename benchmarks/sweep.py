@@ -5,7 +5,7 @@
     python benchmarks/sweep.py --json sweep.json
 
 Every row runs `rgss sweep` as a process of its own on a copy of the project with an empty store. Times
-are by the wall clock; the processor's seconds stand beside them, since another program on the machine
+are by the wall clock; the processor's seconds are given beside them, since another program on the machine
 disturbs those less. Ratios are of runs that follow each other.
 """
 
@@ -219,7 +219,7 @@ def row_interrupt(bench: Bench) -> list[Row]:
 
 
 def row_kills(bench: Bench) -> list[Row]:
-    """Killed with -9 at random instants, each time gone on with, until the end; as often as asked for.
+    """Sweep killed with -9 at random instants and resumed until it is complete, several times.
 
     Killed are in turn the sweep alone, one of its workers (which the sweep survives), and all of them at once.
     """
@@ -323,7 +323,7 @@ def _add_level(folder: Path) -> None:
 
 
 def main() -> None:
-    """Measure the rows that are asked for; print a table in Markdown."""
+    """Measure the rows named by the options; print a table in Markdown."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("rows", nargs="*", metavar="ROW", help=f"which rows: {', '.join(ROWS)} (default: all)")
     parser.add_argument("--replicates", type=int, default=1, metavar="N", help="replicates of a sweep (default: 1)")

@@ -25,7 +25,7 @@ TOLERANCE = 1e-9
 
 
 def opinion_of(case: LevelCase, run: SolverRun) -> tuple[str, str, str]:
-    """Whether the decision is right, what SCIP came to, and what was proved."""
+    """Correctness of the decision, outcome of SCIP, and proofs."""
     try:
         decision = decide_levels(case.problem, independent=(run,))
     except TradeoffError:

@@ -1,8 +1,8 @@
-"""Measure what questioning a decision costs; write tables in Markdown.
+"""Measure the cost of the sensitivity and robustness analyses of a decision; write tables in Markdown.
 
 Run it from the repository's folder: ``python benchmarks/tradeoff.py``. The second table needs
 evidence: run ``rgss sweep`` before. Seconds of the processor are given beside those of the clock,
-for they depend less on what else the machine does.
+since they depend less on the load of the machine.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def main() -> None:
 
 
 def _random(out: Any) -> None:
-    """Random values: every variant differs, so that nothing is spared by variants that are alike."""
+    """Random values: every variant differs, so that no computation is shared by equal variants."""
     out.write(f"{VARIANTS} random variants × {MEASURES} measures, all feasible, {ITERATIONS:,} draws\n\n")
     out.write("| analysis | result | clock (s) | processor (s) |\n|---|---|---|---|\n")
     generator = np.random.default_rng(1)

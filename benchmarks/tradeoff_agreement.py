@@ -1,4 +1,4 @@
-"""Hold every program of the trade-off against enumeration on random problems; write a table in Markdown.
+"""Compare every program of the trade-off with enumeration on random problems; write a table in Markdown.
 
 Run it from the repository's folder: ``python benchmarks/tradeoff_agreement.py [NUMBER] [PROGRAM ...]``.
 """
@@ -55,7 +55,7 @@ def problem_of(kind: str, seed: int) -> TradeProblem:
 
 
 def one_problem(kind: str, seed: int) -> list[str]:
-    """Decide one problem; what it was, ``agree`` among it if the decision is the right one."""
+    """Decide one problem; returns its properties, with ``agree`` if the decision is right."""
     problem = problem_of(kind, seed)
     decision, answer = decide(problem, resamples=0), expected(problem)
     infeasible = {variant: broken for variant, broken in answer.violated.items() if broken}

@@ -49,7 +49,7 @@ OLD_RUN = SolverRun(
 
 
 def main() -> int:
-    """Run what is asked for; 1 if anything is wrong."""
+    """Run the command of the arguments; 1 if anything is wrong."""
     if sys.argv[1:2] == ["options"]:
         return options(int(sys.argv[2]) if len(sys.argv) > 2 else 140)
     levels = int(sys.argv[1]) if len(sys.argv) > 1 else 2_000
@@ -93,7 +93,7 @@ def _write(counts: Mapping[tuple[str, str], int], done: str, seconds: float) -> 
 
 
 def level_outcome(case: LevelCase, path: str, *, seed: int) -> str:
-    """What the decision of a level problem is, compared with brute force."""
+    """The decision of a level problem compared with brute force."""
     module, bound, tables = rgss.tradeoff.levels.problem, rgss.tradeoff.levels.guard, rgss.tradeoff.levels.selection
     enumerated, interval, merged = module.LARGEST_ENUMERATED, bound.interval_bound, tables.LARGEST_TABLE
     if seed % 4 == 0:
@@ -123,7 +123,7 @@ def level_outcome(case: LevelCase, path: str, *, seed: int) -> str:
 
 
 def portfolio_outcome(case: PortfolioCase) -> str:
-    """What the decision of a portfolio is, compared with all portfolios."""
+    """The decision of a portfolio compared with all portfolios."""
     problem = case.problem
     decision = decide_portfolio(problem)
     found: list[float | None] = []

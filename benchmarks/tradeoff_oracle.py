@@ -1,4 +1,4 @@
-"""What the right decision of a random trade-off is, from the definitions alone.
+"""Oracle: the right decision of a random trade-off, from the definitions alone.
 
 Shares nothing with the package but the data: plain loops and NumPy, no solver, none of the package's
 arithmetic. Used by ``benchmarks/tradeoff_agreement.py`` and by the tests.

@@ -2,7 +2,7 @@
 
 Run it from the repository's folder: ``python benchmarks/tradeoff_scale.py [NUMBER]``. Each row is a
 process of its own, so that its memory is its own. It is judged by processor time, which other work
-on the machine does not lengthen; the clock stands beside it. The largest front, of which nothing is
+on the machine does not lengthen; the wall clock is given beside it. The largest front, of which nothing is
 dominated, is the worst case; it is run with a hundredth of the variants.
 """
 

@@ -1,4 +1,4 @@
-"""How often replication until decided errs, and what it costs beside 200 fixed replicates.
+"""Error rate of replication until decided, and its cost compared with 200 fixed replicates.
 
 Run it from the repository's folder:
 
@@ -38,7 +38,7 @@ Rows = Mapping[int, Mapping[str, NDArray[np.float64]]]
 
 
 def main() -> int:
-    """Do what the arguments say; 1 if a stated rate is exceeded."""
+    """Run the command of the arguments; 1 if a stated rate is exceeded."""
     command, *arguments = sys.argv[1:] or ["synthetic"]
     if command == "synthetic":
         return synthetic(int(arguments[0]) if arguments else 500)
@@ -238,7 +238,7 @@ def good_choices(truth: Sequence[tuple[float, float, float]], margin: float) -> 
 
 
 def trial_class(spec: TrialSpec) -> tuple[int, str, float]:
-    """What a kinematic trial depends on beside its seed and its tool speed: fingers, planner, planning limit."""
+    """Inputs of a kinematic trial beside its seed and its tool speed: fingers, planner, planning limit."""
     return spec.gripper.geometry.fingers, spec.planner, spec.planning_limit_s
 
 

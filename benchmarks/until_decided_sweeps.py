@@ -1,4 +1,4 @@
-"""Hold `rgss sweep --until decided` against 200 fixed replicates, for many master seeds, all of it really run.
+"""Compare `rgss sweep --until decided` with 200 fixed replicates for many master seeds; every trial is run.
 
     python benchmarks/until_decided_sweeps.py                        20 master seeds: 40 minutes of one core
     python benchmarks/until_decided_sweeps.py --seeds 2 --step 200   two that share no trial
@@ -36,7 +36,7 @@ MOST_SHARE = 0.25
 
 @dataclass(frozen=True, kw_only=True)
 class Decision:
-    """What a master seed came to, both ways.
+    """Outcome of a master seed by both procedures.
 
     Attributes:
         seed: The master seed.
@@ -46,7 +46,7 @@ class Decision:
         loss: By how much the fixed replicates value it below their own choice; None if they find it infeasible.
         ties: Whether they call the two a tie: equal, or within the study's practical margin.
         probability: The probability of good selection that was reported.
-        looks: How often was looked.
+        looks: Number of looks.
         trials: Trials that replication until decided asked for.
         run: How many of these the store did not have.
         share: The trials, of those of fixed replicates.
@@ -70,7 +70,7 @@ class Decision:
 
 
 def decide(bench: Bench, folder: Path, seed: int, *, replicates: int, fidelity: str) -> Decision:
-    """Decide for one master seed, both ways."""
+    """Decide for one master seed by both procedures."""
     file = folder / STUDY
     file.write_text(re.sub(r"(?m)^seed: \d+$", f"seed: {seed}", file.read_text(encoding="utf-8")), encoding="utf-8")
     words = ("--jobs", bench.jobs, "--fidelity", fidelity)

@@ -29,7 +29,7 @@ BROKEN = ("traceback", "limit")
 
 
 def main() -> int:
-    """Try the files, print what happened."""
+    """Try the files and print the outcomes."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", type=Path)
     parser.add_argument("--only", default="")
@@ -99,7 +99,7 @@ def _tried(path: Path, *, limit_s: float, fidelity: str) -> dict[str, object]:
 
 
 def _ran(*arguments: str, limit_s: float) -> tuple[int | None, str]:
-    """Exit status and what was said; no status at the limit."""
+    """Exit status and output; no status at the limit."""
     command = (sys.executable, "-m", "rgss", *arguments)
     try:
         ended = subprocess.run(command, capture_output=True, text=True, timeout=limit_s, check=False)  # noqa: S603

@@ -1,4 +1,4 @@
-"""Hold the simulation against theory and against itself; write docs/validation.md.
+"""Compare the simulation with theory and with its own refinement; write docs/validation.md.
 
 Run it from the repository's folder: ``python benchmarks/validation.py > docs/validation.md``.
 Figures of time are ratios of processor time within one run, so that they hold on any machine.

@@ -47,5 +47,6 @@ def sdk_errors(message: str, *, hint: str = "") -> Iterator[None]:
         yield
     except RgssError:
         raise
+    # The SDKs raise a bare Exception for whatever goes wrong.
     except Exception as error:
         raise DriverError(f"{message}: {' '.join(str(error).split())}", hint=hint) from error
