@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rgss.kinematics.description import build_model, pose_of, transform
+from rgss.kinematics.description import build_model, link_frame, pose_of, transform
 from rgss.scenes import JointKind, Pose, Robot
 
 Vector = NDArray[np.float64]
@@ -36,7 +36,7 @@ class Arm:
         self.tool = tool
         self._engine: Any = pinocchio
         self._model = build_model(robot)
-        flange = self._model.frames[self._model.getFrameId(robot.flange)]
+        flange = link_frame(self._model, robot.flange)
         self._tool = self._model.addFrame(
             pinocchio.Frame(
                 "tool_centre", flange.parentJoint, flange.placement * transform(tool), pinocchio.FrameType.OP_FRAME

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rgss.errors import DefinitionError
 from rgss.kinematics.collision_context import CollisionContext
-from rgss.kinematics.description import build_model
+from rgss.kinematics.description import build_model, link_frame
 from rgss.kinematics.geometry import Part, collision_parts
 from rgss.kinematics.link_contacts import lasting_contacts
 from rgss.kinematics.separation_bounds import SeparationBounds
@@ -240,7 +240,7 @@ def _uprightness(
     """Least vertical component of the carried workpiece's axis, and that axis in the frame of the last joint."""
     if situation.carried is None or situation.largest_tilt_rad is None:
         return None, np.zeros(3)
-    flange = model.frames[model.getFrameId(scene.robot.flange)].placement
+    flange = link_frame(model, scene.robot.flange).placement
     held = gripper.grasp_centre @ situation.carried
     axis: Vector = flange.rotation @ np.array(held.rotate((0.0, 0.0, 1.0)))
     return math.cos(situation.largest_tilt_rad), axis

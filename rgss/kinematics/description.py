@@ -51,6 +51,18 @@ def build_model(robot: Robot) -> Any:
     return model
 
 
+def link_frame(model: Any, link: str) -> Any:
+    """Frame of a link in a Pinocchio model; a joint may have the same name.
+
+    Args:
+        model: The model.
+        link: Name of the link in the URDF.
+    """
+    import pinocchio
+
+    return model.frames[model.getFrameId(link, pinocchio.FrameType.BODY)]
+
+
 def transform(pose: Pose) -> Any:
     """Pose as Pinocchio's SE3."""
     import numpy as np

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.kinematics.description import build_model, transform
+from rgss.kinematics.description import build_model, link_frame, transform
 from rgss.scenes import (
     Cylinder,
     Gripper,
@@ -126,7 +126,7 @@ class ArmDynamics:
         self._engine = pinocchio
         self._model = build_model(robot)
         self._model.gravity.linear = np.array([0.0, 0.0, -gravity_m_s2])
-        flange = self._model.frames[self._model.getFrameId(robot.flange)]
+        flange = link_frame(self._model, robot.flange)
         for load in loads:
             inertia = pinocchio.Inertia(load.mass_kg, np.zeros(3), np.diag(load.moments_kg_m2))
             self._model.appendBodyToJoint(flange.parentJoint, inertia, flange.placement * transform(load.pose))

@@ -12,7 +12,7 @@ import numpy as np
 
 from rgss.errors import DefinitionError
 from rgss.kinematics.collision_context import CollisionContext
-from rgss.kinematics.description import transform
+from rgss.kinematics.description import link_frame, transform
 from rgss.scenes import (
     CUP_LINK,
     GRIPPER_BASE_LINK,
@@ -73,7 +73,7 @@ def collision_parts(
         gripper: The gripper at the flange.
         situation: Opening of the gripper, and pose of the workpiece.
     """
-    flange = model.frames[model.getFrameId(scene.robot.flange)]
+    flange = link_frame(model, scene.robot.flange)
     joint, to_joint = flange.parentJoint, flange.placement
     parts = arm_parts(model, scene.robot)
 
@@ -153,9 +153,7 @@ def arm_parts(model: Any, robot: Robot) -> list[Part]:
 
 
 def _convex_part(model: Any, part: ConvexPart) -> Part:
-    import pinocchio
-
-    frame = model.frames[model.getFrameId(part.link, pinocchio.FrameType.BODY)]
+    frame = link_frame(model, part.link)
     return Part(
         name=part.link,
         chain=frame.parentJoint,

@@ -10,7 +10,7 @@ import pytest
 
 from rgss.cli.main import main
 from rgss.errors import DefinitionError
-from rgss.kinematics import Arm
+from rgss.kinematics import Arm, ArmDynamics, Load
 from rgss.scenes import Pose, link_solid
 from rgss.studies.robot_project import robot_summary, write_robot_project
 from rgss.studies.robot_project.draft import drafted_robot
@@ -314,3 +314,58 @@ def test_materials_without_a_colour_are_left_out(draft, capfd):
     assert "none" not in foreign.robot.urdf
     assert 'name="given"' in foreign.robot.urdf
     assert "Material" not in "".join(capfd.readouterr())
+
+
+def test_a_joint_may_have_the_name_of_a_link(draft):
+    clean = draft(CLEAN)
+    foreign = draft(CLEAN.replace('"joint_6"', '"flange"').replace('"joint_2"', '"link_2"'))
+    assert [joint.name for joint in foreign.robot.joints] == [
+        {"joint_6": "flange", "joint_2": "link_2"}.get(joint.name, joint.name) for joint in clean.robot.joints
+    ]
+    q, still, moving = [0.3, -0.4, 0.5, 0.6, -0.7, 0.8], [0.0] * 6, [0.1, 0.2, -0.3, 0.4, -0.5, 0.6]
+    assert tool(foreign, q) == pytest.approx(tool(clean, q), abs=1e-12)
+    load = Load(
+        mass_kg=2.0, moments_kg_m2=(0.01, 0.02, 0.03), pose=Pose.from_roll_pitch_yaw((0.1, 0.0, 0.2), (0.1, 0.2, 0.3))
+    )
+    torques = [
+        ArmDynamics(one.robot, [load], gravity_m_s2=9.81).torques(np.array(q), np.array(still), np.array(moving))
+        for one in (clean, foreign)
+    ]
+    assert torques[0] == pytest.approx(torques[1], abs=1e-12)
+
+
+def branch(parent, count, name):
+    """Links that turn one on the other, the first on a link of the arm."""
+    inertial = (
+        '<inertial><mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial>'
+    )
+    parts = []
+    for number in range(1, count + 1):
+        parts.append(
+            f'<link name="{name}_{number}">{inertial}</link><joint name="{name}_joint_{number}" type="revolute">'
+            f'<origin xyz="0 0 0.05"/><axis xyz="0 0 1"/><parent link="{parent}"/><child link="{name}_{number}"/>'
+            '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+        )
+        parent = f"{name}_{number}"
+    return "".join(parts)
+
+
+@pytest.mark.parametrize(("at", "count"), [("link_1", 1), ("link_1", 2), ("link_2", 1)])
+def test_what_turns_beside_the_arm_is_not_the_arm(draft, at, count):
+    clean = draft(CLEAN)
+    foreign = draft(CLEAN.replace("</robot>", f"{branch(at, count, 'head')}</robot>"))
+    assert foreign.arm.flange == clean.arm.flange == "flange"
+    assert [joint.name for joint in foreign.robot.joints] == [joint.name for joint in clean.robot.joints]
+    q = [0.3, -0.4, 0.5, 0.6, -0.7, 0.8]
+    assert tool(foreign, q) == pytest.approx(tool(clean, q), abs=1e-12)
+
+
+def test_an_arm_ends_where_fingers_begin_however_many_joints_they_have(draft):
+    fingers = "".join(branch("flange", count, name) for count, name in [(4, "thumb"), (4, "index"), (2, "little")])
+    drafted = draft(CLEAN.replace("</robot>", f"{fingers}</robot>"))
+    assert [joint.name for joint in drafted.robot.joints] == [f"joint_{number}" for number in range(1, 7)]
+
+
+def test_two_ways_of_like_length_end_the_arm(draft):
+    drafted = draft(CLEAN.replace("</robot>", f"{branch('link_3', 2, 'other')}</robot>"))
+    assert [joint.name for joint in drafted.robot.joints] == ["joint_1", "joint_2", "joint_3"]

@@ -11,6 +11,8 @@ from rgss.errors import DefinitionError
 from rgss.scenes import MOST_JOINTS, JointKind, chain_to, kind_of
 from rgss.studies.robot_project.urdf_reading import Note
 
+_LONGER_BY = 3
+"""Joints by which the arm is longer than what else turns on one of its links; fingers of a hand differ by fewer."""
 _DEFAULT_RANGE = (-3.141592653589793, 3.141592653589793)
 
 
@@ -57,7 +59,7 @@ class UrdfArm:
 
 
 def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
-    """Find the arm in a URDF: from the base along the only way that leads to movable joints.
+    """Find the arm in a URDF: from the base along the only way that leads to movable joints, or by far the longest.
 
     Args:
         root: The URDF.
@@ -132,10 +134,11 @@ def _last_link(root: ET.Element, below: Mapping[str, list[ET.Element]]) -> str:
             for joint in below.get(link, ())
             if joint.get("type") != "fixed" or _leads_to_movable(_end(joint, "child"), below)
         ]
-        if len(ways) == 1:
-            link = _end(ways[0], "child")
-            moved = moved or ways[0].get("type") != "fixed"
-            rigid = [*rigid, link] if ways[0].get("type") == "fixed" else [link]
+        way = ways[0] if len(ways) == 1 else _longest(ways, below) if moved else None
+        if way is not None:
+            link = _end(way, "child")
+            moved = moved or way.get("type") != "fixed"
+            rigid = [*rigid, link] if way.get("type") == "fixed" else [link]
             continue
         if ways and not moved:
             names = ", ".join(_end(joint, "child") for joint in ways)
@@ -153,6 +156,19 @@ def _last_link(root: ET.Element, below: Mapping[str, list[ET.Element]]) -> str:
         if not frames:
             return link
         link = frames[0]
+
+
+def _longest(ways: list[ET.Element], below: Mapping[str, list[ET.Element]]) -> ET.Element | None:
+    """The way on which the arm goes on, beside a head or a camera that turns; None where a hand divides."""
+    ways = sorted(ways, key=lambda joint: -_joints_in_a_row(joint, below))
+    lengths = [_joints_in_a_row(joint, below) for joint in ways]
+    return ways[0] if len(ways) > 1 and lengths[0] >= lengths[1] + _LONGER_BY else None
+
+
+def _joints_in_a_row(joint: ET.Element, below: Mapping[str, list[ET.Element]]) -> int:
+    """Most movable joints that follow each other from a joint on, itself among them; followers do not count."""
+    moves = joint.get("type") != "fixed" and joint.find("mimic") is None
+    return moves + max((_joints_in_a_row(one, below) for one in below.get(_end(joint, "child"), ())), default=0)
 
 
 def _leads_to_movable(link: str, below: Mapping[str, list[ET.Element]]) -> bool:
