@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -147,8 +148,9 @@ def _shapes(path: Path, _sha256: str, scale: tuple[float, float, float], how: Co
         edges = np.asarray(mesh.bounds, dtype=float).T.tolist()
         return (tuple((x, y, z) for x in edges[0] for y in edges[1] for z in edges[2]),)
     if how is CollisionShapes.DECOMPOSE:
-        parts = [part for body in mesh.split(only_watertight=False) for part in _convex_pieces(body)]
-        return tuple(_reduced_hull(part, path) for part in parts)
+        parts = _parts(mesh.split(only_watertight=False))
+        if parts:
+            return tuple(_reduced_hull(part, path) for part in parts)
     return (_reduced_hull(np.asarray(mesh.vertices, dtype=float), path),)
 
 
@@ -180,6 +182,29 @@ def read_mesh(path: Path, scale: tuple[float, float, float]) -> Any:
     mesh.merge_vertices(merge_tex=True, merge_norm=True)
     mesh.apply_scale(scale)
     return mesh
+
+
+def _parts(bodies: Sequence[Any]) -> list[Array]:
+    """Convex pieces of the bodies of a mesh; empty if faces without a volume are left over.
+
+    Separate faces, such as the six of an open box, are taken for one body.
+    """
+    solid = [body for body in bodies if _has_volume(body.vertices)]
+    parts = [part for body in solid for part in _convex_pieces(body)]
+    if len(solid) == len(bodies):
+        return parts
+    faces = np.vstack([body.vertices for body in bodies if not _has_volume(body.vertices)])
+    return [*parts, faces] if _has_volume(faces) else []
+
+
+def _has_volume(points: Array) -> bool:
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        ConvexHull(points)
+    except (QhullError, ValueError):
+        return False
+    return True
 
 
 def _convex_pieces(body: Any) -> list[Array]:

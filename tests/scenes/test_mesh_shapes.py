@@ -82,6 +82,18 @@ def test_a_concave_body_is_decomposed_the_same_way_again(saved):
     assert shapes_of_mesh(path, sha256="again", scale=ONE, how=CollisionShapes.DECOMPOSE) == parts
 
 
+def test_faces_without_a_volume_beside_a_body_are_within_its_shapes(saved):
+    box = trimesh.creation.box((0.2, 0.1, 0.06))
+    plate = trimesh.Trimesh([(0.3, 0, 0), (0.4, 0, 0), (0.4, 0.1, 0), (0.3, 0.1, 0)], [(0, 1, 2), (0, 2, 3)])
+    mesh = trimesh.util.concatenate([box, plate])
+    (whole,) = shapes(saved(mesh), CollisionShapes.DECOMPOSE)
+    assert np.allclose(np.max(whole, axis=0), (0.4, 0.1, 0.03))
+    plates = [plate, plate.copy()]
+    plates[1].apply_translation((0, 0, 0.05))
+    parts = shapes(saved(trimesh.util.concatenate([box, *plates]), "more.stl"), CollisionShapes.DECOMPOSE)
+    assert [np.round(np.max(part, axis=0), 6).tolist() for part in parts] == [[0.1, 0.05, 0.03], [0.4, 0.1, 0.05]]
+
+
 def test_what_a_mesh_is(saved):
     found = mesh_summary(saved(trimesh.creation.box((0.2, 0.1, 0.06))))
     assert (found.is_closed, found.bodies) == (True, 1)

@@ -52,11 +52,7 @@ class FittedCell:
 
 
 class CellSearch:
-    """Search for a cell in which an arm reaches every waypoint with every gripper.
-
-    Attributes:
-        reason: An example of what prevents a cell.
-    """
+    """Search for a cell in which an arm reaches every waypoint with every gripper."""
 
     def __init__(
         self, folder: Path, robot: Robot, robot_file: str, geometries: Sequence[GripperGeometry], *, size: HandSize
@@ -73,7 +69,16 @@ class CellSearch:
         self._path, self._robot, self._robot_file = folder / "scenes" / "kitchen.yaml", robot, robot_file
         self._geometries, self._size = geometries, size
         self._gap_m: float | None = None
-        self.reason = "the tool does not come down to an object on a table"
+        self._reason = "the tool does not come down to an object on a table"
+        self._unserved: Workcell | None = None
+
+    @property
+    def reason(self) -> str:
+        """An example of what prevents a cell; computed when it is wanted, since it takes long."""
+        if self._unserved is not None:
+            self._reason = next((str(one) for one in infeasible_waypoints(self._unserved).values()), self._reason)
+            self._unserved = None
+        return self._reason
 
     def cells(self) -> Iterator[FittedCell]:
         """Cells with a home for the arm, computed lazily, the most common layout first."""
@@ -83,11 +88,12 @@ class CellSearch:
         overhead = (replace(one, is_yaw_free=is_yaw_free) for one in _overhead(robot, self._geometries, size))
         common = self._fitting(itertools.chain(usual if reach_m >= _LEAST_REACH_M * size.scale else (), overhead))
         yield from itertools.islice(common, 1)
-        if self.reason == POINTS_INTO_ARM:
+        if self._reason == POINTS_INTO_ARM:
             return
         longest = max(self._geometries, key=lambda geometry: geometry.grasp_depth_m)
         search = descent_search(robot, longest, scale=size.scale)
-        self.reason = search.reason or self.reason
+        if search.reason:
+            self._reason, self._unserved = search.reason, None
         yield from self._fitting(search.layouts, is_direct=True)
         yield from common
         yield from self._fitting(search.layouts)
@@ -98,7 +104,7 @@ class CellSearch:
             found = self._fitted(layout, is_direct=is_direct)
             if found is not None:
                 yield found
-            elif self.reason == POINTS_INTO_ARM:
+            elif self._reason == POINTS_INTO_ARM:
                 return
 
     def _fitted(self, tried: Layout, *, is_direct: bool) -> FittedCell | None:
@@ -114,11 +120,11 @@ class CellSearch:
             scene = self._scene(layout)
         cells = self._cells(scene)
         if any(_points_into_arm(cell) for cell in cells):
-            self.reason = POINTS_INTO_ARM
+            self._reason, self._unserved = POINTS_INTO_ARM, None
             return None
         unserved = next((cell for cell in cells if not every_stop_is_feasible(cell)), None)
         if unserved is not None:
-            self.reason = next((str(one) for one in infeasible_waypoints(unserved).values()), self.reason)
+            self._unserved = unserved
             return None
         # Valid configurations at the waypoints, with the least travel from one to the next.
         stops = [waypoint_configurations(cell) for cell in cells]
