@@ -58,7 +58,11 @@ def main(options: Sequence[str], count: int | None = None) -> int:
             )
             for share, text in enumerate(texts)
         ]
-        statuses = [process.wait() for process in processes]
+        try:
+            statuses = [process.wait() for process in processes]
+        except KeyboardInterrupt:
+            # The processes have been interrupted as well, and say so.
+            statuses = [process.wait() for process in processes]
         for text in filter(None, texts):
             text.seek(0)
             sys.stdout.write(text.read().decode("utf-8", "replace"))

@@ -189,11 +189,16 @@ def _parts(bodies: Sequence[Any]) -> list[Array]:
 
     Separate faces, such as the six of an open box, are taken for one body.
     """
-    solid = [body for body in bodies if _has_volume(body.vertices)]
-    parts = [part for body in solid for part in _convex_pieces(body)]
-    if len(solid) == len(bodies):
+    parts: list[Array] = []
+    loose: list[Array] = []
+    for body in bodies:
+        if _has_volume(body.vertices):
+            parts += _convex_pieces(body)
+        else:
+            loose.append(body.vertices)
+    if not loose:
         return parts
-    faces = np.vstack([body.vertices for body in bodies if not _has_volume(body.vertices)])
+    faces = np.vstack(loose)
     return [*parts, faces] if _has_volume(faces) else []
 
 

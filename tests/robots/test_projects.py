@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import shutil
+from dataclasses import replace
 
 import pytest
 
 from rgss.cli.main import main
 from rgss.guard.schema import record_schema
 from rgss.studies import load_project
+from rgss.studies.robot_project import write_robot_project, writing
+from rgss.studies.robot_project.first_trial import has_scene_errors
+from rgss.studies.robot_project.fitting import CellSearch
+from rgss.studies.robot_project.hand_size import hand_sizes
 from tests.fixtures.serial_arms import Link, serial_urdf
 from tests.robots.conftest import urdf_of
 from tests.robots.test_arm_sizes import FOUR
@@ -164,3 +170,24 @@ def test_an_arm_that_points_down_at_none_of_its_places(tmp_path, capsys):
     assert "no layout was found in which serial grasps a cup on a table with its tool pointing down: with the " in error
     assert "the tool points down at none of 63 places within its reach" in error
     assert "An arm that cannot turn its tool down needs a scene and a task of its own)" in error
+
+
+def test_a_layout_that_the_check_refuses_is_not_written(tmp_path, capsys, monkeypatch):
+    """Even if the search takes it for valid, as it does where links touch in every configuration of the draft."""
+    found = CellSearch.cells
+
+    def too_high(search):
+        for cell in itertools.islice(found(search), 1):
+            yield replace(cell, layout=replace(cell.layout, table_m=cell.layout.table_m + 2.0 * cell.layout.reach_m))
+
+    monkeypatch.setattr(CellSearch, "cells", too_high)
+    monkeypatch.setattr(writing, "hand_sizes", lambda *arm: itertools.islice(hand_sizes(*arm), 1))
+    assert main(["init", "--robot", str(urdf_of("six")), "--tool-axis", "z", str(tmp_path / "new")]) == 2
+    assert "no layout was found in which xarm6 grasps a cup" in " ".join(capsys.readouterr().err.split())
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_layout_without_a_finding_is_written_though_the_first_trial_fails(tmp_path, monkeypatch):
+    monkeypatch.setattr(writing, "carries_object", lambda project: False)
+    write_robot_project(urdf_of("six"), tmp_path / "new")
+    assert not has_scene_errors(load_project(tmp_path / "new"))

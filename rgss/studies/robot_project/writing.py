@@ -14,10 +14,11 @@ from pathlib import Path, PurePosixPath
 
 from rgss.errors import DefinitionError
 from rgss.scenes import load_gripper_file
+from rgss.studies.project import load_project
 from rgss.studies.robot_project.descent_search import NEVER_DOWN, angles_from_vertical_rad
 from rgss.studies.robot_project.draft import DraftedRobot, drafted_robot
 from rgss.studies.robot_project.drafted_gripper import DraftedGripper, drafted_gripper, drafted_hand
-from rgss.studies.robot_project.first_trial import carries_object
+from rgss.studies.robot_project.first_trial import carries_object, has_scene_errors
 from rgss.studies.robot_project.fitting import POINTS_INTO_ARM, CellSearch, FittedCell
 from rgss.studies.robot_project.gripper_texts import with_gripper
 from rgss.studies.robot_project.hand_size import HandSize, hand_sizes
@@ -135,13 +136,19 @@ def _drafted_gripper(gripper: Path, project: Path, urdf: Path, drafted: DraftedR
 
 
 def _is_written(project: Path, drafted: DraftedRobot, search: CellSearch) -> bool:
-    """Write the first cell in which the task succeeds, else the first that suits the arm; False if none does."""
+    """Write the first cell in which the task succeeds, else the first without errors; False if there is none.
+
+    The robot file has narrower ranges and another home than the draft, so that other pairs of links may be found to
+    touch each other for good: what the search took for valid may be an error in the project.
+    """
     first = None
     for cell in itertools.islice(search.cells(), _MOST_CELLS):
         _write_cell(project, drafted, cell)
-        if carries_object(project):
+        written = load_project(project)
+        if carries_object(written):
             return True
-        first = first or cell
+        if first is None and not has_scene_errors(written):
+            first = cell
     if first is not None:
         _write_cell(project, drafted, first)
     return first is not None

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import longeron
 import pytest
 
 from rgss.exchange.sysml import sysml_text
-from rgss.requirements import BehaviourKind, BlockRelation, LinkKind
+from rgss.requirements import Architecture, BehaviourKind, BlockLevel, BlockRelation, LinkKind
+from rgss.requirements.architecture import Block
 
 pytestmark = pytest.mark.slow
+
+HOSTILE = "It says */ \"x\" 'y' \\ <b>&amp;</b> =1+1 \U0001f916 {brace}; // end"
 
 
 def usages(elements, kind):
@@ -185,3 +190,27 @@ def test_calculations_compute_what_the_measures_compute(model, shipped):
 
 def test_the_same_model_gives_the_same_text(written, shipped):
     assert sysml_text(shipped.requirements, shipped.measures, title=shipped.study.id) == written
+
+
+def test_texts_that_try_to_break_out_of_where_they_stand_stay_texts(shipped):
+    need = dataclasses.replace(shipped.requirements.stakeholder[0], text=HOSTILE, owner=HOSTILE, parent=None)
+    block = Block(
+        id="BLK-1", name=HOSTILE, level=BlockLevel.SYSTEM, parent=None, relation=BlockRelation.PART, text=HOSTILE
+    )
+    requirements = dataclasses.replace(
+        shipped.requirements,
+        stakeholder=(need,),
+        system=(),
+        architecture=Architecture(blocks=(block,), behaviours=()),
+    )
+    measures = dataclasses.replace(shipped.measures, measures=())
+
+    hostile = longeron.loads(sysml_text(requirements, measures, title=HOSTILE))
+
+    elements = list(hostile.iter_tree())
+    assert [each.name for each in elements if getattr(each, "short_name", None) == "BLK-1"] == [HOSTILE]
+    owners = [each.value.expr.value for each in elements if getattr(each, "redefines", None) == ["owner"]]
+    assert owners == [HOSTILE]
+    assert [package.name for package in hostile.members] == [HOSTILE]
+    bodies = [each.body for each in elements if isinstance(each, longeron.Documentation)]
+    assert sum(body.count("* / \"x\" 'y' \\ <b>") for body in bodies) == 2

@@ -72,12 +72,12 @@ def test_neither_does_one_by_the_wall_clock(spec_of, limit_s):
     planning = replace(
         spec.settings.planning,
         clock=PlanningClock(kind=ClockKind.WALL),
-        search_limit_s=8.0,
+        search_limit_s=2.0,
         simplification_limit_s=limit_s,
     )
     cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m, default_task())
-    for seed in range(1, 4):
+    for seed in (1, 2):
         plan = plan_task(cell, spec.planner, seed=seed, settings=planning)
         for phase in plan.moves:
-            for planning_limit_s in (0.001, 0.1, 8.0):
+            for planning_limit_s in (0.001, 0.1, 2.0):
                 assert plan.move_within(phase, planning_limit_s).time_s <= planning_limit_s + limit_s
