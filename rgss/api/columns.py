@@ -31,11 +31,13 @@ _VARIANTS = FrameDescription(
         Column(name="screening", meaning="outcome of its screening; missing if the study has none"),
         Column(
             name="feasible",
-            meaning="true if it meets every requirement of the trade-off; missing until all trials have evidence",
+            meaning="true if its estimates meet every requirement, within the tolerance of the trade-off; missing "
+            "until all trials have evidence",
             kind=Kind.TRUTH,
         ),
         Column(
-            name="violates", meaning="requirements that it does not meet, separated by commas; empty if it meets all"
+            name="violates",
+            meaning="requirements that its estimates miss, separated by commas; empty if it is feasible",
         ),
         Column(
             name="weighted_value",

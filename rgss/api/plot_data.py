@@ -83,7 +83,7 @@ def plotted_designs(project: Project, measured: Sequence[VariantMeasures], decis
         roles[decision.runner_up] = Role.RUNNER_UP
     roles |= dict.fromkeys((*decision.near_ties, *decision.ties), Role.TIED)
     if decision.chosen is None:
-        return PlottedDesigns(study=label, roles=roles, note="no design meets every requirement")
+        return PlottedDesigns(study=label, roles=roles, note="no design meets every requirement by its estimates")
     return PlottedDesigns(study=label, roles=roles | {decision.chosen: Role.CHOSEN})
 
 

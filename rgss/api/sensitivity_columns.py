@@ -18,14 +18,14 @@ TORNADO = FrameDescription(
         Column(name="range_is", meaning="stated, elicited, or a share of the value"),
         Column(
             name="lead_low",
-            meaning="lead of the choice over the best rival at the low end; missing where it misses a requirement",
+            meaning="lead of the choice over the best rival at the low end; missing where it is infeasible",
             unit="1",
             kind=Kind.NUMBER,
         ),
         Column(name="lead_high", meaning="the same at the high end", unit="1", kind=Kind.NUMBER),
         Column(
             name="swing",
-            meaning="greatest minus least lead; infinite where the choice misses a requirement at an end",
+            meaning="greatest minus least lead; infinite where the choice is infeasible at an end",
             unit="1",
             kind=Kind.NUMBER,
         ),
@@ -105,7 +105,7 @@ ASSUMPTIONS = FrameDescription(
             unit="1",
             kind=Kind.COUNT,
         ),
-        Column(name="feasible", meaning="variants that then meet every requirement", unit="1", kind=Kind.COUNT),
+        Column(name="feasible", meaning="variants that are then feasible", unit="1", kind=Kind.COUNT),
         Column(
             name="changes_choice",
             meaning="true if the study's choice is beaten, and not tied with the best",

@@ -66,7 +66,7 @@ def select(project: Project, decision: Decision, measured: Sequence[VariantMeasu
     """
     if decision.chosen is None:
         raise DefinitionError(
-            "no variant meets every requirement, so that there is no choice to confirm",
+            "no variant meets every requirement by its estimates, so that there is no choice to confirm",
             hint="name designs with --variants",
         )
     close = {*decision.ties, *decision.near_ties, *([] if decision.runner_up is None else [decision.runner_up])}

@@ -83,7 +83,7 @@ def _chosen(
     except RgssError as error:
         return None, f"no variant is chosen: {error}"
     if decision.chosen is None:
-        return None, "no variant is chosen, since none meets every requirement"
+        return None, "no variant is chosen, since none meets every requirement by its estimates"
     return decision.chosen, f"variant {decision.chosen}, which the trade-off chooses"
 
 

@@ -146,7 +146,8 @@ class Arm:
             self._tool,
             self._engine.ReferenceFrame.LOCAL_WORLD_ALIGNED,
         )
-        return jacobian
+        # The engine gives a vector for a single joint.
+        return jacobian.reshape(6, -1)
 
     def joint_axes(self) -> tuple[Vector, Vector]:
         """Axes of the joints and a point of the tool at the zero configuration, in the world.

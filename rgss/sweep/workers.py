@@ -260,7 +260,7 @@ class WorkerPool:
         if not worker.proved:
             self._failed_starts += 1
             if self._failed_starts > self._size + _FAILED_STARTS:
-                raise _not_started(f"{detail}, and so did {self._failed_starts - 1} before it")
+                raise _not_started(f"{detail}, like {self._failed_starts - 1} before it")
         return None
 
     def _dismiss(self, worker: _Worker) -> None:

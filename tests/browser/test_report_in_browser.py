@@ -359,7 +359,7 @@ def test_a_study_without_a_choice_says_so(reader, study, tmp_path):
 
     assert reader.complaints() == []
     assert reader.text(".headline") == "No variant is chosen."
-    assert reader.text("#weight-winner") == "No variant meets every requirement."
+    assert reader.text("#weight-winner") == "No variant is feasible by its estimates."
     assert reader.text("#acceptability-plot") == "There is nothing to draw here."
     assert reader.rows("#ranking-table") == []
 

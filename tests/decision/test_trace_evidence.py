@@ -91,7 +91,10 @@ def test_when_none_meets_every_requirement_there_is_no_choice(shipped, filled, r
     measured = measure_variants(shipped, filled(shipped, lambda spec: record_of(spec, motion_s=80.0, path_m=50.0)))
     evidence = trace_evidence(shipped, measured, EvidenceState())
 
-    assert (evidence.shown, evidence.choice) == (None, "no variant is chosen, since none meets every requirement")
+    assert (evidence.shown, evidence.choice) == (
+        None,
+        "no variant is chosen, since none meets every requirement by its estimates",
+    )
 
 
 def test_a_variant_that_is_not_there(shipped, measured, state):

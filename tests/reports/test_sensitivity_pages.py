@@ -81,7 +81,7 @@ def test_bars_are_drawn_to_scale_within_eighty_columns(tornado):
 def test_a_choice_without_rival(tornado):
     alone = replace(tornado, lead=None, rival=None, bars=())
 
-    assert "variant 1 has no rival" in next(iter(tornado_lines(alone)))
+    assert "variant 1 has no feasible rival." in next(iter(tornado_lines(alone)))
     assert tornado_svg(alone) == ""
 
 

@@ -187,7 +187,7 @@ def _assumed(
 def _no_weights(problem: TradeProblem, chosen: int | None) -> str:
     """Reason why weights, assumptions and costs are not analysed; empty if they are."""
     if chosen is None:
-        return "no variant meets every requirement"
+        return "no variant meets every requirement by its estimates"
     if not isinstance(problem.program, AdditiveValue):
         return f"the {problem.program.name} program does not choose by weighted value"
     return ""

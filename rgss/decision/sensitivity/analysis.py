@@ -123,7 +123,7 @@ def analyse_sensitivity(
 
 def _refused(problem: TradeProblem, decision: Decision) -> str:
     if decision.chosen is None:
-        return "no variant meets every requirement"
+        return "no variant meets every requirement by its estimates"
     if not isinstance(problem.program, AdditiveValue):
         return f"the {problem.program.name} program does not choose by weighted value"
     return ""

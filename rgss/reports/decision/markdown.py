@@ -35,7 +35,7 @@ def decision_section(made: StudyDecision) -> str:
     parts = [BEGIN, ""]
     found = made.robustness
     if made.comparison is None:
-        parts += [f"No variant of study `{made.study}` meets every requirement.", ""]
+        parts += [f"No variant of study `{made.study}` meets every requirement by its estimates.", ""]
     elif found is not None:
         parts += [*_choice(made, made.comparison), ""]
         parts += [*_deciding(made, found), ""]
@@ -132,7 +132,7 @@ def _deciding(made: StudyDecision, found: RobustnessFindings) -> Iterator[str]:
     if decision.excluded_better:
         requirements = ", ".join(f"{one.requirement} ({one.excluded})" for one in decision.deciding_requirements)
         better = decision.counts.excluded_better
-        yield f"{better} better {'variant misses' if better == 1 else 'variants miss'} a requirement: {requirements}."
+        yield f"{better} better {'variant is' if better == 1 else 'variants are'} infeasible: {requirements}."
     else:
         yield "No requirement excludes a better variant."
     shares = "; ".join(_shares(made, found))
@@ -174,7 +174,7 @@ def _costs(found: RobustnessFindings) -> Iterator[str]:
         yield "*The assumed costs do not matter*: the choice stands wherever they are from 0 to twice what is assumed."
         return
     winners = found.variants(box.range.overtaken_by)
-    then = f"{variants_text(winners)} can win" if winners else "the choice can miss a requirement"
+    then = f"{variants_text(winners)} can win" if winners else "the choice can be infeasible"
     yield (
         f"*The assumed costs matter.* All of them together may be off by ±{share_in_words(box.range.factor)} "
         f"before {then}. Alone, the choice stands while"

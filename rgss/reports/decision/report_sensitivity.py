@@ -63,7 +63,7 @@ def _end(bar: TornadoBar, end: TornadoEnd) -> Plain:
     about = "" if bar.exact else "≈ "
     return {
         "value": amount(end.value, bar.unit),
-        "lead": score(end.lead) if end.feasible else "misses a requirement",
+        "lead": score(end.lead) if end.feasible else "infeasible",
         "wins": variants_text(end.winners),
         "flip": UNKNOWN if end.flip is None else about + amount(end.flip, bar.unit),
     }

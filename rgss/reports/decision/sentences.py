@@ -118,7 +118,7 @@ def reading_lines(made: StudyDecision) -> Iterator[str]:
         if outcome.reason:
             leads = f"no answer: {outcome.reason}"
         elif outcome.chosen is None:
-            leads = "no variant meets every requirement"
+            leads = "no variant is feasible"
         else:
             same = "the same choice" if outcome.chosen == made.decision.chosen else f"variant {outcome.chosen}"
             leads = f"{same}, {outcome.feasible} feasible"

@@ -64,7 +64,7 @@ def _bar(bar: TornadoBar, top: float, base: float, across: Callable[[float], flo
         thickness = 3.0 if missed else _BAR
         wins = variants_text(end.winners) if end.winners else "nothing is feasible"
         title = f"{bar.id} at {amount(end.value, bar.unit)}: " + (
-            "the choice misses a requirement" if missed else f"lead {score(end.lead)}"
+            "the choice is infeasible" if missed else f"lead {score(end.lead)}"
         )
         yield (
             f'<rect class="{"missed" if missed else kind}" x="{left:.2f}" y="{middle - thickness / 2.0:.2f}" '

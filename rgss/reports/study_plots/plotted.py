@@ -16,8 +16,8 @@ class Role(str, Enum):
 
     Attributes:
         UNJUDGED: There is no decision yet.
-        INFEASIBLE: It misses a requirement.
-        FEASIBLE: It meets every requirement, and another design dominates it.
+        INFEASIBLE: Its estimates miss a requirement by more than the tolerance.
+        FEASIBLE: Its estimates meet every requirement within the tolerance, and another design dominates it.
         FRONT: No feasible design dominates it.
         RUNNER_UP: The best that is not tied.
         TIED: As good as the chosen one, or within the practical margin of it.

@@ -33,7 +33,7 @@ class InputBar:
         id: Its name.
         low: Text of the low end of its range.
         high: Text of the high end.
-        lead_low: Lead of the chosen design at the low end; NaN if it misses a requirement there.
+        lead_low: Lead of the chosen design at the low end; NaN if it is infeasible there.
         lead_high: Lead at the high end.
     """
 
@@ -113,7 +113,7 @@ def tornado_figure(bars: Sequence[InputBar], lead: float, designs: PlottedDesign
         Patch(color=_LOW, label="low end"),
         Patch(color=_HIGH, label="high end"),
         Line2D([], [], color=INK, label=f"as stated: {lead:.4f}"),
-        Line2D([], [], color=LIMIT, linestyle="--", label="no lead; ✕ misses a requirement"),
+        Line2D([], [], color=LIMIT, linestyle="--", label="no lead; ✕ infeasible"),
     ]
     legend_below(figure, handles, designs, note)
     set_alt_text(

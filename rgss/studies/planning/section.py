@@ -45,7 +45,7 @@ class PlanningChoice:
         on_unverified: Handling of a path that is not valid at that resolution.
         simplification_checks: Validity checks that may be spent on looking for shortcuts.
         simplification_limit_s: Longest time of simplifying a path by the planning clock.
-        clearance_m: Distance that planned paths keep from everything.
+        clearance_m: Distance that the checked states of planned paths keep; the path that runs keeps a quarter of it.
         planner: The planner where no design sets it; empty if the file has none.
         time_limit_s: Longest planning time of one move where no design sets it; None if the file has none.
         planners: The planners that the file declares, by their names there.

@@ -13,6 +13,8 @@ Array = NDArray[np.float64]
 SAMPLES = 2048
 """Number of sampled configurations."""
 
+_TRAVEL_SAMPLES = 256
+
 
 def horizontal_reach_m(robot: Robot) -> float:
     """Greatest distance of the flange from the first axis over sampled configurations.
@@ -23,6 +25,18 @@ def horizontal_reach_m(robot: Robot) -> float:
     arm = Arm(robot, Pose())
     positions = arm.tool_position(sampled_configurations(robot)) - np.array(arm.first_axis_m)
     return float(np.max(np.linalg.norm(positions, axis=1)))
+
+
+def greatest_travel_m(robot: Robot, tool: Pose) -> float:
+    """Greatest distance that a tool moves for each unit of length in joint space, over sampled configurations.
+
+    Args:
+        robot: The arm.
+        tool: The tool in the frame of the flange.
+    """
+    arm = Arm(robot, tool)
+    jacobians = [arm.tool_jacobian(q)[:3] for q in sampled_configurations(robot)[:_TRAVEL_SAMPLES]]
+    return float(np.max(np.linalg.norm(jacobians, ord=2, axis=(1, 2))))
 
 
 def sampled_configurations(robot: Robot) -> Array:

@@ -7,13 +7,13 @@ import math
 import re
 import shutil
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path, PurePosixPath
 
 from rgss.errors import DefinitionError
-from rgss.scenes import load_gripper_file
+from rgss.scenes import GripperGeometry, Robot, load_gripper_file
 from rgss.studies.project import load_project
 from rgss.studies.robot_project.descent_search import NEVER_DOWN, angles_from_vertical_rad
 from rgss.studies.robot_project.draft import DraftedRobot, drafted_robot
@@ -24,7 +24,7 @@ from rgss.studies.robot_project.gripper_texts import with_gripper
 from rgss.studies.robot_project.hand_size import HandSize, hand_sizes
 from rgss.studies.robot_project.holding import payload_at_reach_kg
 from rgss.studies.robot_project.layout import scene_text
-from rgss.studies.robot_project.reach import SAMPLES
+from rgss.studies.robot_project.reach import SAMPLES, greatest_travel_m
 from rgss.studies.robot_project.robot_text import robot_text
 from rgss.studies.robot_project.urdf_reading import Note
 from rgss.studies.scaffolding import scaffold_texts
@@ -33,6 +33,7 @@ from rgss.studies.schema_headers import cannot_write
 _MOST_AXES, _MOST_CELLS = 3, 4
 # Greatest angle from the vertical, in a sampled configuration, of an axis that an arm may turn down.
 _NEAR_DOWN_RAD = math.radians(30.0)
+_RESOLUTION_RAD, _RESOLUTION_STEP_RAD = 0.01, 0.0005
 _ITERATIONS = "solver_iterations: 100 # joints follow their targets with any distribution of the arm's masses"
 
 
@@ -116,6 +117,7 @@ def _write_files(
             own = _drafted_gripper(gripper, project, urdf, drafted)
         files = sorted((project / "scenes" / "grippers").glob("*.yaml"))
         geometries = [load_gripper_file(path, project=project).geometry for path in files]
+        _write_resolution(project, drafted.robot, geometries, size)
         search = CellSearch(project, drafted.robot, drafted.file.name, geometries, size=size)
         if _is_written(project, drafted, search):
             return drafted.arm.notes if own is None else (*drafted.arm.notes, *own.notes)
@@ -191,6 +193,23 @@ def _write_texts(project: Path, texts: Mapping[str, str], size: HandSize, *, ren
         path = project / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(renamed(size.fitted_text(name, content)), encoding="utf-8", newline="\n")
+
+
+def _write_resolution(project: Path, robot: Robot, geometries: Sequence[GripperGeometry], size: HandSize) -> None:
+    """Let paths be verified so finely that the tool moves no more than twice the clearance between two states.
+
+    The tool is then within the clearance of a state that keeps it, everywhere on a planned line.
+    """
+    longest = max(geometries, key=lambda geometry: geometry.grasp_depth_m)
+    finest_rad = 2.0 * size.clearance_m / greatest_travel_m(robot, longest.grasp_centre)
+    finest_rad = math.floor(finest_rad / _RESOLUTION_STEP_RAD) * _RESOLUTION_STEP_RAD
+    if finest_rad >= _RESOLUTION_RAD:
+        return
+    line = f"  resolution: {_RESOLUTION_RAD:g} rad\n"
+    finest_rad = max(finest_rad, _RESOLUTION_STEP_RAD)
+    finer = f"  verification_resolution: {finest_rad:g} rad # from one to the next the tool moves twice the clearance\n"
+    study = project / "studies" / "pick_place.yaml"
+    study.write_text(study.read_text(encoding="utf-8").replace(line, line + finer), encoding="utf-8")
 
 
 def _renamed(text: str, *, old: str, id_: str, name: str) -> str:

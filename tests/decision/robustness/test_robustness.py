@@ -219,7 +219,7 @@ def test_nothing_feasible_leaves_weights_and_assumptions_out(shipped, measured):
 
     assert found.weighting is found.costs is None
     assert set(found.refused) == {"weights", "assumptions", "costs"}
-    assert set(found.refused.values()) == {"no variant meets every requirement"}
+    assert set(found.refused.values()) == {"no variant meets every requirement by its estimates"}
     assert found.front.points == ()
     json.dumps(robustness_to_json(found), allow_nan=False)
 

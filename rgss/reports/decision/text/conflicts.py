@@ -19,7 +19,7 @@ def conflict_lines(decision: Decision) -> Iterator[str]:
     Args:
         decision: A decision without a choice.
     """
-    yield "No variant meets every requirement."
+    yield "No variant meets every requirement by its estimates."
     conflicts = decision.conflicts
     if conflicts is None:
         return

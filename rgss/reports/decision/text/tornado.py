@@ -23,7 +23,7 @@ def tornado_lines(tornado: Tornado) -> Iterator[str]:
         tornado: The sensitivity of a choice.
     """
     if tornado.lead is None:
-        yield f"Tornado: variant {tornado.chosen} has no rival that meets every requirement."
+        yield f"Tornado: variant {tornado.chosen} has no feasible rival."
     else:
         yield (
             f"Tornado: lead of variant {tornado.chosen} over the best other design, {score(tornado.lead)} as it is "
@@ -55,7 +55,7 @@ def _bars(tornado: Tornado, bars: tuple[TornadoBar, ...]) -> Iterator[str]:
     head = f"{least:+.4f}".ljust(width - 7) + f"{most:+.4f}".rjust(7)
     rows = [[bar.id, *pair, scale.drawn(bar, base)] for bar, pair in zip(bars, ends, strict=True)]
     yield from aligned_table(["input", "low", "high", head], rows, right=(1, 2))
-    missed = f"; {_MISSED} it misses a requirement" if any(not _is_kept(bar) for bar in bars) else ""
+    missed = f"; {_MISSED} it is infeasible" if any(not _is_kept(bar) for bar in bars) else ""
     yield f"({_LOW} low end, {_HIGH} high end, {_BASE} as it is, {_ZERO} no lead: left of it another wins{missed})"
 
 

@@ -13,8 +13,8 @@ const measureOf = new Map(data.measures.map((measure) => [measure.id, measure]))
 const INFEASIBLE = 0, FEASIBLE = 1, FRONT = 2, CHOSEN = 3;
 // Colours by Okabe and Ito; shapes, dashes and labels repeat the information.
 const KINDS = [
-  { name: "misses a requirement", colour: "#8a8a8a", symbol: "x-thin-open", dash: [5, 4], width: 1 },
-  { name: "meets every requirement", colour: "#009e73", symbol: "circle-open", dash: [], width: 1 },
+  { name: "infeasible by estimates", colour: "#8a8a8a", symbol: "x-thin-open", dash: [5, 4], width: 1 },
+  { name: "feasible by estimates", colour: "#009e73", symbol: "circle-open", dash: [], width: 1 },
   { name: "Pareto front", colour: "#0072b2", symbol: "diamond", dash: [], width: 1.75 },
   { name: "chosen", colour: "#d55e00", symbol: "star", dash: [], width: 3.5 },
 ];

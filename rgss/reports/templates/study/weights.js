@@ -52,7 +52,7 @@ const rankAnew = () => {
   ranking = ranked(weights, allowed);
   const best = ranking.length ? variants.id[ranking[0].place] : null;
   const winner = byId("weight-winner");
-  if (best === null) winner.textContent = "No variant meets every requirement.";
+  if (best === null) winner.textContent = "No variant is feasible by its estimates.";
   else if (best === data.decision.chosen) winner.textContent = `Variant ${best} stays the best.`;
   else winner.textContent = `Variant ${best} would be the best${data.decision.chosen === null ? "" : `, instead of ${data.decision.chosen}`}.`;
   for (const watcher of rankingWatchers) watcher();
