@@ -77,7 +77,7 @@ class SettingResult:
     Attributes:
         setting: The setting.
         status: Status of the choice.
-        ranking: The designs that meet every requirement, best first, each with its value.
+        ranking: The designs that are feasible by their estimates, best first, each with its value.
         ties: The designs that are equally good as the first.
         verdicts: The verdict on each requirement, by design.
     """
@@ -90,7 +90,7 @@ class SettingResult:
 
     @property
     def first(self) -> int | None:
-        """The design that comes first; None if none meets every requirement."""
+        """The design that comes first; None if none is feasible."""
         return self.ranking[0][0] if self.ranking else None
 
 

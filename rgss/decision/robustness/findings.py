@@ -76,7 +76,7 @@ class Robustness:
         measures: The measures with a weight above 0: the columns of weights.
         weights: Their weights.
         values: Values of each alternative in them, shape (n, m); NaN where unknown.
-        feasible: Mask of the alternatives that meet every requirement.
+        feasible: Mask of the alternatives that are feasible by their estimates.
         front: The Pareto front of the feasible ones.
         weighting: Effects of other weights; None if `refused` has the reason.
         assumptions: Range of each assumed number that keeps the choice; empty if `refused` has the reason.

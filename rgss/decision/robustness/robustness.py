@@ -65,7 +65,7 @@ class _Posed:
     Attributes:
         problem: The trade-off.
         values: Single values, shape (n, m).
-        feasible: Mask of the alternatives that meet every requirement, shape (n,).
+        feasible: Mask of the alternatives that are feasible by their estimates, shape (n,).
         weights: The weights, shape (m,).
         margin: The practical margin.
         replicates: Replicates of each alternative, shape (n,).

@@ -29,7 +29,7 @@ class Standings:
         table: Its evidence.
         values: The single values in the measures with a weight above 0, shape (n, m).
         weights: Their weights, shape (m,).
-        feasible: Mask of the designs that meet every requirement, shape (n,).
+        feasible: Mask of the designs that are feasible by their estimates, shape (n,).
         remeasuring: Evaluator of the evidence.
     """
 

@@ -101,12 +101,15 @@ def _anchors(standings: Standings, book: RangeBook) -> Iterator[UncertainInput]:
         unit = project.measures.measure(valued.measure).unit
         ends = [anchor_quantity(project, valued, key) for key in valued.ends]
         spread = book.choice.anchors * abs(ends[1] - ends[0])
+        # A measure such as a time or a mass has no negative values.
+        known = standings.values[:, standings.measures.index(valued.measure)]
+        least = 0.0 if min(*ends, *known.tolist()) >= 0.0 else None
         for key, anchor in valued.anchors.items():
             if not isinstance(anchor, float):
                 # It moves with the threshold that it is anchored on.
                 continue
             name = f"value.{valued.measure}.{key}"
-            low, high, basis = book.range_of(name, unit, anchor, spread)
+            low, high, basis = book.range_of(name, unit, anchor, spread, least=least)
             yield UncertainInput(
                 id=name,
                 kind=InputKind.ANCHOR,

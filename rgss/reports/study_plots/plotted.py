@@ -128,7 +128,7 @@ class PlottedDesigns:
 
     @property
     def feasible(self) -> list[int]:
-        """Variants that meet every requirement; none before a decision."""
+        """Variants that are feasible by their estimates; none before a decision."""
         return [variant for variant, one in self.roles.items() if one not in (Role.INFEASIBLE, Role.UNJUDGED)]
 
     def summary(self) -> str:

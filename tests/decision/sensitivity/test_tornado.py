@@ -41,8 +41,9 @@ def measured(shipped, filled, record_of):
 def analysed(shipped, measured, read_trade_off_of):
     """A study with other ranges and its sensitivity."""
 
-    def analyse(*lines):
-        project = replace(shipped, study=read_trade_off_of(*CHOICE, *lines)) if lines else shipped
+    def analyse(*lines, choice=CHOICE):
+        changed = bool(lines) or choice is not CHOICE
+        project = replace(shipped, study=read_trade_off_of(*choice, *lines)) if changed else shipped
         problem = trade_problem(project, measured)
         decision = choose(project, measured, problem=problem)
         with pytest.MonkeyPatch.context() as patch:
@@ -109,6 +110,16 @@ def test_each_end_is_the_decision_under_that_supposition(wide, measured):
                 assert end.lead == pytest.approx(lead, abs=1e-9), bar.id
             looked_at += 1
     assert looked_at > 40
+
+
+def test_no_time_is_negative(analysed):
+    """A tenth of 20 s, from the best to the worst, is more than the best of half a second."""
+    other = [line.replace("best: 5 s", "best: 0.5 s") for line in CHOICE]
+    _, _, found = analysed(choice=other)
+    (bar,) = [bar for bar in found.tornado.bars if bar.id == "value.t_e_simulated.best"]
+
+    assert (bar.base, bar.low.value, bar.basis) == (0.5, 0.0, RangeBasis.SHARE)
+    assert bar.high.value > 1.0
 
 
 def test_each_flip_is_where_the_choice_changes(wide, measured):
