@@ -92,11 +92,8 @@ def confirmation_settings(
     found = [ConfirmationSetting(aspect=Aspect.STUDY, physics=own)]
     if Engine.PYBULLET in engines:
         finer = replace(own, rate_hz=max(FINER_RATE_HZ, 2 * own.rate_hz) if rate_hz is None else rate_hz)
-        more = replace(
-            own,
-            solver_iterations=min(MOST_ITERATIONS, _MORE_ITERATIONS * own.solver_iterations)
-            if iterations is None
-            else iterations,
+        more = own.with_iterations(
+            min(MOST_ITERATIONS, _MORE_ITERATIONS * own.solver_iterations) if iterations is None else iterations
         )
         _check(own, finer, more)
         found.append(ConfirmationSetting(aspect=Aspect.STEP, physics=finer))

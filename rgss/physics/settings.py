@@ -29,8 +29,8 @@ class PhysicsSettings:
     Attributes:
         rate_hz: Steps a second.
         solver_iterations: Iterations of the constraint solver in a step.
-        free_iterations: Iterations while the hand is empty and moves, if fewer: nothing is held, and the arm's motors
-        alone converge sooner.
+        free_iterations: Iterations while the hand is empty and moves, if fewer. Those that a light body needs in the
+        hand are not needed then, but those that the arm's motors need to follow their targets are.
         pad_stiffness_n_m: Normal stiffness of one finger's pad. A layer of rubber of 2.5 MPa, 2 mm thick, loaded over
         80 mm by 1 mm has 100 kN/m: 10 N deflect it by 0.1 mm.
         pad_retardation_s: Damping of the pad divided by its stiffness. The implicit integration has a numerical damping
@@ -39,7 +39,7 @@ class PhysicsSettings:
 
     rate_hz: float = 240.0
     solver_iterations: int = 50
-    free_iterations: int = 20
+    free_iterations: int = MOST_ITERATIONS
     pad_stiffness_n_m: float = 1.0e5
     pad_retardation_s: float = 1.5e-3
 
@@ -86,4 +86,16 @@ class PhysicsSettings:
         # Within rounding a mass may equal the least one.
         if share <= 1.0 + 1e-9:
             return self
-        return replace(self, solver_iterations=min(MOST_ITERATIONS, math.ceil(self.solver_iterations * share)))
+        return replace(
+            self,
+            solver_iterations=min(MOST_ITERATIONS, math.ceil(self.solver_iterations * share)),
+            free_iterations=min(self.free_iterations, self.solver_iterations),
+        )
+
+    def with_iterations(self, iterations: int) -> PhysicsSettings:
+        """Copy with another number of iterations, with and without an object in the hand.
+
+        Args:
+            iterations: Iterations of the constraint solver in a step.
+        """
+        return replace(self, solver_iterations=iterations, free_iterations=iterations)

@@ -63,6 +63,7 @@ def trial_settings(project: Project) -> TrialSettings:
         or PhysicsSettings(
             rate_hz=study.rate_hz,
             solver_iterations=study.solver_iterations,
+            free_iterations=study.solver_iterations,
             pad_stiffness_n_m=study.pads.stiffness_n_m,
             pad_retardation_s=study.pads.retardation_s,
         ),

@@ -15,7 +15,7 @@ def test_each_setting_differs_from_the_studys_in_one_thing(shipped):
     study, step, iterations, engine = confirmation_settings(shipped)
     assert [one.aspect for one in (study, step, iterations, engine)] == list(Aspect)
     assert step.physics == replace(study.physics, rate_hz=1000.0)
-    assert iterations.physics == replace(study.physics, solver_iterations=80)
+    assert iterations.physics == replace(study.physics, solver_iterations=80, free_iterations=80)
     assert (study.label, step.label) == ("PyBullet 240 Hz, 20 iterations", "PyBullet 1000 Hz, 20 iterations")
     assert engine.label.startswith("MuJoCo 3.")
     assert engine.label.endswith(", 2000 Hz")

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rgss.physics import PhysicsSettings, World
 from rgss.scenes.assembly import assembled_urdf
 
 pytestmark = pytest.mark.engine
@@ -71,6 +72,28 @@ def test_the_arm_follows_a_smooth_trajectory(cell):
     assert errors.max() < 1e-4
     assert positions == pytest.approx(goal, abs=1e-5)
     assert velocities == pytest.approx(STILL, abs=1e-3)
+
+
+def test_iterations_that_are_stated_serve_the_empty_hand_too(cell):
+    """The motors of the arm need them; those that a light object adds are for the grip alone."""
+    start = cell.near(cell.scene.grasp.raised(0.15))
+    path = cell.path(start, start + np.array([0.8, -0.3, 0.4, -0.3, 0.3, -0.6]), 0.8)
+    scene = replace(cell.scene, bodies=cell.scene.bodies[:1])
+
+    def greatest_error_m(settings):
+        with World(scene, cell.gripper, settings) as world:
+            world.reset_arm(start.tolist())
+            world.reduce_solver_effort(free=True)
+            reached = [pose.position_m for pose in cell.follow(world, path)]
+        return float(np.linalg.norm(np.array(reached) - cell.arm.tool_position(path[1:]), axis=1).max())
+
+    few = PhysicsSettings(solver_iterations=5)
+    light = few.passing(
+        force_n=10.0, speed_m_s=0.04, lightest_kg=few.lightest_body_kg(force_n=10.0, speed_m_s=0.04) / 20
+    )
+    assert light.solver_iterations == 100
+    assert greatest_error_m(light) == greatest_error_m(few)
+    assert greatest_error_m(few.with_iterations(100)) < 0.1 * greatest_error_m(few)
 
 
 @pytest.mark.parametrize("rate_hz", [240.0, 1000.0])

@@ -67,12 +67,14 @@ def test_settings_are_the_studys_and_searches_as_long_as_the_longest_limit(folde
     edit(STUDY, "clock: counted", "clock: wall")
     edit(STUDY, "rate: 240 Hz", "rate: 1 kHz")
     edit(STUDY, "clearance: 8 mm", "clearance: 1 cm")
+    edit(STUDY, "solver_iterations: 20", "solver_iterations: 90")
     edit(SPACE, "d9: 6 s", "d9: 11 s")
     settings = trial_settings(load_project(folder))
 
     assert settings.planning.clock.kind is ClockKind.WALL
     assert settings.planning.clearance_m == 0.01
     assert settings.planning.search_limit_s == 11.0
+    assert (settings.physics.solver_iterations, settings.physics.free_iterations) == (90, 90)
     assert settings.physics.rate_hz == 1000.0
 
 

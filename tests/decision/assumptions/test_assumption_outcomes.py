@@ -249,7 +249,7 @@ def test_settings_reach_the_trials(shipped):
     spec = trial_specs(scenario.project)[0]
     assert (spec.planning_limit_s, spec.settings.planning.search_limit_s) == (5.0, 5.0)
     assert spec.settings.planning.clock.charge_s == 0.0005
-    assert spec.settings.physics.solver_iterations == 40
+    assert (spec.settings.physics.solver_iterations, spec.settings.physics.free_iterations) == (40, 40)
     assert spec.settings.planning.moves[0].value == "straight"
     assert spec.fidelity is Fidelity.DYNAMIC
     assert not spec.uncertainty.values
