@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 from rgss.scenes.grasps import ChosenGrasp, GivenGrasp, GraspCandidates
 from rgss.scenes.mass_properties import Gyration
@@ -119,12 +120,14 @@ class SceneObject:
         support: Id of its supporting body at the start.
         place: Its place region.
         place_support: Id of the body of its place region.
+        grasp: The grasp chosen for it; None before the choice.
     """
 
     workpiece: Workpiece
     support: str
     place: PlaceRegion
     place_support: str
+    grasp: ChosenGrasp | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -156,7 +159,7 @@ class Task:
         grasp_yaw_rad: Yaw of the gripper at the grasp.
         place_yaw_rad: Yaw of the gripper at the place.
         candidates: Specification of the grasp candidates; None for the grasp from above at the stated yaw.
-        grasp: The chosen grasp; None before the choice.
+        grasp: The grasp chosen for the workpiece; None before the choice.
         is_yaw_free: True if the yaw of the gripper at the waypoints may be chosen to suit the arm.
     """
 
@@ -209,9 +212,31 @@ class Scene:
     def objects(self) -> tuple[SceneObject, ...]:
         """All objects, the workpiece first."""
         own = SceneObject(
-            workpiece=self.workpiece, support=self.support, place=self.place, place_support=self.place_support
+            workpiece=self.workpiece,
+            support=self.support,
+            place=self.place,
+            place_support=self.place_support,
+            grasp=self.task.grasp,
         )
         return (own, *self.others)
+
+    @property
+    def grasps(self) -> dict[str, ChosenGrasp]:
+        """Chosen grasps by object."""
+        return {one.workpiece.id: one.grasp for one in self.objects if one.grasp is not None}
+
+    def with_grasps(self, grasps: Mapping[str, ChosenGrasp]) -> Scene:
+        """Scene with chosen grasps of some objects; the others keep theirs.
+
+        Args:
+            grasps: The grasps by object.
+        """
+        own = grasps.get(self.workpiece.id)
+        others = tuple(
+            one if one.workpiece.id not in grasps else replace(one, grasp=grasps[one.workpiece.id])
+            for one in self.others
+        )
+        return replace(self, task=self.task if own is None else replace(self.task, grasp=own), others=others)
 
     @property
     def grasp(self) -> Pose:

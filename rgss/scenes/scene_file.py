@@ -22,7 +22,6 @@ from rgss.scenes.objects import (
     other_solids,
     positive_values,
     region_of,
-    shared_grasp_findings,
     workpiece_of,
 )
 from rgss.scenes.pose import Pose
@@ -51,7 +50,6 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         *_workpiece_findings(entry, document),
         *_drop_findings(entry, document),
         *_free_yaw_findings(entry, document),
-        *shared_grasp_findings(entry, document),
         *name_findings(entry, document),
         *not_positive(document, (*_positive_values(entry), *positive_values(entry))),
         *negative(document, _values_from_zero(entry)),

@@ -49,6 +49,8 @@ def _inputs_of(spec: TrialSpec) -> NamedInputs:
     inputs = _without_colours(to_plain(replace(spec, scene=replace(spec.scene, robot=replace(robot, urdf=text)))))
     del inputs["variant"], inputs["seed"]
     del inputs["scene"]["robot"]["calibration"]  # where the control uses it, the controller has it
+    for other in inputs["scene"]["others"]:
+        del other["grasp"]  # a result of the other inputs
     for name in ("timing", "controller"):
         settings = getattr(spec.settings, name)
         if settings == type(settings)():  # as in `digests_of`, the default is not an input

@@ -130,6 +130,7 @@ class _Places:
         self._scene = project.scene
         self._workpiece = project.scene.workpiece.id
         self.at[self._workpiece] = ("workpiece", "at")
+        self.at |= {one.workpiece.id: ("workpieces", index, "at") for index, one in enumerate(project.scene.others)}
 
     def finding(self, problem: SceneProblem, grippers: Sequence[str]) -> Finding:
         """A problem at the place of its first body, with the place of the other in the message."""
@@ -152,7 +153,7 @@ class _Places:
                 severity, hint = Severity.INFO, "designs with this gripper fail there, and the others do not"
         elif problem.kind is SceneProblemKind.NO_GRASP:
             of = f" with {', '.join(grippers)}" if grippers else ""
-            location = ("workpiece", "id")
+            location = (*location[:-1], "id")
             message = f"no grasp candidate of {first}{of} can be carried out: {problem.detail}"
             hint = "let the task try more approaches, turn or move the object, or take a gripper that opens wider"
         elif problem.kind is SceneProblemKind.HOME_COLLISION:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import takewhile
 
 from rgss.tasks.grip_step import GripStep
 from rgss.tasks.move_step import MoveStep
@@ -20,7 +21,7 @@ class Stage:
         place: The place of its next or last release; empty for its own place region.
         turn: Number, from 1, of the grip of the object that the step precedes, belongs to or follows.
         is_held: Whether the object is held during the step, including closing and opening of the hand.
-        is_leaving: Whether this is the first move since the grip, which lifts the object off its support.
+        is_standing: Whether no move has ended since the grip, so that the held object may touch its support.
         is_approach: Whether the step after this move closes the hand, and the one before did not open it.
         is_retreat: Whether the step before this move opened the hand.
     """
@@ -30,7 +31,7 @@ class Stage:
     place: str
     turn: int
     is_held: bool = False
-    is_leaving: bool = False
+    is_standing: bool = False
     is_approach: bool = False
     is_retreat: bool = False
 
@@ -38,6 +39,11 @@ class Stage:
     def is_carrying(self) -> bool:
         """True for a move with an object in the hand."""
         return self.is_held and isinstance(self.step, MoveStep)
+
+    @property
+    def is_leaving(self) -> bool:
+        """True for the first move since the grip, which lifts the object off its support."""
+        return self.is_standing and isinstance(self.step, MoveStep)
 
 
 def stages_of(task: TaskProgram, workpiece: str) -> tuple[Stage, ...]:
@@ -66,7 +72,7 @@ def stages_of(task: TaskProgram, workpiece: str) -> tuple[Stage, ...]:
                 place=_next_place(steps[index:]) if held or coming else _last_place(steps[:index]),
                 turn=lifts.get(subject, 0) + (1 if coming else 0),
                 is_held=bool(held),
-                is_leaving=bool(held) and isinstance(step, MoveStep) and _is_first_move(steps[:index]),
+                is_standing=bool(held) and (isinstance(step, GripStep) or not _has_moved(steps[:index])),
                 is_approach=not (held or is_retreat) and isinstance(step, MoveStep) and isinstance(after, GripStep),
                 is_retreat=is_retreat,
             )
@@ -88,11 +94,7 @@ def _last_place(steps: tuple[Step, ...]) -> str:
     return _next_place(steps[::-1])
 
 
-def _is_first_move(before: tuple[Step, ...]) -> bool:
-    """True if no move has followed the last grip."""
-    for step in reversed(before):
-        if isinstance(step, MoveStep):
-            return False
-        if isinstance(step, GripStep):
-            return True
-    return False
+def _has_moved(before: tuple[Step, ...]) -> bool:
+    """True if a move has followed the last grip."""
+    since = takewhile(lambda step: not isinstance(step, GripStep), reversed(before))
+    return any(isinstance(step, MoveStep) for step in since)

@@ -190,7 +190,7 @@ def execution_of(
     """
     cell = cell_of(spec)
     results = execute(spec, cell, timing, observer=observer, checkpoint=checkpoint)
-    return with_chosen_grasp(results, cell.scene.task.grasp, spec.task.grips)
+    return with_chosen_grasp(results, cell.scene, spec.task)
 
 
 def _with_quality(results: tuple[PhaseResult, ...], timing: TaskTiming) -> tuple[PhaseResult, ...]:

@@ -19,8 +19,9 @@ from rgss.scenes import (
     half_extents_m,
 )
 from rgss.tasks import TaskProgram
+from rgss.trials.grasp_choice import with_stated_suction
 from rgss.trials.planning import GoalReason, infeasible_waypoints
-from rgss.trials.workcell import Workcell, grasp_search_of
+from rgss.trials.workcell import Workcell, grasp_searches_of
 
 TOUCHING_M = 1e-3
 """Tolerance in m of overlaps between touching bodies, since sizes in files are rounded to millimetres."""
@@ -103,10 +104,14 @@ def reach_problems(
     """
     found = []
     if scene.task.candidates is not None:
-        search = grasp_search_of(scene, geometry, friction=friction, clearance_m=clearance_m, task=task)
-        scene = search.scene
-        if search.taken is None:
-            found.append(SceneProblem(kind=SceneProblemKind.NO_GRASP, first=scene.workpiece.id, detail=search.reasons))
+        searches = grasp_searches_of(scene, geometry, friction=friction, clearance_m=clearance_m, task=task)
+        scene = searches[-1].scene
+        found += [
+            SceneProblem(kind=SceneProblemKind.NO_GRASP, first=search.object, detail=search.reasons)
+            for search in searches
+            if search.taken is None
+        ]
+    scene = with_stated_suction(scene, geometry)
     cell = Workcell(scene, geometry, clearance_m=clearance_m, task=task)
     model = next(iter(cell.planning.values()))
     pair = model.nearest_pair(scene.robot.home_rad)

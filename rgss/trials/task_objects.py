@@ -7,7 +7,7 @@ import math
 from rgss.evidence import Failure
 from rgss.physics import ContactWorld
 from rgss.scenes import ObjectPlacement, Pose, Scene, initial_placements, scene_about
-from rgss.tasks import GripStep, ReleaseStep, Stage, TaskProgram, stages_of
+from rgss.tasks import ReleaseStep, Stage, TaskProgram, stages_of
 
 
 class TaskObjects:
@@ -79,7 +79,7 @@ class TaskObjects:
         """
         if isinstance(stage.step, ReleaseStep) or stage.is_retreat:
             return self._world.scene.place_support
-        if not stage.is_held or isinstance(stage.step, GripStep) or stage.is_leaving:
+        if not stage.is_held or stage.is_standing:
             return self._supports[stage.object]
         return ""
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import lru_cache
 
 from rgss.kinematics import Arm, CollisionContext, CollisionModel
 from rgss.scenes import GripperGeometry, Scene
 from rgss.tasks import TaskProgram
 from rgss.trials.conditions import conditions_of
-from rgss.trials.grasp_choice import GraspSearch, search_grasp
+from rgss.trials.grasp_choice import GraspSearch, search_grasps, with_stated_suction
 from rgss.trials.route import route_of
 from rgss.trials.trial_spec import TrialSpec
 
@@ -74,28 +73,30 @@ def cell_of(spec: TrialSpec) -> Workcell:
     Args:
         spec: The trial.
     """
-    perceived, clearance_m = conditions_of(spec).perceived_scene, spec.settings.planning.clearance_m
+    clearance_m = spec.settings.planning.clearance_m
+    perceived = with_stated_suction(conditions_of(spec).perceived_scene, spec.gripper.geometry)
     if perceived.task.candidates is not None:
-        perceived = grasp_search_of(
+        searches = grasp_searches_of(
             perceived,
             spec.gripper.geometry,
             friction=spec.gripper.grip_coefficient(1.0),
             clearance_m=clearance_m,
             task=spec.task,
-        ).scene
+        )
+        perceived = searches[-1].scene
     return workcell_of(perceived, spec.gripper.geometry, clearance_m, spec.task)
 
 
 @lru_cache(maxsize=16)
-def grasp_search_of(
+def grasp_searches_of(
     scene: Scene,
     geometry: GripperGeometry,
     *,
     friction: float,
     clearance_m: float,
     task: TaskProgram,
-) -> GraspSearch:
-    """Choice of a grasp among the candidates of a scene.
+) -> tuple[GraspSearch, ...]:
+    """Choice of a grasp for each object of a task; the last one has the scene with all of them.
 
     Args:
         scene: The perceived scene.
@@ -106,21 +107,22 @@ def grasp_search_of(
     """
     if scene.task.candidates is None:
         raise AssertionError("asked before: the task states candidates")
-    return search_grasp(
+    return search_grasps(
         scene,
         geometry,
         scene.task.candidates,
         friction=friction,
+        task=task,
         build=lambda tried: Workcell(tried, geometry, clearance_m=clearance_m, task=task),
     )
 
 
 def with_grasp_of(scene: Scene, cell: Workcell) -> Scene:
-    """Scene with the grasp chosen for the perceived scene.
+    """Scene with the grasps chosen for the perceived scene.
 
     Args:
         scene: The true scene.
         cell: The workcell of the perceived one.
     """
-    taken = cell.scene.task.grasp
-    return scene if taken is None else replace(scene, task=replace(scene.task, grasp=taken))
+    taken = cell.scene.grasps
+    return scene.with_grasps(taken) if taken else scene

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from rgss.cli.driven import add_driver
@@ -139,7 +139,7 @@ def _show(record: Any, digest: str, drawn: Sequence[DrawnValue], control: str) -
     controlled = f", control {control}" if control else ""
     print(f"Variant {record.variant}, seed {record.seed}, {record.fidelity.value} fidelity{controlled}")
     print_drawn(record.workload, drawn)
-    _print_chosen_grasp(record)
+    _print_chosen_grasps(record)
     titles = ["", "phase", "outcome", "time [s]", "checks", "planning [s]", "path [m]", "grip margin", "slip [mm]"]
     print_table(titles, rows, right=(3, 4, 5, 6, 7, 8))
     metrics = record.metrics
@@ -152,27 +152,36 @@ def _show(record: Any, digest: str, drawn: Sequence[DrawnValue], control: str) -
     print(f"digest {digest}")
 
 
-def _print_chosen_grasp(record: Any) -> None:
-    """Print the grasp chosen among the candidates, if there is one."""
+def _print_chosen_grasps(record: Any) -> None:
+    """Print the grasps chosen among the candidates, if there are any; repeated ones once."""
+    chosen = {
+        phase.phase: _chosen_grasp(phase.metrics) for phase in record.phases if "chosen_grasp_rank" in phase.metrics
+    }
+    if len(set(chosen.values())) == 1:
+        chosen = {"": next(iter(chosen.values()))}
+    for phase, text in chosen.items():
+        print(f"Grasp in {phase}: {text}" if phase else f"Grasp: {text}")
+
+
+def _chosen_grasp(metrics: Mapping[str, Any]) -> str:
     from rgss.cli.output import number
 
-    metrics = next((phase.metrics for phase in record.phases if "chosen_grasp_rank" in phase.metrics), None)
-    if metrics is None:
-        return
     at, opening = metrics["chosen_grasp_position_m"], metrics.get("chosen_grasp_opening_m")
-    place = ", ".join(number(value * 1e3, 1) for value in at if value is not None) if isinstance(at, tuple) else ""
-    chosen = f"Grasp: candidate {metrics['chosen_grasp_rank']} of {metrics['chosen_grasp_candidates']}, "
+    place = (
+        ", ".join(number(round(value * 1e3, 2) + 0.0, 3) for value in at if value is not None)
+        if isinstance(at, tuple)
+        else ""
+    )
+    chosen = f"candidate {metrics['chosen_grasp_rank']} of {metrics['chosen_grasp_candidates']}, "
     if "chosen_grasp_weight_1" in metrics:
         room = metrics["chosen_grasp_room_m"]
-        print(
+        return (
             f"{chosen}cup {number(room * 1e3 if isinstance(room, float) else None, 1)} mm from the edge of its face, "
             f"grasp centre at ({place}) mm in the object, bears {number(metrics['chosen_grasp_weight_1'], 3)} N of "
             "weight per N of vacuum"
         )
-        return
     width = number(2e3 * opening, 1) if isinstance(opening, float) else ""
-    print(
-        f"{chosen}centre at "
-        f"({place}) mm in the object, pads {width} mm apart, smallest maximum wrench "
+    return (
+        f"{chosen}centre at ({place}) mm in the object, pads {width} mm apart, smallest maximum wrench "
         f"{number(metrics['chosen_grasp_smw_1'], 3)} N per N"
     )

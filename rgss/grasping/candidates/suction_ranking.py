@@ -28,7 +28,12 @@ _ORDER = tuple(Approach)
 
 
 def ranked_suction(
-    workpiece: Workpiece, geometry: GripperGeometry, options: GraspCandidates, *, tangential_1: float
+    workpiece: Workpiece,
+    geometry: GripperGeometry,
+    options: GraspCandidates,
+    *,
+    tangential_1: float,
+    depth_m: float | None = None,
 ) -> RankedGrasps:
     """Suction candidates of an object, ordered by holding weight, then distance of the centre of mass, then approach.
 
@@ -37,15 +42,17 @@ def ranked_suction(
 
     Args:
         workpiece: The object.
-        geometry: The gripper's shape, with a cup; its grasp centre is half the object's height below the face.
+        geometry: The gripper's shape, with a cup.
         options: Which grasps to try.
         tangential_1: Greatest tangential force divided by the greatest axial force of the cup.
+        depth_m: Distance of the gripper's grasp centre from the face; half the object's height by default.
 
     Raises:
         AssertionError: The gripper has no cup.
     """
     if geometry.cup is None:
         raise AssertionError("asked before: the gripper has a cup")
+    depth_m = workpiece.shape.half_height_m if depth_m is None else depth_m
     found: list[RankedGrasp] = []
     rejected_frames = {FrameRejection.SEAL: 0, FrameRejection.APPROACH: 0}
     centre, radius_m = centre_of_mass(workpiece), geometry.cup.radius_m
@@ -54,7 +61,7 @@ def ranked_suction(
             rejected_frames[FrameRejection.SEAL] += 1
             continue
         for turn in range(options.yaws):
-            frame = _tool(point, math.tau * turn / options.yaws, workpiece.shape.half_height_m)
+            frame = _tool(point, math.tau * turn / options.yaws, depth_m)
             approach = approach_of(frame)
             if approach is None or approach not in options.approaches:
                 rejected_frames[FrameRejection.APPROACH] += 1

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
         other_solids,
         positive_values,
         region_of,
-        shared_grasp_findings,
     )
     from rgss.scenes.objects.object_entry import candidates_of, object_lengths
     from rgss.scenes.objects.object_file import object_solid, workpiece_of

@@ -7,13 +7,11 @@ from pathlib import Path
 
 from rgss.documents import Document
 from rgss.findings import Finding
-from rgss.scenes.document import GraspRule, PlaceRegionEntry, SceneDocument
+from rgss.scenes.document import PlaceRegionEntry, SceneDocument
 from rgss.scenes.findings import Location
 from rgss.scenes.objects.object_entry import object_lengths
 from rgss.scenes.objects.object_file import ObjectSolid, object_solid, workpiece_of
 from rgss.scenes.scene import ColourRgba, NamedPlace, PlaceRegion, SceneObject
-
-_FORM = ("radius", "height", "box", "cylinder", "mesh", "scale", "collision", "rests", "centre_of_mass", "grasps")
 
 
 def region_of(entry: PlaceRegionEntry, tops_m: Mapping[str, float]) -> PlaceRegion:
@@ -106,25 +104,6 @@ def name_findings(entry: SceneDocument, document: Document) -> Iterator[Finding]
         if name not in bodies:
             hint = f"known bodies: {', '.join(body.id for body in entry.bodies)}"
             yield document.finding("scene.unknown-body", f"there is no body {name!r}", at, hint=hint)
-
-
-def shared_grasp_findings(entry: SceneDocument, document: Document) -> Iterator[Finding]:
-    """Findings about objects of another form than the first, if the grasp is chosen on the first one for all.
-
-    Args:
-        entry: The scene file.
-        document: The file, for positions.
-    """
-    if entry.task.grasp is GraspRule.AS_STATED:
-        return
-    for index, one in enumerate(entry.workpieces):
-        if any(getattr(one, key) != getattr(entry.workpiece, key) for key in _FORM):
-            yield document.finding(
-                "scene.shared-grasp",
-                f"the grasp is chosen on {entry.workpiece.id!r} for all objects, and {one.id!r} has another form",
-                ("workpieces", index, "id"),
-                hint="give them the same shape and centre of mass, or set grasp to as_stated",
-            )
 
 
 def positive_values(entry: SceneDocument) -> Iterator[tuple[Location, float]]:

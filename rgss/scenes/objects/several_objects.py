@@ -65,5 +65,6 @@ def scene_about(scene: Scene, name: str, *, place: str, placements: Mapping[str,
         place_support=bearing,
         workpiece=workpiece if own.pose == workpiece.pose else replace(workpiece, pose=own.pose),
         place=region,
+        task=scene.task if about.grasp == scene.task.grasp else replace(scene.task, grasp=about.grasp),
         others=tuple(one for one in scene.objects if one.workpiece.id != name),
     )

@@ -2,30 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from dataclasses import replace
 
 from rgss.evidence import Metric
-from rgss.scenes import ChosenGrasp
+from rgss.scenes import ChosenGrasp, Scene
+from rgss.tasks import GripStep, TaskProgram, stages_of
 from rgss.trials.phase_result import PhaseResult
 
 
-def with_chosen_grasp(
-    results: Iterable[PhaseResult], taken: ChosenGrasp | None, grips: Collection[str]
-) -> tuple[PhaseResult, ...]:
-    """Phases with the chosen grasp among the metrics of the grasp phase.
+def with_chosen_grasp(results: Iterable[PhaseResult], scene: Scene, task: TaskProgram) -> tuple[PhaseResult, ...]:
+    """Phases with the chosen grasp among the metrics of each grasp phase; a stated grasp leaves them unchanged.
 
     Args:
         results: The phases.
-        taken: The chosen grasp; None for a stated grasp, which leaves the phases unchanged.
-        grips: Names of the steps that close the hand.
+        scene: The scene with the chosen grasps.
+        task: The task.
     """
-    if taken is None:
-        return tuple(results)
+    taken = scene.grasps if scene.task.candidates is not None else {}
+    of_phase = {
+        stage.step.name: _metrics(taken[stage.object])
+        for stage in stages_of(task, scene.workpiece.id)
+        if isinstance(stage.step, GripStep) and stage.object in taken
+    }
+    return tuple(
+        replace(one, metrics={**one.metrics, **of_phase[one.phase]}) if one.phase in of_phase else one
+        for one in results
+    )
+
+
+def _metrics(taken: ChosenGrasp) -> dict[str, Metric]:
     quality: dict[str, Metric] = {"chosen_grasp_opening_m": taken.opening_m, "chosen_grasp_smw_1": taken.quality_1}
     if taken.suction is not None:
         quality = {"chosen_grasp_weight_1": taken.quality_1, "chosen_grasp_room_m": taken.suction.room_m}
-    chosen: dict[str, Metric] = {
+    return {
         "chosen_grasp_rank": taken.rejected + 1,
         "chosen_grasp_candidates": taken.candidates,
         **quality,
@@ -33,4 +43,3 @@ def with_chosen_grasp(
         "chosen_grasp_position_m": taken.tool_in_object.position_m,
         "chosen_grasp_quaternion_1": taken.tool_in_object.quaternion_xyzw,
     }
-    return tuple(replace(one, metrics={**one.metrics, **chosen}) if one.phase in grips else one for one in results)

@@ -1,11 +1,11 @@
-"""Search for the best grasp candidate that the arm can reach at every waypoint without collision."""
+"""Search for the best grasp candidate of each object that the arm can reach at every waypoint without collision."""
 
 from __future__ import annotations
 
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import Enum
 from typing import Protocol
 
@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from rgss.grasping.candidates import RankedGrasp, RankedGrasps, ranked_grasps, ranked_suction, symmetric_turns
 from rgss.kinematics import Arm, CollisionModel, inverse_kinematics, straight_line
-from rgss.scenes import ChosenGrasp, GraspCandidates, GripperGeometry, Scene, Waypoint, waypoint_poses
-from rgss.tasks import MoveKind
-from rgss.trials.route import Route, Stop
+from rgss.scenes import ChosenGrasp, GraspCandidates, GripperGeometry, Scene, Waypoint
+from rgss.tasks import MoveKind, TaskProgram, stages_of
+from rgss.trials.route import Leg, Route, Stop, route_of
 
 Vector = NDArray[np.float64]
 
@@ -53,6 +53,7 @@ class GraspSearch:
     """Result of a search for a grasp.
 
     Attributes:
+        object: The object.
         scene: The scene with the chosen grasp; with the best candidate if none is reachable, so that a plan reports the
         reason; unchanged without candidates.
         taken: The chosen grasp; None if none is reachable.
@@ -60,6 +61,7 @@ class GraspSearch:
         rejected: Number of candidates rejected by each filter before the chosen one.
     """
 
+    object: str
     scene: Scene
     taken: ChosenGrasp | None
     ranked: RankedGrasps
@@ -73,15 +75,19 @@ class GraspSearch:
         return ", ".join(f"{reason}: {count}" for reason, count in counts)
 
 
-def search_grasp(
+def search_grasps(
     scene: Scene,
     geometry: GripperGeometry,
     options: GraspCandidates,
     *,
     friction: float,
+    task: TaskProgram,
     build: Callable[[Scene], Cell],
-) -> GraspSearch:
-    """First reachable candidate in their order, each with the symmetric rotations of the object at its place.
+) -> tuple[GraspSearch, ...]:
+    """Search for a grasp of each object of a task, in the order in which the task comes to them.
+
+    The grasp of an object affects the stops of the others only by its pose after its release, so that each search
+    continues from the scene of the one before it.
 
     Args:
         scene: The perceived scene.
@@ -89,39 +95,59 @@ def search_grasp(
         options: Specification of the candidates.
         friction: Coefficient of the pads; the contact's is the product with the object's. For a cup, its greatest
             tangential divided by its greatest normal force.
+        task: The task.
         build: Factory of arm and collision models of a scene.
     """
+    found: list[GraspSearch] = []
+    for name in dict.fromkeys(stage.object for stage in stages_of(task, scene.workpiece.id)):
+        found.append(_search(scene, name, geometry, options, friction=friction, task=task, build=build))
+        scene = found[-1].scene
+    return tuple(found)
+
+
+def _search(
+    scene: Scene,
+    name: str,
+    geometry: GripperGeometry,
+    options: GraspCandidates,
+    *,
+    friction: float,
+    task: TaskProgram,
+    build: Callable[[Scene], Cell],
+) -> GraspSearch:
+    """First reachable candidate in their order, each with the symmetric rotations of the object at its place."""
+    workpiece = next(one.workpiece for one in scene.objects if one.workpiece.id == name)
     if geometry.cup is not None:
-        ranked = ranked_suction(scene.workpiece, geometry, options, tangential_1=friction)
+        # The grasp centre of a cup is fitted to the height of the first object.
+        depth_m = scene.workpiece.shape.half_height_m
+        ranked = ranked_suction(workpiece, geometry, options, tangential_1=friction, depth_m=depth_m)
     else:
-        ranked = ranked_grasps(scene.workpiece, geometry, options, friction=friction * scene.workpiece.friction)
-    turns = symmetric_turns(scene.workpiece.shape, options.yaws)
+        ranked = ranked_grasps(workpiece, geometry, options, friction=friction * workpiece.friction)
+    turns = symmetric_turns(workpiece.shape, options.yaws)
     rejected: Counter[Rejection] = Counter()
     first: Scene | None = None
     arm: Arm | None = None
     for number, grasp in enumerate(ranked.grasps):
         why: list[Rejection] = []
         for turn in turns:
-            tried = _with_grasp(scene, _taken(scene, grasp, turn, len(ranked.grasps), number))
+            taken = _taken(scene, grasp, turn, len(ranked.grasps), number)
+            tried = scene.with_grasps({name: taken})
             first = first or tried
-            if arm is not None and (missing := _unreached(arm, tried)):
-                why.append(Rejection.REACH)
-                if missing in _AT_GRASP:
-                    break
-                continue
-            cell = build(tried)
-            arm = cell.arm
-            found = _obstacle(cell)
-            if found is None:
-                return GraspSearch(scene=tried, taken=tried.task.grasp, ranked=ranked, rejected=dict(rejected))
-            why.append(found[0])
-            if found[1]:
+            # Inverse kinematics is solved before the collision models are built, which takes longer.
+            missing = None if arm is None else _unreached(arm, route_of(tried, geometry, task), name)
+            if missing is None:
+                cell = build(tried)
+                arm = cell.arm
+                missing = _obstacle(cell, name)
+            if missing is None:
+                return GraspSearch(object=name, scene=tried, taken=taken, ranked=ranked, rejected=dict(rejected))
+            why.append(missing[0])
+            if missing[1]:
                 break
         rejected[_last(why)] += 1
-    return GraspSearch(scene=first or scene, taken=None, ranked=ranked, rejected=dict(rejected))
+    return GraspSearch(object=name, scene=first or scene, taken=None, ranked=ranked, rejected=dict(rejected))
 
 
-_AT_GRASP = (Waypoint.GRASP_APPROACH, Waypoint.GRASP, Waypoint.LIFT, Waypoint.GRASP_DEPARTURE)
 _AT_PLACE = (Waypoint.PLACE_APPROACH, Waypoint.PLACE)
 _STAGES = tuple(Rejection)
 
@@ -146,31 +172,38 @@ def _taken(scene: Scene, grasp: RankedGrasp, turn: float, candidates: int, rejec
     )
 
 
-def _with_grasp(scene: Scene, grasp: ChosenGrasp) -> Scene:
-    return replace(scene, task=replace(scene.task, grasp=grasp))
+def _legs_about(route: Route, name: str) -> list[Leg]:
+    """Moves to, with and from an object."""
+    return [leg for leg in route.legs if leg.scene.workpiece.id == name]
 
 
-def _unreached(arm: Arm, scene: Scene) -> Waypoint | None:
-    """First unreachable waypoint."""
+def _unreached(arm: Arm, route: Route, name: str) -> tuple[Rejection, bool] | None:
+    """As `_obstacle`, for the reach alone."""
     inverse = inverse_kinematics(arm)
-    return next((waypoint for waypoint, pose in waypoint_poses(scene).items() if not inverse.solve(pose)), None)
+    for index in sorted({index for leg in _legs_about(route, name) for index in (leg.start, leg.goal)}):
+        stop = route.stops[index]
+        if stop.pose is not None and not inverse.solve(stop.pose):
+            return Rejection.REACH, _is_before_place(stop)
+    return None
 
 
-def _obstacle(cell: Cell) -> tuple[Rejection, bool] | None:
+def _obstacle(cell: Cell, name: str) -> tuple[Rejection, bool] | None:
     """Filter that rejects a grasp, and True if it does for any rotation of the object at its place; None if none."""
     inverse, route = inverse_kinematics(cell.arm), cell.route
+    legs = _legs_about(route, name)
     valid: dict[int, list[Vector]] = {}
-    for index, stop in enumerate(route.stops):
+    for index in sorted({index for leg in legs for index in (leg.start, leg.goal)}):
+        stop = route.stops[index]
         if stop.pose is None:
             continue
         reached = inverse.solve(stop.pose)
         if not reached:
             return Rejection.REACH, _is_before_place(stop)
-        models = [cell.planning[leg.step.name] for leg in route.legs if index in (leg.start, leg.goal)]
+        models = [cell.planning[leg.step.name] for leg in legs if index in (leg.start, leg.goal)]
         valid[index] = [q for q in reached if all(model.is_valid(q) for model in models)]
         if not valid[index]:
             return Rejection.COLLISION, _is_before_place(stop)
-    for leg in route.legs:
+    for leg in legs:
         goal = route.stops[leg.goal]
         if leg.step.mode is not MoveKind.STRAIGHT or goal.pose is None or leg.start not in valid:
             continue

@@ -43,10 +43,12 @@ def violated_condition(world: ContactWorld, control: ControlSettings, step: Chec
         if moved_m > control.settled_speed_m_s * control.settled_s:
             return f"{name} has moved by {moved_m * 1e3:.2f} mm in {control.settled_s:g} s"
     if step.held is not None:
-        fingers = world.gripper.geometry.fingers
         touching = world.contacts().fingers_touching if name == scene.workpiece.id else 0
-        if touching != (fingers if step.held else 0):
-            return f"{touching} of {fingers} fingers touch {name}"
+        holding = 1 if world.gripper.geometry.cup is not None else world.gripper.geometry.fingers
+        if touching != (holding if step.held else 0):
+            if world.gripper.geometry.cup is not None:
+                return f"the cup {'touches' if touching else 'does not touch'} {name}"
+            return f"{touching} of {holding} fingers touch {name}"
     return ""
 
 

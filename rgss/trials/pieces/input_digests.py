@@ -148,7 +148,7 @@ def physics_inputs(scene: Scene) -> dict[str, Any]:
 
 def _object_inputs(one: SceneObject) -> dict[str, Any]:
     inputs: dict[str, Any] = to_plain(one)
-    del inputs["workpiece"]["colour"]
+    del inputs["workpiece"]["colour"], inputs["grasp"]  # the grasp is a result of the other inputs
     return inputs
 
 

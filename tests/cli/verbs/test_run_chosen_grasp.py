@@ -1,4 +1,4 @@
-"""The line of `rgss run` on the grasp that was chosen."""
+"""The lines of `rgss run` on the grasps that were chosen."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from rgss.cli.verbs.run import _print_chosen_grasp
+from rgss.cli.verbs.run import _print_chosen_grasps
 
 COMMON = {
     "chosen_grasp_rank": 2,
@@ -37,11 +37,26 @@ COMMON = {
     ids=["cup", "fingers"],
 )
 def test_the_chosen_grasp_is_shown_with_its_quality(capsys, quality, line):
-    phases = [SimpleNamespace(metrics={}), SimpleNamespace(metrics={**COMMON, **quality})]
-    _print_chosen_grasp(SimpleNamespace(phases=phases))
+    gripped = {**COMMON, **quality}
+    phases = [SimpleNamespace(phase="move", metrics={})]
+    phases += [SimpleNamespace(phase=f"cycle_{turn}.grip", metrics=gripped) for turn in (1, 2)]
+    _print_chosen_grasps(SimpleNamespace(phases=phases))
     assert capsys.readouterr().out == line
 
 
 def test_a_stated_grasp_is_not_shown(capsys):
-    _print_chosen_grasp(SimpleNamespace(phases=[SimpleNamespace(metrics={"slip_m": 0.0})]))
+    _print_chosen_grasps(SimpleNamespace(phases=[SimpleNamespace(phase="grip", metrics={"slip_m": 0.0})]))
     assert capsys.readouterr().out == ""
+
+
+def test_objects_with_different_grasps_have_a_line_each(capsys):
+    quality = {"chosen_grasp_opening_m": 0.025, "chosen_grasp_smw_1": 0.2}
+    metrics = {**COMMON, **quality, "chosen_grasp_position_m": (3e-18, -1e-6, 0.0123)}
+    phases = [
+        SimpleNamespace(phase="tin.grip", metrics={**COMMON, **quality}),
+        SimpleNamespace(phase="box.grip", metrics=metrics),
+    ]
+    _print_chosen_grasps(SimpleNamespace(phases=phases))
+    tin, box = capsys.readouterr().out.splitlines()
+    assert tin.startswith("Grasp in tin.grip: candidate 2 of 40, centre at (1, 0, -20) mm in the object")
+    assert box.startswith("Grasp in box.grip: candidate 2 of 40, centre at (0, 0, 12.3) mm in the object")

@@ -13,6 +13,7 @@ from rgss.tasks import CheckStep
 from rgss.trials.monitors import violated_condition
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.plants import ControlSettings
+from tests.trials.hands.gripper_files import gripper_of
 
 
 def with_checks(spec, **checks):
@@ -77,6 +78,18 @@ def test_what_does_not_hold_is_told_with_its_numbers(spec_of, name):
     said = violated_condition(world, ControlSettings(), CheckStep(name="checked", **conditions), before)
 
     assert said.startswith(told)
+
+
+@pytest.mark.parametrize(
+    ("held", "touching", "told"),
+    [(True, 1, ""), (False, 0, ""), (True, 0, "the cup does not touch cup"), (False, 1, "the cup touches cup")],
+)
+def test_a_suction_cup_holds_by_its_one_contact(spec_of, tmp_path, held, touching, told):
+    spec = spec_of()
+    world = Placed(replace(spec, gripper=gripper_of(tmp_path, "vacuum", spec.scene.workpiece.shape)), touching=touching)
+    step = CheckStep(name="checked", held=held)
+
+    assert violated_condition(world, ControlSettings(), step, world.pose) == told
 
 
 def test_what_holds_is_no_problem(spec_of):

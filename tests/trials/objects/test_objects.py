@@ -12,7 +12,7 @@ from rgss.scenes import Approach, Box, GraspCandidates, LyingCylinder, MeshShape
 from rgss.trials.conditions import conditions_of
 from rgss.trials.pieces.run import Pieces
 from rgss.trials.scene_check import SceneProblemKind, reach_problems
-from rgss.trials.workcell import cell_of, grasp_search_of
+from rgss.trials.workcell import cell_of, grasp_searches_of
 
 SIDE_M, HALF_M = 0.04, 0.04
 HEXAGON = MeshShape(
@@ -91,7 +91,7 @@ def test_a_grasp_that_no_arm_reaches_is_counted_by_its_filter(with_object):
     x, y, z = spec.scene.workpiece.pose.position_m
     away = replace(spec.scene.workpiece.pose, position_m=(x + 3.0, y, z))
     scene = replace(spec.scene, workpiece=replace(spec.scene.workpiece, pose=away))
-    search = grasp_search_of(scene, spec.gripper.geometry, friction=0.7, clearance_m=0.005, task=spec.task)
+    (search,) = grasp_searches_of(scene, spec.gripper.geometry, friction=0.7, clearance_m=0.005, task=spec.task)
     assert search.taken is None
     assert sum(search.rejected.values()) == len(search.ranked.grasps)
     assert "reach: " in search.reasons

@@ -9,7 +9,7 @@ import pytest
 from rgss.evidence import Failure, Fidelity
 from rgss.scenes import Approach, Box, GraspCandidates, LyingCylinder, MeshShape, corners_of
 from rgss.trials.pieces.run import Pieces
-from rgss.trials.workcell import cell_of, grasp_search_of
+from rgss.trials.workcell import cell_of, grasp_searches_of
 from tests.trials.hands.gripper_files import gripper_of
 
 BOX = Box(size_m=(0.06, 0.05, 0.08))
@@ -86,7 +86,9 @@ def test_a_cup_from_the_side_carries_a_light_object_and_is_bent_off_a_heavy_one(
 def test_a_lying_cylinder_that_no_arm_reaches_from_the_side_says_so(with_cup):
     spec = with_cup(LyingCylinder(radius_m=0.03, length_m=0.06), rolling_resistance_m=5e-4)
     friction = spec.gripper.grip_coefficient(1.0)
-    search = grasp_search_of(spec.scene, spec.gripper.geometry, friction=friction, clearance_m=0.005, task=spec.task)
+    (search,) = grasp_searches_of(
+        spec.scene, spec.gripper.geometry, friction=friction, clearance_m=0.005, task=spec.task
+    )
     assert search.taken is None
     assert {grasp.suction.normal for grasp in search.ranked.grasps} == {(1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)}
     assert sum(search.rejected.values()) == len(search.ranked.grasps) == 16
@@ -101,7 +103,7 @@ def test_the_cup_goes_over_the_centre_of_mass(with_cup):
 
 def test_a_shape_without_a_face_for_the_lip_has_no_candidate_and_fails_at_the_grasp(with_cup):
     spec = with_cup(Box(size_m=(0.015, 0.015, 0.015)))
-    search = grasp_search_of(spec.scene, spec.gripper.geometry, friction=0.5, clearance_m=0.005, task=spec.task)
+    (search,) = grasp_searches_of(spec.scene, spec.gripper.geometry, friction=0.5, clearance_m=0.005, task=spec.task)
     assert search.reasons == "no flat face under the whole lip: 1"
     record = Pieces().record(replace(spec, fidelity=Fidelity.KINEMATIC))
     assert record.failure is Failure.NO_FIRM_GRASP

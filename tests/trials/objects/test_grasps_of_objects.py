@@ -1,0 +1,150 @@
+"""Whole trials of several objects, each with a grasp of its own."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from rgss.evidence import Failure, Fidelity
+from rgss.scenes import Approach, Box, Cylinder, GraspCandidates, PlaceRegion, Pose, SceneObject
+from rgss.tasks import load_task
+from rgss.trials import cell_of
+from rgss.trials.pieces.run import Pieces
+from rgss.trials.route import route_of
+from rgss.trials.scene_check import SceneProblemKind, reach_problems
+from tests.trials.hands.gripper_files import gripper_of
+
+CARTON, TIN = Box(size_m=(0.05, 0.04, 0.09)), Cylinder(radius_m=0.03, height_m=0.06)
+CANDIDATES = GraspCandidates(approaches=(Approach.ABOVE,), heights=3, yaws=8, samples=24)
+STEPS = """
+task: two
+steps:
+  - for_each:
+      objects: [{objects}]
+      steps:
+        - move: {{to: grasp_approach}}
+        - move: {{to: grasp, mode: straight}}
+        - grip: {{}}
+        - wait: {{duration: 100 ms}}
+        - check: {{name: has_it, held: true}}
+        - move: {{to: lift, mode: straight}}
+        - move: {{to: place_approach}}
+        - move: {{to: place, mode: straight}}
+        - release: {{}}
+        - move: {{to: place_approach, mode: straight, name: retreat}}
+"""
+
+
+def on_the_ground(pose, shape, *, foot_m, aside_m=0.0):
+    x, y, _ = pose.position_m
+    return replace(pose, position_m=(x + aside_m, y, foot_m + shape.half_height_m))
+
+
+@pytest.fixture(scope="module")
+def with_two(spec_of, tmp_path_factory):
+    """Makes the nominal trial of a variant with a carton and a tin beside it."""
+
+    def make(variant=65, order="cup, tin", tin=TIN, aside_m=-0.15, **carton):
+        spec = spec_of(variant)
+        scene = spec.scene
+        own, foot_m = scene.workpiece, scene.workpiece.pose.position_m[2] - scene.workpiece.shape.half_height_m
+        x, y, z = scene.place.centre_m
+        centred = {"centre_of_mass_m": 0.0, "gyration_m2": None}
+        carton = replace(
+            own, shape=CARTON, pose=on_the_ground(own.pose, CARTON, foot_m=foot_m), **{**centred, **carton}
+        )
+        other = replace(own, id="tin", shape=tin, pose=on_the_ground(own.pose, tin, foot_m=foot_m, aside_m=aside_m))
+        further = SceneObject(
+            workpiece=replace(other, mass_kg=0.15, **centred),
+            support=scene.support,
+            place=PlaceRegion(centre_m=(x - 0.15, y, z), radius_m=0.02, largest_tilt_rad=0.1),
+            place_support=scene.place_support,
+        )
+        path = tmp_path_factory.mktemp("task") / "two.yaml"
+        path.write_text(STEPS.format(objects=order.replace("cup", own.id)), encoding="utf-8")
+        return replace(
+            spec,
+            scene=replace(scene, workpiece=carton, others=(further,), task=replace(scene.task, candidates=CANDIDATES)),
+            task=load_task(path).program,
+            settings=replace(spec.settings, planning=replace(spec.settings.planning, moves=())),
+            planner="RRTConnect",
+            planner_settings=None,
+            planning_limit_s=8.0,
+        )
+
+    return make
+
+
+@pytest.mark.parametrize(("variant", "order"), [(65, "cup, tin"), (65, "tin, cup"), (5, "cup, tin")])
+def test_each_object_is_carried_by_a_grasp_of_its_own(with_two, variant, order):
+    """The oracle is the shape: where its faces are, and so where the fingers stop."""
+    spec = with_two(variant, order)
+    first = spec.scene.workpiece.id
+    taken = cell_of(spec).scene.grasps
+    assert list(taken) == [first, "tin"]
+    assert taken["tin"].opening_m == pytest.approx(TIN.radius_m, abs=1e-6)
+    if spec.gripper.geometry.fingers == 2:
+        across = taken[first].tool_in_object.rotate((1.0, 0.0, 0.0))
+        half_m = sum(abs(share) * edge / 2 for share, edge in zip(across, CARTON.size_m, strict=True))
+        assert taken[first].opening_m == pytest.approx(half_m, abs=1e-6)
+    for fidelity in Fidelity:
+        record = Pieces().record(replace(spec, fidelity=fidelity))
+        assert record.success, (fidelity, record.failed_phase, record.failure_detail)
+        phases = {phase.phase: phase.metrics for phase in record.phases}
+        for name, grasp in taken.items():
+            gripped = phases[f"{name}.grip"]
+            assert gripped["chosen_grasp_opening_m"] == grasp.opening_m
+            assert gripped["chosen_grasp_position_m"] == grasp.tool_in_object.position_m
+            if fidelity is Fidelity.CONTACT:
+                travel = spec.gripper.geometry.largest_opening_m - grasp.opening_m
+                assert gripped["finger_travel_m"] == pytest.approx((travel,) * spec.gripper.geometry.fingers, abs=1e-3)
+                assert phases[f"{name}.release"]["place_error_m"] < 1e-3
+                # Between the grip and the lift the object stands on its support, which is no collision.
+                assert phases[f"{name}.wait"]["slip_m"] < 1e-4
+
+
+def test_the_route_has_the_grasp_of_each_object(with_two):
+    spec = with_two()
+    scene = cell_of(spec).scene
+    legs = {leg.step.name: leg for leg in route_of(scene, spec.gripper.geometry, spec.task).legs}
+    for one in scene.objects:
+        leg = legs[f"{one.workpiece.id}.move_to_grasp"]
+        stop = route_of(scene, spec.gripper.geometry, spec.task).stops[leg.goal]
+        expected = one.workpiece.pose @ one.grasp.tool_in_object
+        assert stop.pose.position_m == pytest.approx(expected.position_m, abs=1e-9)
+        carried = legs[f"{one.workpiece.id}.move_to_place"].context
+        assert carried.opening_m == one.grasp.opening_m
+        assert isinstance(carried.carried, Pose)
+
+
+@pytest.mark.parametrize("candidates", [CANDIDATES, None], ids=["chosen", "stated"])
+def test_a_cup_takes_objects_of_different_heights(with_two, tmp_path, candidates):
+    spec = with_two()
+    task = replace(spec.scene.task, candidates=candidates)
+    spec = replace(spec, scene=replace(spec.scene, task=task), gripper=gripper_of(tmp_path, "vacuum", CARTON))
+    scene = cell_of(spec).scene
+    geometry, step = spec.gripper.geometry, {leg.step.name: leg for leg in cell_of(spec).route.legs}
+    for one in scene.objects:
+        # The lip is as far above the top of each object: the flange stands as high above it.
+        stop = cell_of(spec).route.stops[step[f"{one.workpiece.id}.move_to_grasp"].goal]
+        flange_m = stop.pose.position_m[2] + geometry.grasp_depth_m
+        top_m = one.workpiece.pose.position_m[2] + one.workpiece.shape.half_height_m
+        lip_m = flange_m - geometry.base.height_m - geometry.cup.height_m
+        assert 0.0 < lip_m - top_m < spec.gripper.suction.largest_gap_m
+    for fidelity in (Fidelity.KINEMATIC, Fidelity.CONTACT):
+        record = Pieces().record(replace(spec, fidelity=fidelity))
+        assert record.success, (fidelity, record.failed_phase, record.failure_detail)
+        chosen = ["chosen_grasp_rank" in phase.metrics for phase in record.phases]
+        assert any(chosen) == (candidates is not None)
+
+
+def test_an_object_that_has_no_grasp_is_named_and_the_other_keeps_its_own(with_two):
+    wide = with_two(tin=Cylinder(radius_m=0.12, height_m=0.06), aside_m=-0.3)
+    problems = reach_problems(wide.scene, wide.gripper.geometry, clearance_m=0.005, task=wide.task, friction=0.7)
+    (problem,) = [one for one in problems if one.kind is SceneProblemKind.NO_GRASP]
+    assert problem.first == "tin"
+    assert "too wide" in problem.detail
+    record = Pieces().record(replace(wide, fidelity=Fidelity.KINEMATIC))
+    assert record.failure is Failure.UNREACHABLE_WAYPOINT
+    assert record.failure_detail.startswith("the arm cannot follow the straight line of the tin.move to grasp")
