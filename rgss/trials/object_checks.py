@@ -25,19 +25,33 @@ def check_displacement(world: ContactWorld, largest_m: float, *, touched: bool) 
     moved_m = math.dist(pose.position_m, start.position_m)
     if moved_m <= largest_m:
         return moved_m, None
-    displacement = f"{moved_m * 1e3:.1f} mm before the grasp"
-    fallen_m = start.position_m[2] - pose.position_m[2]
     if touched:
-        return moved_m, (Failure.OBJECT_COLLISION, f"the object was pushed {displacement}")
-    if pose.tilt_rad > world.scene.place.largest_tilt_rad:
+        return moved_m, (Failure.OBJECT_COLLISION, f"the object was pushed {moved_m * 1e3:.1f} mm before the grasp")
+    tilt_rad = world.scene.place.largest_tilt_rad
+    return moved_m, moved_by_itself("the object", start, pose, largest_m, tilt_rad, when=" before the grasp")
+
+
+def moved_by_itself(
+    name: str, start: Pose, pose: Pose, largest_m: float, largest_tilt_rad: float, *, when: str = ""
+) -> Violation:
+    """Violation by an object that has moved and that nothing touched.
+
+    Args:
+        name: Name of the object in the message.
+        start: Transform of the object to the world before it moved.
+        pose: Its present transform.
+        largest_m: Depth from which it counts as fallen.
+        largest_tilt_rad: Tilt above which it counts as toppled.
+        when: End of the message.
+    """
+    displacement = f"{math.dist(pose.position_m, start.position_m) * 1e3:.1f} mm{when}"
+    fallen_m = start.position_m[2] - pose.position_m[2]
+    if pose.tilt_rad > largest_tilt_rad:
         lean = f"it is tilted by {math.degrees(pose.tilt_rad):.0f}° and moved {displacement}"
-        return moved_m, (Failure.NOT_UPRIGHT, f"the object toppled by itself: {lean}")
+        return Failure.NOT_UPRIGHT, f"{name} toppled by itself: {lean}"
     if fallen_m > largest_m:
-        return moved_m, (
-            Failure.OBJECT_DROPPED,
-            f"the object fell by itself: {fallen_m * 1e3:.1f} mm before the grasp",
-        )
-    return moved_m, (Failure.OBJECT_DROPPED, f"the object slid by itself: {displacement}")
+        return Failure.OBJECT_DROPPED, f"{name} fell by itself: {fallen_m * 1e3:.1f} mm{when}"
+    return Failure.OBJECT_DROPPED, f"{name} slid by itself: {displacement}"
 
 
 def check_place(world: ContactWorld) -> tuple[dict[str, Metric], Violation | None]:

@@ -8,6 +8,7 @@ from rgss.evidence import Failure
 from rgss.physics import ContactWorld
 from rgss.scenes import ObjectPlacement, Pose, Scene, initial_placements, scene_about
 from rgss.tasks import ReleaseStep, Stage, TaskProgram, stages_of
+from rgss.trials.object_checks import moved_by_itself
 
 
 class TaskObjects:
@@ -62,13 +63,16 @@ class TaskObjects:
     def displaced(self, largest_m: float) -> tuple[Failure, str] | None:
         """Violation if another object was displaced since the start of the phase.
 
+        A contact with the robot or with the held object is a violation of its own, which precedes this one.
+
         Args:
             largest_m: Greatest displacement.
         """
         for name, before in self._around.items():
-            moved_m = math.dist(before.position_m, self._world.object_pose(name).position_m)
-            if moved_m > largest_m:
-                return Failure.OBJECT_COLLISION, f"{name} was displaced by {moved_m * 1e3:.1f} mm"
+            now = self._world.object_pose(name)
+            if math.dist(before.position_m, now.position_m) > largest_m:
+                place = next(one.place for one in self._scene.objects if one.workpiece.id == name)
+                return moved_by_itself(name, before, now, largest_m, place.largest_tilt_rad)
         return None
 
     def resting_on(self, stage: Stage) -> str:

@@ -150,7 +150,7 @@ def _mesh_solid(
     before, location = len(findings), (*at, "mesh")
     size = max(summary.extent_m)
     if not _SMALLEST_M <= size <= _LARGEST_M:
-        hint = "give 'scale: 0.001' for a mesh in millimetres" if size > _LARGEST_M else "give 'scale'"
+        hint = "give 'scale: 0.001' for a mesh in millimetres" if size > _LARGEST_M else "give a greater 'scale'"
         findings.append(
             document.finding(
                 "scene.mesh-units", f"the mesh is {size:.3g} m long; lengths are in m", location, hint=hint

@@ -148,3 +148,15 @@ def test_an_object_that_has_no_grasp_is_named_and_the_other_keeps_its_own(with_t
     record = Pieces().record(replace(wide, fidelity=Fidelity.KINEMATIC))
     assert record.failure is Failure.UNREACHABLE_WAYPOINT
     assert record.failure_detail.startswith("the arm cannot follow the straight line of the tin.move to grasp")
+
+
+def test_another_object_that_topples_is_not_said_to_be_touched(with_two):
+    spec = with_two()
+    (tin,) = spec.scene.others
+    # Its centre of mass is beside its foot.
+    leaning = replace(tin, workpiece=replace(tin.workpiece, centre_of_mass_across_m=(TIN.radius_m + 0.01, 0.0)))
+    scene = replace(spec.scene, others=(leaning,), task=replace(spec.scene.task, candidates=None))
+    record = Pieces().record(replace(spec, scene=scene, fidelity=Fidelity.CONTACT))
+    assert record.failure is Failure.NOT_UPRIGHT
+    assert record.failed_phase == f"{spec.scene.workpiece.id}.move_to_grasp_approach"
+    assert record.failure_detail.startswith("tin toppled by itself: it is tilted by ")
