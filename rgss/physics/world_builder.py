@@ -27,8 +27,8 @@ from rgss.scenes import (
     SceneObject,
     assembled_urdf,
     finger_joint,
+    finger_pads,
     most_elements,
-    pad_layouts,
     standing_links,
     suction_point_of,
 )
@@ -146,7 +146,7 @@ class WorldBuilder:
     @property
     def pads(self) -> tuple[PadLayout, ...]:
         """Contact elements of the pad of each finger."""
-        return pad_layouts(self.gripper.geometry, self.scene.workpiece.shape, self.scene.grasp_in_object)
+        return finger_pads(self.scene, self.gripper.geometry)
 
     def add_robot(self) -> int:
         """Add the robot with its gripper; returns its id."""

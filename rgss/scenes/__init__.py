@@ -27,7 +27,6 @@ from rgss.scenes.grasps import (
     PadPatch,
     SuctionPoint,
     most_elements,
-    pad_layouts,
     pad_patches,
     rotation_of,
     settled_grasp,
@@ -62,7 +61,7 @@ from rgss.scenes.mass_properties import (
     solid_moments,
 )
 from rgss.scenes.mesh_shapes import mesh_summary
-from rgss.scenes.objects import ObjectPlacement, grasp_opening_m, initial_placements, scene_about
+from rgss.scenes.objects import ObjectPlacement, finger_pads, grasp_opening_m, initial_placements, scene_about
 from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import RIBS
 from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, LinkLook, Robot

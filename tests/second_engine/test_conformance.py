@@ -7,7 +7,7 @@ import pytest
 from rgss.errors import DefinitionError, SimulationError
 from rgss.physics import PhysicsSettings, open_world
 from rgss.physics.mujoco.robot_links import read_links
-from rgss.scenes import Pose
+from rgss.scenes import Box, ObjectPlacement, Pose, SceneObject, scene_about
 from rgss.trials.second_engine import mujoco_settings
 
 pytestmark = pytest.mark.engine
@@ -38,6 +38,60 @@ def test_a_body_falls_as_galilei_says(settings, raised, gripper_with):
     time_s = steps / settings.rate_hz
     # By the speed at each step's end, half a step more than the parabola.
     assert fallen_m == pytest.approx(GRAVITY * time_s * (time_s + settings.step_s) / 2, rel=1e-9)
+
+
+def test_each_of_several_objects_falls_and_any_can_be_the_workpiece(settings, raised, gripper_with):
+    own = SceneObject(
+        workpiece=replace(raised.workpiece, id="box", shape=Box(size_m=(0.03, 0.02, 0.05)), mass_kg=2.0),
+        support=raised.support,
+        place=raised.place,
+        place_support=raised.place_support,
+    )
+    beside = Pose(position_m=(1.0, 2.0, 4.0))
+    scene = replace(raised, others=(replace(own, workpiece=replace(own.workpiece, pose=beside)),))
+    with open_world(scene, gripper_with(2), settings) as world:
+        world.reset_arm(scene.robot.home_rad)
+        for _ in range(round(0.1 * settings.rate_hz)):
+            world.command_arm(scene.robot.home_rad, (0.0,) * 6)
+            world.step()
+        cup, box = world.object_pose(scene.workpiece.id), world.object_pose("box")
+        assert world.workpiece_pose() == cup
+        placements = {
+            name: ObjectPlacement(pose=pose, support="") for name, pose in ((scene.workpiece.id, cup), ("box", box))
+        }
+        world.set_workpiece(scene_about(scene, "box", place="", placements=placements))
+        assert world.workpiece_pose() == box
+        assert world.object_pose(scene.workpiece.id) == cup
+    assert 3.0 - cup.position_m[2] == pytest.approx(4.0 - box.position_m[2], rel=1e-9)
+    assert box.position_m[:2] == pytest.approx(beside.position_m[:2])
+
+
+def test_an_object_that_is_not_the_workpiece_counts_as_a_body(settings, scene, gripper_with):
+    """It stands at the tool, and under the cup."""
+    with open_world(scene, gripper_with(2), settings) as free:
+        free.reset_arm(scene.robot.home_rad)
+        tool = free.tool_pose().position_m
+    x, y, z = scene.workpiece.pose.position_m
+    low, high = z - scene.workpiece.shape.half_height_m + 0.025, z + 0.05
+    small = Box(size_m=(0.05, 0.05, 0.05))
+    places = {"at_tool": (tool, Box(size_m=(0.2, 0.2, 0.2))), "under": ((x, y, low), small)}
+    others = tuple(
+        SceneObject(
+            workpiece=replace(scene.workpiece, id=name, shape=shape, pose=Pose(position_m=at)),
+            support=scene.support,
+            place=scene.place,
+            place_support=scene.place_support,
+        )
+        for name, (at, shape) in places.items()
+    )
+    lifted = replace(scene.workpiece, pose=Pose(position_m=(x, y, high - 1e-4)))
+    with open_world(replace(scene, workpiece=lifted, others=others), gripper_with(2), settings) as world:
+        world.reset_arm(scene.robot.home_rad)
+        world.command_arm(scene.robot.home_rad, (0.0,) * 6)
+        world.step()
+        contacts = world.contacts()
+    assert {body for _, body in contacts.robot_bodies} == {"at_tool"}
+    assert contacts.workpiece_bodies == ("under",)
 
 
 def test_the_arm_holds_where_it_is_told_against_gravity(settings, scene, gripper_with):

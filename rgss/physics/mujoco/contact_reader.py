@@ -59,12 +59,23 @@ class MujocoContactReader:
             model: The model with the names of its parts.
         """
         self._data = data
-        self._workpiece = frozenset(int(compiled.geom(name).id) for name in model.workpiece_shapes)
+        self._object_of = {int(compiled.geom(name).id): one for name, one in model.object_shapes.items()}
         self._finger_of = {int(compiled.geom(name).id): index for name, index in model.finger_shapes.items()}
         self._fingers = len(model.fingers)
-        self._body_of = {int(compiled.geom(name).id): body for name, body in model.scene_bodies.items()}
+        self._scene_body_of = {int(compiled.geom(name).id): body for name, body in model.scene_bodies.items()}
         links = {**model.links, **{name: f"finger_{index}" for name, index in model.finger_shapes.items()}}
         self._link_of = {int(compiled.geom(name).id): link for name, link in links.items()}
+        self.select(next(iter(model.object_bodies)))
+
+    def select(self, name: str) -> None:
+        """Make an object the workpiece; the others count as bodies of the scene.
+
+        Args:
+            name: The object.
+        """
+        self._workpiece = frozenset(shape for shape, one in self._object_of.items() if one == name)
+        others = {shape: one for shape, one in self._object_of.items() if one != name}
+        self._body_of = {**self._scene_body_of, **others}
 
     def contacts(self, standing: Contacts | None) -> Contacts:
         """Contacts of the last step; see `ContactWorld.contacts`."""
@@ -135,7 +146,7 @@ class MujocoContactReader:
                 points.append(_Point(index, one, 1.0, row))
             elif one in self._workpiece:
                 points.append(_Point(index, other, -1.0, row))
-            else:
+            elif one in self._link_of or other in self._link_of:
                 link, body = (one, other) if one in self._link_of else (other, one)
                 robot_bodies[self._link_of[link], self._body_of[body]] = None
         return robot_bodies, points

@@ -16,17 +16,17 @@ from __future__ import annotations
 import itertools
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rgss.errors import SimulationError
-from rgss.physics.mujoco.robot_links import Corners, RobotLink, read_links
-from rgss.physics.mujoco.solids import Capsule, Solid, finger_solids, object_solids
+from rgss.physics.mujoco.mjcf import add_body, add_geom, add_inertial, cylinder_inertia, number, numbers
+from rgss.physics.mujoco.robot_links import RobotLink, read_links
+from rgss.physics.mujoco.solids import finger_solids, object_solids
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import Box, Cylinder, Gripper, Pose, Scene, centre_of_mass, inertia_kg_m2, pad_layouts
+from rgss.scenes import Gripper, Pose, Scene, Workpiece, centre_of_mass, finger_pads, inertia_kg_m2
 
 WORKPIECE = "workpiece"
 
@@ -48,7 +48,8 @@ class WorldModel:
         finger_shapes: Index of the finger by the name of a shape of it.
         scene_bodies: Id of the scene's body by the name of its shape.
         links: Name of the robot's link by the name of a shape, without the fingers.
-        workpiece_shapes: Names of the workpiece's shapes.
+        object_bodies: Name of the body of each object.
+        object_shapes: Id of the object by the name of a shape of it.
     """
 
     text: str
@@ -56,13 +57,14 @@ class WorldModel:
     finger_shapes: Mapping[str, int]
     scene_bodies: Mapping[str, str]
     links: Mapping[str, str]
-    workpiece_shapes: tuple[str, ...]
+    object_bodies: Mapping[str, str]
+    object_shapes: Mapping[str, str]
 
 
 def world_model(
     scene: Scene, gripper: Gripper, settings: PhysicsSettings, *, contact_time_constant_s: float
 ) -> WorldModel:
-    """MuJoCo model of a scene with its robot, a gripper on the flange, and the workpiece.
+    """MuJoCo model of a scene with its robot, a gripper on the flange, and the objects.
 
     Args:
         scene: Fixed bodies, workpiece and robot.
@@ -71,20 +73,21 @@ def world_model(
         contact_time_constant_s: Time constant of contacts and joint limits.
 
     Raises:
-        SimulationError: The robot has a shape that the engine does not support, or the workpiece a mass that is not
+        SimulationError: The robot has a shape that the engine does not support, or an object a mass that is not
         positive.
     """
     builder = _Builder(scene, gripper, settings, contact_time_constant_s)
     builder.add_scene()
     builder.add_robot()
-    builder.add_workpiece()
+    builder.add_objects()
     return WorldModel(
         text=ET.tostring(builder.root, encoding="unicode"),
         fingers=builder.fingers,
         finger_shapes=builder.finger_shapes,
         scene_bodies=builder.scene_bodies,
         links=builder.links,
-        workpiece_shapes=builder.workpiece_shapes,
+        object_bodies=builder.object_bodies,
+        object_shapes=builder.object_shapes,
     )
 
 
@@ -96,19 +99,20 @@ class _Builder:
     ) -> None:
         self._scene, self._gripper, self._settings = scene, gripper, settings
         self._stiffness = {
-            "solref": f"{_number(contact_time_constant_s)} 1",
+            "solref": f"{number(contact_time_constant_s)} 1",
             "solimp": _IMPEDANCE,
         }
         self.fingers = tuple(f"finger:{index}" for index in range(gripper.geometry.fingers))
         self.finger_shapes: dict[str, int] = {}
         self.scene_bodies: dict[str, str] = {}
         self.links: dict[str, str] = {}
-        self.workpiece_shapes: tuple[str, ...] = ()
+        self.object_bodies: dict[str, str] = {}
+        self.object_shapes: dict[str, str] = {}
         self.root = ET.Element("mujoco", {"model": "rgss"})
         ET.SubElement(self.root, "compiler", {"angle": "radian", "autolimits": "true"})
         option = {
-            "timestep": _number(settings.step_s),
-            "gravity": f"0 0 {_number(-scene.gravity_m_s2)}",
+            "timestep": number(settings.step_s),
+            "gravity": f"0 0 {number(-scene.gravity_m_s2)}",
             "integrator": "implicitfast",
             "solver": "Newton",
             "iterations": str(settings.solver_iterations),
@@ -128,7 +132,7 @@ class _Builder:
         for body in self._scene.bodies:
             name = f"scene:{body.id}"
             self.scene_bodies[name] = body.id
-            _add_geom(self._world, name, body.primitive, body.pose, touches=_SCENE)
+            add_geom(self._world, name, body.primitive, body.pose, touches=_SCENE)
 
     def add_robot(self) -> None:
         """Add the arm with a motor of its rated torque at each joint, and the hand on its flange."""
@@ -138,70 +142,82 @@ class _Builder:
             parent = parents[link.parent] if link.parent else self._world
             parents[link.name] = self._add_link(parent, link, link.pose if link.parent else robot.base @ link.pose)
         for joint in robot.joints:
-            limit = _number(joint.torque_n_m)
+            limit = number(joint.torque_n_m)
             motor = {"name": joint.name, "joint": joint.name, "forcerange": f"-{limit} {limit}"}
             ET.SubElement(self._actuator, "motor", motor)
         self._add_hand(parents[robot.flange])
 
-    def add_workpiece(self) -> None:
-        """Add the workpiece as a free body, with a contact pair for each shape.
+    def add_objects(self) -> None:
+        """Add each object as a free body, with a contact pair for each of its shapes and any other shape.
 
         By default the engine uses the greater of both bodies' friction coefficients, the trials use their product; a
         pair has its own coefficient.
         """
-        workpiece = self._scene.workpiece
+        # Contact of an object with any other part of the machine ends the trial, so its friction is irrelevant.
+        frictions = dict.fromkeys(self.links, 0.0)
+        frictions.update(dict.fromkeys(self.finger_shapes, self._gripper.friction))
+        scene = {f"scene:{one.id}": one.friction for one in self._scene.bodies}
+        for index, one in enumerate(self._scene.objects):
+            workpiece = one.workpiece
+            names = self._add_object(f"object:{workpiece.id}" if index else WORKPIECE, workpiece)
+            touched = {**scene, **frictions}
+            for own, (name, friction) in itertools.product(names, touched.items()):
+                rolls = workpiece.rolling_resistance_m if name in scene else 0.0
+                self._add_pair(name, own, friction * workpiece.friction, rolls)
+            frictions.update(dict.fromkeys(names, workpiece.friction))
+
+    def _add_object(self, body_name: str, workpiece: Workpiece) -> list[str]:
+        """Add a free body; returns the names of its shapes."""
         if not 0.0 < workpiece.mass_kg < math.inf:
             raise SimulationError(
                 f"the mass of the workpiece must be positive, got {workpiece.mass_kg} kg",
                 hint="give a mass greater than zero",
             )
-        body = _add_body(self._world, WORKPIECE, workpiece.pose)
+        body = add_body(self._world, body_name, workpiece.pose)
         ET.SubElement(body, "freejoint")
-        _add_inertial(*(body, workpiece.mass_kg, inertia_kg_m2(workpiece)), centre_m=centre_of_mass(workpiece))
+        add_inertial(*(body, workpiece.mass_kg, inertia_kg_m2(workpiece)), centre_m=centre_of_mass(workpiece))
         names = []
         for index, (shape, at) in enumerate(object_solids(workpiece.shape)):
-            names.append(f"{WORKPIECE}:{index}" if index else WORKPIECE)
+            names.append(f"{body_name}:{index}" if index else body_name)
             if isinstance(shape, tuple):
-                corners = " ".join(_numbers(corner) for corner in shape)
+                corners = " ".join(numbers(corner) for corner in shape)
                 ET.SubElement(self._asset, "mesh", {"name": names[-1], "vertex": corners})
-            _add_geom(body, names[-1], shape, at, touches=_ALONE)
-        self.workpiece_shapes = tuple(names)
-        frictions = {f"scene:{one.id}": one.friction * workpiece.friction for one in self._scene.bodies}
-        # Contact of the workpiece with any other part of the machine ends the trial, so its friction is irrelevant.
-        frictions.update(dict.fromkeys(self.links, 0.0))
-        frictions.update(dict.fromkeys(self.finger_shapes, self._gripper.friction * workpiece.friction))
-        for own, (name, friction) in itertools.product(names, frictions.items()):
-            sliding = _number(friction)
-            rolls = workpiece.rolling_resistance_m > 0.0 and name.startswith("scene:")
-            rolling = _number(workpiece.rolling_resistance_m) if rolls else "0"
-            pair = {
-                "geom1": name,
-                "geom2": own,
-                # Sliding friction only: nothing in a scene has coefficients of spinning and rolling friction. A torque
-                # about the normal is resisted by the two ends of each line of contact.
-                "condim": "6" if rolls else "3",
-                "friction": f"{sliding} {sliding} 0 {rolling} {rolling}",
-                **self._stiffness,
-                # The shortest time constant that the engine allows.
-                "solreffriction": f"{_number(2 * self._settings.step_s)} 1",
-            }
-            ET.SubElement(self._contact, "pair", pair)
+            add_geom(body, names[-1], shape, at, touches=_ALONE)
+        self.object_bodies[workpiece.id] = body_name
+        self.object_shapes.update(dict.fromkeys(names, workpiece.id))
+        return names
+
+    def _add_pair(self, one: str, other: str, friction: float, rolling_m: float) -> None:
+        """Add a contact of two shapes."""
+        sliding, rolling = number(friction), number(rolling_m) if rolling_m > 0.0 else "0"
+        pair = {
+            "geom1": one,
+            "geom2": other,
+            # Sliding friction only: nothing in a scene has coefficients of spinning and rolling friction. A torque
+            # about the normal is resisted by the two ends of each line of contact.
+            "condim": "6" if rolling_m > 0.0 else "3",
+            "friction": f"{sliding} {sliding} 0 {rolling} {rolling}",
+            **self._stiffness,
+            # The shortest time constant that the engine allows.
+            "solreffriction": f"{number(2 * self._settings.step_s)} 1",
+        }
+        ET.SubElement(self._contact, "pair", pair)
 
     def _add_link(self, parent: ET.Element, link: RobotLink, pose: Pose) -> ET.Element:
-        body = _add_body(parent, f"link:{link.name}", pose)
+        body = add_body(parent, f"link:{link.name}", pose)
         if link.mass_kg > 0.0:
-            _add_inertial(body, link.mass_kg, link.inertia_kg_m2, link.centre_m)
+            add_inertial(body, link.mass_kg, link.inertia_kg_m2, link.centre_m)
         for index, (shape, at) in enumerate(link.shapes):
             name = f"link:{link.name}:{index}"
             self.links[name] = link.name
             if isinstance(shape, tuple):
                 # The engine re-centres a mesh at its centre of mass and compensates that in the geom's placement.
-                corners = " ".join(_numbers(corner) for corner in shape)
+                corners = " ".join(numbers(corner) for corner in shape)
                 ET.SubElement(self._asset, "mesh", {"name": name, "vertex": corners})
-            _add_geom(body, name, shape, at, touches=_MACHINE)
+            add_geom(body, name, shape, at, touches=_MACHINE)
         if link.joint:
             kind = {"type": "slide"} if link.is_prismatic else {}
-            ET.SubElement(body, "joint", {"name": link.joint, "axis": _numbers(link.axis), **kind})
+            ET.SubElement(body, "joint", {"name": link.joint, "axis": numbers(link.axis), **kind})
         return body
 
     def _add_hand(self, flange: ET.Element) -> None:
@@ -212,87 +228,36 @@ class _Builder:
         """
         gripper = self._gripper
         geometry = gripper.geometry
-        base = _add_body(flange, "gripper_base", geometry.base_pose)
-        _add_inertial(base, gripper.base_mass_kg, _cylinder_inertia(geometry.base, gripper.base_mass_kg))
+        base = add_body(flange, "gripper_base", geometry.base_pose)
+        add_inertial(base, gripper.base_mass_kg, cylinder_inertia(geometry.base, gripper.base_mass_kg))
         self.links["gripper_base"] = "gripper_base"
-        _add_geom(base, "gripper_base", geometry.base, Pose(), touches=_MACHINE)
+        add_geom(base, "gripper_base", geometry.base, Pose(), touches=_MACHINE)
         x, y, z = geometry.finger.size_m
         inertia = np.diag([y**2 + z**2, x**2 + z**2, x**2 + y**2]) * gripper.finger_mass_kg / 12
-        force = _number(gripper.finger_force_n)
-        pads = pad_layouts(geometry, self._scene.workpiece.shape, self._scene.grasp_in_object)
+        force = number(gripper.finger_force_n)
+        pads = finger_pads(self._scene, geometry)
         gain = gripper.finger_force_n / (_SATURATING_SHARE * gripper.finger_velocity_m_s)
         for index, name in enumerate(self.fingers):
             open_pose = geometry.base_pose.inverse() @ geometry.finger_pose(index, geometry.largest_opening_m)
-            finger = _add_body(base, name, open_pose)
-            _add_inertial(finger, gripper.finger_mass_kg, inertia)
+            finger = add_body(base, name, open_pose)
+            add_inertial(finger, gripper.finger_mass_kg, inertia)
             for part, (shape, at) in enumerate(finger_solids(geometry, pads[index])):
                 self.finger_shapes[f"{name}:{part}"] = index
-                _add_geom(finger, f"{name}:{part}", shape, at, touches=_MACHINE)
-            drive = {"armature": _number(gripper.drive.inertia_kg)} if gripper.drive.inertia_kg else {}
+                add_geom(finger, f"{name}:{part}", shape, at, touches=_MACHINE)
+            drive = {"armature": number(gripper.drive.inertia_kg)} if gripper.drive.inertia_kg else {}
             slide = {
                 **drive,
                 "name": name,
                 "type": "slide",
                 "axis": "-1 0 0",
-                "range": f"0 {_number(geometry.stroke_m)}",
+                "range": f"0 {number(geometry.stroke_m)}",
                 "solreflimit": self._stiffness["solref"],
                 "solimplimit": self._stiffness["solimp"],
             }
             ET.SubElement(finger, "joint", slide)
-            motor = {"name": name, "joint": name, "kv": _number(gain), "forcerange": f"-{force} {force}"}
+            motor = {"name": name, "joint": name, "kv": number(gain), "forcerange": f"-{force} {force}"}
             ET.SubElement(self._actuator, "velocity", motor)
         if geometry.fingers == 2:
             one, other = self.fingers
             coupling = {"joint1": one, "joint2": other, "polycoef": "0 1 0 0 0", **self._stiffness}
             ET.SubElement(self._equality, "joint", coupling)
-
-
-def _add_body(parent: ET.Element, name: str, pose: Pose) -> ET.Element:
-    return ET.SubElement(parent, "body", {"name": name, **_placed(pose)})
-
-
-def _add_inertial(
-    body: ET.Element,
-    mass_kg: float,
-    inertia: NDArray[np.float64],
-    centre_m: Sequence[float] = (0.0, 0.0, 0.0),
-) -> None:
-    entries = [float(inertia[row, column]) for row, column in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
-    attributes = {"pos": _numbers(centre_m), "mass": _number(mass_kg), "fullinertia": _numbers(entries)}
-    ET.SubElement(body, "inertial", attributes)
-
-
-def _add_geom(parent: ET.Element, name: str, shape: Solid | Corners, pose: Pose, *, touches: tuple[int, int]) -> None:
-    if isinstance(shape, Box):
-        kind, size = "box", [edge / 2 for edge in shape.size_m]
-    elif isinstance(shape, Cylinder):
-        kind, size = "cylinder", [shape.radius_m, shape.half_height_m]
-    elif isinstance(shape, Capsule):
-        kind, size = "capsule", [shape.radius_m, shape.half_length_m]
-    elif isinstance(shape, tuple):
-        kind, size = "mesh", []
-    else:
-        kind, size = "sphere", [shape]
-    own, others = touches
-    extent = {"mesh": name} if kind == "mesh" else {"size": _numbers(size)}
-    attributes = {"name": name, "type": kind, **extent}
-    bits = {"contype": str(own), "conaffinity": str(others)}
-    ET.SubElement(parent, "geom", {**attributes, **bits, **_placed(pose)})
-
-
-def _cylinder_inertia(shape: Cylinder, mass_kg: float) -> NDArray[np.float64]:
-    across = mass_kg * (3 * shape.radius_m**2 + shape.height_m**2) / 12
-    return np.diag([across, across, mass_kg * shape.radius_m**2 / 2])
-
-
-def _placed(pose: Pose) -> dict[str, str]:
-    x, y, z, w = pose.quaternion_xyzw
-    return {"pos": _numbers(pose.position_m), "quat": _numbers((w, x, y, z))}
-
-
-def _numbers(values: Sequence[float]) -> str:
-    return " ".join(_number(value) for value in values)
-
-
-def _number(value: float) -> str:
-    return repr(float(value))

@@ -13,7 +13,7 @@ from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.hand_view import HandView
 from rgss.physics.mujoco.contact_reader import MujocoContactReader
 from rgss.physics.mujoco.engine import compiled, mujoco
-from rgss.physics.mujoco.model import WORKPIECE, world_model
+from rgss.physics.mujoco.model import world_model
 from rgss.physics.settings import PhysicsSettings
 from rgss.scenes import Gripper, Pose, Scene
 
@@ -83,10 +83,10 @@ class MujocoWorld:
         self._finger_motors = np.array([model.actuator(name).id for name in described.fingers])
         self._offsets = np.array(joint_offsets_rad or np.zeros(len(driven)), dtype=float)
         self._flange = int(model.body(f"link:{scene.robot.flange}").id)
-        self._workpiece = int(model.body(WORKPIECE).id)
-        self._workpiece_at = int(model.joint(model.body(WORKPIECE).jntadr[0]).qposadr[0])
+        self._objects = {name: int(model.body(body).id) for name, body in described.object_bodies.items()}
         self._grasp_centre_m = gripper.geometry.grasp_centre.position_m
         self._reader = MujocoContactReader(model, self._data, described)
+        self._select_workpiece(scene.workpiece.id)
         self._wanted, self._needed = np.zeros(model.nv), np.zeros(model.nv)
         self._target = self._target_speed = self._speed_before = self._torques = np.zeros(len(driven))
         self._stood_m, self._stood_wxyz = np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
@@ -181,16 +181,21 @@ class MujocoWorld:
         return self._pose_of(self._workpiece)
 
     def object_pose(self, name: str) -> Pose:
-        """Transform of the workpiece to the world; this engine supports no other object."""
-        if name != self.scene.workpiece.id:
-            raise SimulationError("this engine supports only one object", hint="use PyBullet for several objects")
-        return self.workpiece_pose()
+        """Transform of an object's shape to the world.
+
+        Args:
+            name: The object.
+        """
+        return self._pose_of(self._objects[name])
 
     def set_workpiece(self, scene: Scene) -> None:
-        """Change the place where the workpiece is released, or allow it to be gripped again."""
-        if scene.workpiece.id != self.scene.workpiece.id:
-            raise SimulationError("this engine supports only one object", hint="use PyBullet for several objects")
+        """Make another object the workpiece, or change the place where it is released.
+
+        Args:
+            scene: The scene with that object as its workpiece, at its present pose.
+        """
         self.scene = scene
+        self._select_workpiece(scene.workpiece.id)
 
     def tool_pose(self) -> Pose:
         """Transform of the grasp-centre frame to the world at the true joint angles."""
@@ -219,6 +224,12 @@ class MujocoWorld:
     def finger_contacts(self) -> tuple[FingerContact, ...]:
         """Contact points of the fingers on the workpiece, by finger and ascending height."""
         return self._reader.finger_contacts(_pose(self._stood_m, self._stood_wxyz))
+
+    def _select_workpiece(self, name: str) -> None:
+        self._workpiece = self._objects[name]
+        self._workpiece_at = int(self._model.joint(self._model.body(self._workpiece).jntadr[0]).qposadr[0])
+        self._reader.select(name)
+        self._note_workpiece()
 
     def _note_workpiece(self) -> None:
         """Store the pose of the workpiece at the start of a step, at which the engine detects contacts."""

@@ -21,6 +21,8 @@ def summary_sentences(confirmation: Confirmation) -> Iterator[str]:
     yield verdict_sentence(confirmation)
     yield outcome_sentence(confirmation)
     selection = confirmation.selection
+    if selection.without_engine:
+        yield f"Not confirmed in another engine: {selection.without_engine}."
     if selection.left_out:
         ids = ", ".join(map(str, selection.left_out))
         yield f"Rivals that were not confirmed: {ids} (name them with --variants)."

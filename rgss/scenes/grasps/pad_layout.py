@@ -92,6 +92,25 @@ def pad_layouts(geometry: GripperGeometry, shape: ObjectShape, tool_in_object: P
     return tuple(_layout(patch, geometry) for patch in patches)
 
 
+def joined_layout(layouts: Sequence[PadLayout]) -> PadLayout:
+    """Layout of one pad with the elements of several, for objects of different forms.
+
+    All elements are tangent to the plane of the flat pad, so that an object touches those in its own contact patch
+    before any other.
+
+    Args:
+        layouts: The layouts; the least radius is used for all elements.
+    """
+    least = min(layouts, key=lambda layout: layout.radius_m)
+    elements = (
+        # A shorter cylinder of a larger radius ends where a longer one of the least radius does.
+        replace(one, length_m=one.length_m + 2 * (layout.radius_m - least.radius_m) if one.length_m else 0.0)
+        for layout in layouts
+        for one in layout.elements
+    )
+    return replace(least, elements=tuple(dict.fromkeys(elements)))
+
+
 def most_elements(layouts: Sequence[PadLayout]) -> int:
     """Greatest number of elements of a pad, the divisor of its stiffness; at least that of a ribbed pad."""
     return max([RIBS, *(len(layout.elements) for layout in layouts)])

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rgss.scenes.objects.object_entry import candidates_of, object_lengths
     from rgss.scenes.objects.object_file import object_solid, workpiece_of
     from rgss.scenes.objects.opening import grasp_opening_m
+    from rgss.scenes.objects.pads import finger_pads
     from rgss.scenes.objects.several_objects import ObjectPlacement, initial_placements, scene_about
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -215,7 +215,7 @@ class PayloadRig:
 
 
 def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
-    """Scene with the object on top of a post, the origin at the foot of the post, and the rail above."""
+    """Scene with the object on top of a post, the origin at its foot below the grasp centre, and the rail above."""
     half_m = spec.shape.half_height_m
     radius_m = min(half_extents_m(spec.shape)[:2])
     stands, tool_m, taken = Pose(position_m=(0.0, 0.0, half_m)), half_m, None
@@ -233,15 +233,6 @@ def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
             candidates=1,
             rejected=0,
         )
-    # Thinner than the object, so that low fingers pass it; without friction, because on a rough post the object can jam
-    # between post and hand, and geared fingers then press unevenly.
-    post = SceneBody(
-        id=_POST,
-        shape=Cylinder(radius_m=_POST_SHARE * radius_m, height_m=_POST_HEIGHT_M),
-        pose=Pose(position_m=(0.0, 0.0, -_POST_HEIGHT_M / 2)),
-        friction=0.0,
-        colour=_BLACK,
-    )
     workpiece = Workpiece(
         id="object",
         shape=spec.shape,
@@ -257,7 +248,7 @@ def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
         id="payload-bench",
         gravity_m_s2=spec.gravity_m_s2,
         robot=_rail(tool_m + spec.gripper.geometry.grasp_depth_m),
-        bodies=(post,),
+        bodies=(_post(stands, radius_m),),
         support=_POST,
         place_support=_POST,
         workpiece=workpiece,
@@ -274,6 +265,22 @@ def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
             place_yaw_rad=0.0,
             grasp=taken,
         ),
+    )
+
+
+def _post(stands: Pose, radius_m: float) -> SceneBody:
+    """Post under the middle of the object, which three fingers hold beside their axis if it is a box.
+
+    It is thinner than the object, so that low fingers pass it, and without friction: on a rough post the object can jam
+    between post and hand, and geared fingers then press unevenly.
+    """
+    x, y, _ = stands.position_m
+    return SceneBody(
+        id=_POST,
+        shape=Cylinder(radius_m=_POST_SHARE * radius_m, height_m=_POST_HEIGHT_M),
+        pose=Pose(position_m=(x, y, -_POST_HEIGHT_M / 2)),
+        friction=0.0,
+        colour=_BLACK,
     )
 
 

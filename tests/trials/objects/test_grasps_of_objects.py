@@ -7,12 +7,13 @@ from dataclasses import replace
 import pytest
 
 from rgss.evidence import Failure, Fidelity
-from rgss.scenes import Approach, Box, Cylinder, GraspCandidates, PlaceRegion, Pose, SceneObject
+from rgss.scenes import Approach, Box, Cylinder, GraspCandidates, PlaceRegion, Pose, SceneObject, finger_pads
 from rgss.tasks import load_task
 from rgss.trials import cell_of
 from rgss.trials.pieces.run import Pieces
 from rgss.trials.route import route_of
 from rgss.trials.scene_check import SceneProblemKind, reach_problems
+from rgss.trials.second_engine import mujoco_settings
 from tests.trials.hands.gripper_files import gripper_of
 
 CARTON, TIN = Box(size_m=(0.05, 0.04, 0.09)), Cylinder(radius_m=0.03, height_m=0.06)
@@ -102,6 +103,41 @@ def test_each_object_is_carried_by_a_grasp_of_its_own(with_two, variant, order):
                 assert phases[f"{name}.release"]["place_error_m"] < 1e-3
                 # Between the grip and the lift the object stands on its support, which is no collision.
                 assert phases[f"{name}.wait"]["slip_m"] < 1e-4
+
+
+def test_both_engines_carry_both_objects(with_two):
+    spec = replace(with_two(), fidelity=Fidelity.CONTACT)
+    other = replace(spec, settings=replace(spec.settings, physics=mujoco_settings()))
+    first, second = Pieces().record(spec), Pieces().record(other)
+    assert (first.failure_detail, second.failure_detail) == ("", "")
+    for one, two in zip(first.phases, second.phases, strict=True):
+        assert one.duration_s == pytest.approx(two.duration_s, abs=3 / 240), one.phase
+
+
+@pytest.mark.parametrize("order", ["cup, tin", "tin, cup"])
+def test_a_low_object_is_held_by_the_pads_as_a_tall_one_is(with_two, order):
+    """The elements of the pads at the ends of the carton are beyond the ends of the low one."""
+    low = Box(size_m=(0.05, 0.05, 0.055))
+    spec = replace(with_two(order=order, tin=low), fidelity=Fidelity.CONTACT)
+    (tin,) = spec.scene.others
+    heavy = replace(tin.workpiece, mass_kg=0.5, centre_of_mass_across_m=(0.012, 0.0))
+    spec = replace(spec, scene=replace(spec.scene, others=(replace(tin, workpiece=heavy),)))
+    scene = cell_of(spec).scene
+    elements = [len(pad.elements) for pad in finger_pads(scene, spec.gripper.geometry)]
+    assert all(4 < count <= 8 for count in elements)
+    record = Pieces().record(spec)
+    assert record.success, (record.failed_phase, record.failure_detail)
+    carried = {phase.phase: phase.metrics for phase in record.phases}["tin.move_to_place_approach"]
+    # With the elements of the carton alone it slips by 0.5 mm.
+    assert carried["slip_m"] < 3.5e-4
+
+
+def test_objects_of_one_form_have_the_pads_of_one(with_two):
+    spec = with_two(tin=CARTON)
+    scene = cell_of(spec).scene
+    alone = replace(scene, others=())
+    same = scene.with_grasps({"tin": scene.task.grasp})
+    assert finger_pads(same, spec.gripper.geometry) == finger_pads(alone, spec.gripper.geometry)
 
 
 def test_the_route_has_the_grasp_of_each_object(with_two):

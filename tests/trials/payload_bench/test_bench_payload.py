@@ -1,5 +1,6 @@
 """The simulated payload against Coulomb's law and equation 4.8."""
 
+import math
 import os
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.physics import PhysicsSettings
-from rgss.scenes import Cylinder, Gripper, load_gripper, load_scene
+from rgss.scenes import Box, Cylinder, Gripper, load_gripper, load_scene
 from rgss.trials.payload_bench.bench import run_bench
 from rgss.trials.payload_bench.range import BOUND, VALIDATED, outside
 from rgss.trials.payload_bench.rig import PayloadLimit, probe
@@ -60,6 +61,20 @@ def test_the_limit_is_within_two_percent_of_coulombs_law(fingers, acceleration, 
     held, slipped = probe(spec, 0.98 * limit_kg), probe(spec, 1.02 * limit_kg)
     assert held.stopped_by is None
     assert slipped.stopped_by is PayloadLimit.SLIP
+
+
+@pytest.mark.verifies("SYS-019")
+@pytest.mark.parametrize(("rate_hz", "iterations"), [(240.0, 20), (240.0, 400), (1000.0, 100)])
+def test_a_box_that_three_fingers_hold_beside_its_middle_has_the_payload_of_coulombs_law(rate_hz, iterations):
+    """Each finger presses on an edge or a face along its own direction, so that the law is that of a cylinder."""
+    spec = spec_of(3)
+    box = Box(size_m=(0.05, 0.04, 0.09))
+    scene = replace(SCENE, workpiece=replace(SCENE.workpiece, shape=box, friction=0.8))
+    physics = PhysicsSettings(rate_hz=rate_hz).with_iterations(iterations)
+    spec = bench_spec(scene, spec.gripper, acceleration_m_s2=1.2, rated_kg=10.0, physics=physics)
+    assert math.hypot(*spec.grasp.position_m[:2]) > 0.005
+    result = run_bench(replace(spec, force_limit_n=UNBREAKABLE_N))
+    assert result.payload_kg == pytest.approx(0.8 * 0.7 * 10.0 * 3 / (9.81 + 1.2), rel=0.02)
 
 
 @pytest.mark.verifies("SYS-019")
