@@ -144,10 +144,24 @@ class Confirmation:
 
     @property
     def differing_decisions(self) -> tuple[int, ...]:
-        """Indices of the settings whose first design is not among those tied as best under the study's setting."""
-        study = self.results[0]
-        best = {study.first, *study.ties}
-        return tuple(index for index, result in enumerate(self.results) if result.first not in best)
+        """Indices of the settings under which the study's first design is not as good as any.
+
+        It is as good if the setting's first design is tied with it in the study, or better than it by no more than the
+        practical margin under the setting.
+        """
+        best = {self.results[0].first, *self.results[0].ties}
+        return tuple(
+            index
+            for index, result in enumerate(self.results)
+            if result.first not in best and not self._is_within_margin(result)
+        )
+
+    def _is_within_margin(self, result: SettingResult) -> bool:
+        """True if the study's first design loses no more than the practical margin under a setting."""
+        values, first = dict(result.ranking), self.results[0].first
+        best = None if result.first is None else values[result.first]
+        own = None if first is None else values.get(first)
+        return best is not None and own is not None and best - own <= self.practical_margin
 
     @property
     def differing_verdicts(self) -> tuple[VerdictDifference, ...]:

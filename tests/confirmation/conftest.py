@@ -62,7 +62,7 @@ def dropped():
 def confirmation(shipped):
     """A confirmation of variants 28 and 31; by setting, the ranking, the verdict on SYS-012, and the records."""
 
-    def make(*, rankings, verdicts=None, records=None, ties=None, **selection) -> Confirmation:
+    def make(*, rankings, step=0.05, verdicts=None, records=None, ties=None, **selection) -> Confirmation:
         count = len(rankings)
         verdicts = verdicts or [Verdict.MET] * count
         rows = records or [[a_record(slip_m=1.0e-5)] * count]
@@ -76,7 +76,7 @@ def confirmation(shipped):
                 SettingResult(
                     setting=SETTINGS[index],
                     status=DecisionStatus.OPTIMAL if ranking else DecisionStatus.INFEASIBLE,
-                    ranking=tuple((variant, 0.6) for variant in ranking),
+                    ranking=tuple((variant, 0.6 - step * place) for place, variant in enumerate(ranking)),
                     ties=tuple((ties or [ranking[:1]] * count)[index]),
                     verdicts={28: {"SYS-012": verdicts[index], "SYS-005": Verdict.MET}},
                 )

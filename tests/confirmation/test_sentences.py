@@ -57,6 +57,17 @@ def test_a_tie_that_another_setting_breaks_is_no_other_decision(confirmation):
     ]
 
 
+def test_another_first_design_that_is_hardly_better_is_no_other_decision(confirmation):
+    found = confirmation(rankings=[(28, 31), (31, 28)], step=0.009)
+    assert found.holds
+    assert first_lines(found, 1)[0] == (
+        "The decision does not depend on the step: variant 28 (or 31, better within the practical margin) is first "
+        "under both settings."
+    )
+    assert not confirmation(rankings=[(28, 31), (31, 28)], step=0.011).holds
+    assert not confirmation(rankings=[(28, 31), (31,)], step=0.0).holds
+
+
 def test_a_verdict_that_depends_on_the_setting(confirmation):
     found = confirmation(rankings=[(28,), (28,), (28,)], verdicts=[Verdict.MET, Verdict.MET, Verdict.NOT_MET])
     assert not found.holds

@@ -44,8 +44,9 @@ def decision_sentence(confirmation: Confirmation) -> str:
         every = f"all {_number(len(results))} settings" if len(results) > 2 else "both settings"
         if first is None:
             return f"The decision does not depend on {what}: no design meets every requirement under {every}."
-        others = {result.first for result in results} - {first}
-        tied = f" (or {_listed(sorted(map(str, others)), 'or')}, equally good)" if others else ""
+        others = {result.first for result in results if result.first is not None} - {first}
+        as_good = "equally good" if others <= set(results[0].ties) else "better within the practical margin"
+        tied = f" (or {_listed([str(one) for one in sorted(others)], 'or')}, {as_good})" if others else ""
         return f"The decision does not depend on {what}: variant {first}{tied} is first under {every}."
     what = _listed([_WORDS[results[index].setting.aspect] for index in differing], "and")
     under: dict[int | None, list[str]] = {}
