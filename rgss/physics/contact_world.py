@@ -94,9 +94,6 @@ class ContactWorld(Protocol):
 
         Args:
             scene: The scene with that object as its workpiece, at its present pose.
-
-        Raises:
-            SimulationError: The engine supports only one object, and this is another.
         """
 
     def tool_pose(self) -> Pose:

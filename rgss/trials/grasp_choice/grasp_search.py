@@ -134,15 +134,15 @@ def _search(
             tried = scene.with_grasps({name: taken})
             first = first or tried
             # Inverse kinematics is solved before the collision models are built, which takes longer.
-            missing = None if arm is None else _unreached(arm, route_of(tried, geometry, task), name)
-            if missing is None:
+            reason = None if arm is None else _unreached(arm, route_of(tried, geometry, task), name)
+            if reason is None:
                 cell = build(tried)
                 arm = cell.arm
-                missing = _obstacle(cell, name)
-            if missing is None:
+                reason = _obstacle(cell, name)
+            if reason is None:
                 return GraspSearch(object=name, scene=tried, taken=taken, ranked=ranked, rejected=dict(rejected))
-            why.append(missing[0])
-            if missing[1]:
+            why.append(reason[0])
+            if reason[1]:
                 break
         rejected[_last(why)] += 1
     return GraspSearch(object=name, scene=first or scene, taken=None, ranked=ranked, rejected=dict(rejected))
