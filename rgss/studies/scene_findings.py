@@ -10,15 +10,13 @@ from rgss.documents import Document, read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
-from rgss.scenes import GRIPPER_BASE_LINK, GripperGeometry, Waypoint, at_object, half_extents_m, misfit, palm_fit
+from rgss.scenes import GRIPPER_BASE_LINK, GripperGeometry, at_object, half_extents_m, misfit, palm_fit
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
 
 if TYPE_CHECKING:
     from rgss.trials import SceneProblem
-
-_AT_GRASP = (Waypoint.GRASP_APPROACH, Waypoint.GRASP, Waypoint.LIFT, Waypoint.GRASP_DEPARTURE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -141,7 +139,7 @@ class _Places:
         location: tuple[str | int, ...] = self.at.get(first, ("robot", "base"))
         severity = Severity.ERROR
         if problem.kind is SceneProblemKind.UNSERVED and problem.waypoint is not None:
-            location = ("workpiece", "at") if problem.waypoint in _AT_GRASP else ("place_region", "at")
+            location = self._place_of(first, second=problem.second) if problem.is_at_place else self.at[first]
             pair = () if problem.reason is None or problem.reason.pair is None else problem.reason.pair
             named = [self._named(body) for body in pair if body in self.at]
             other = f" [{', '.join(named)}]" if named else ""
@@ -167,13 +165,13 @@ class _Places:
             hint = f"move {first} by {millimetres}, or take it out"
         elif problem.kind in (SceneProblemKind.OBJECT_UNSUPPORTED, SceneProblemKind.PLACE_UNSUPPORTED):
             at_place = problem.kind is SceneProblemKind.PLACE_UNSUPPORTED
-            location = ("place_region", "at") if at_place else ("workpiece", "at")
+            location = self._place_of(first) if at_place else self.at[first]
             where = "in its place" if at_place else "at the start"
             message = f"{where}, {first} does not rest on {second}: its centre is {millimetres} beyond the edge"
             hint = "move 'at' over the body, or name another in 'stands_on'"
         else:
             at_place = problem.kind is SceneProblemKind.PLACE_OVERLAP
-            location = ("place_region", "at") if at_place else ("workpiece", "at")
+            location = self._place_of(first) if at_place else self.at[first]
             where = "in its place" if at_place else "at the start"
             message = f"{where}, {first} overlaps {second}, {millimetres} deep"
             hint = f"move 'at', or move {problem.second}"
@@ -220,6 +218,13 @@ class _Places:
                 "radius with the distance of the object's axis from the centre"
             )
             yield self.document.finding("scene.place-region", message, location, hint=hint, severity=Severity.INFO)
+
+    def _place_of(self, name: str, *, second: str = "") -> tuple[str | int, ...]:
+        """Position of a named place, else of the place region of an object."""
+        named = [place.id for place in self._scene.places]
+        if second in named:
+            return ("places", named.index(second), "at")
+        return ("place_region", "at") if name == self._workpiece else (*self.at[name][:-1], "place_region", "at")
 
     def _named(self, body: str) -> str:
         """A body with its place in the file, where it has one."""

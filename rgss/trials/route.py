@@ -31,12 +31,18 @@ class Stop:
         pose: Transform of the grasp-centre frame to the world; None for a configuration.
         configuration_rad: Joint positions; empty for a pose.
         is_turn_free: True if the tool may be rotated about its axis at the pose.
+        object: The object of a waypoint; empty for other poses.
+        place: The named place of the waypoint; empty for the object's own.
+        is_at_place: True for a waypoint at the place.
     """
 
     name: str
     pose: Pose | None = None
     configuration_rad: tuple[float, ...] = ()
     is_turn_free: bool = False
+    object: str = ""
+    place: str = ""
+    is_at_place: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,7 +148,14 @@ class _Cell:
         parts += [f"of {name}"] if name != self._scene.workpiece.id else []
         parts += [f"at {place}"] if place and waypoint in _AT_PLACE else []
         pose = waypoint_poses(view)[waypoint].raised(target.raised_m)
-        return Stop(name=" ".join(parts), pose=pose, is_turn_free=self._scene.task.is_yaw_free)
+        return Stop(
+            name=" ".join(parts),
+            pose=pose,
+            is_turn_free=self._scene.task.is_yaw_free,
+            object=name,
+            place=place,
+            is_at_place=waypoint in _AT_PLACE,
+        )
 
     def context_of(self, stage: Stage) -> tuple[Scene, CollisionContext]:
         """Scene and collision context of a move."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -17,6 +17,8 @@ from rgss.scenes import (
     Scene,
     corners_of,
     half_extents_m,
+    initial_placements,
+    scene_about,
 )
 from rgss.tasks import TaskProgram
 from rgss.trials.grasp_choice import with_stated_suction
@@ -60,6 +62,7 @@ class SceneProblem:
         distance_m: Penetration depth of an overlap, or distance of the object beyond its support's edge; NaN for other
         problems.
         waypoint: The waypoint without a configuration; None for other problems.
+        is_at_place: True if it is a waypoint at the place, of which `second` is the name, if it has one.
         reason: The reason; None for other problems.
         detail: Numbers of grasp candidates rejected by each filter; empty for other problems.
     """
@@ -69,6 +72,7 @@ class SceneProblem:
     second: str = ""
     distance_m: float = math.nan
     waypoint: str | None = None
+    is_at_place: bool = False
     reason: GoalReason | None = None
     detail: str = ""
 
@@ -79,7 +83,7 @@ def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
     Args:
         scene: The scene.
     """
-    return (*_furniture(scene), *_object(scene))
+    return (*_furniture(scene), *_objects(scene))
 
 
 def reach_problems(
@@ -124,8 +128,15 @@ def reach_problems(
     if any(problem.kind is SceneProblemKind.NO_GRASP for problem in found):
         return tuple(found)
     found += [
-        SceneProblem(kind=SceneProblemKind.UNSERVED, first=scene.workpiece.id, waypoint=waypoint, reason=reason)
-        for waypoint, reason in infeasible_waypoints(cell).items()
+        SceneProblem(
+            kind=SceneProblemKind.UNSERVED,
+            first=stop.object or scene.workpiece.id,
+            second=stop.place if stop.is_at_place else "",
+            waypoint=stop.name,
+            is_at_place=stop.is_at_place,
+            reason=reason,
+        )
+        for stop, reason in infeasible_waypoints(cell).items()
     ]
     return tuple(found)
 
@@ -144,9 +155,23 @@ def _furniture(scene: Scene) -> Iterator[SceneProblem]:
                 yield _of(SceneProblemKind.OVERLAP, one)
 
 
-def _object(scene: Scene) -> Iterator[SceneProblem]:
-    workpiece = scene.workpiece
+def _objects(scene: Scene) -> Iterator[SceneProblem]:
     bodies = [Solid(name=body.id, shape=body.shape, pose=body.pose) for body in scene.bodies]
+    placements = initial_placements(scene)
+    standing: list[Solid] = []
+    for one in scene.objects:
+        name = one.workpiece.id
+        yield from _object(scene_about(scene, name, place="", placements=placements), bodies)
+        solid = Solid(name=name, shape=one.workpiece.shape, pose=one.workpiece.pose)
+        for other in standing:
+            for found in overlaps((solid, other), deeper_than_m=OBJECT_TOUCHING_M):
+                yield _of(SceneProblemKind.OBJECT_OVERLAP, found)
+        standing.append(solid)
+
+
+def _object(scene: Scene, bodies: Sequence[Solid]) -> Iterator[SceneProblem]:
+    """Problems of the workpiece of a scene with fixed bodies, at the start and in its place."""
+    workpiece = scene.workpiece
     x, y, z = scene.place.centre_m
     placed = scene.placed_object
     if isinstance(workpiece.shape, Cylinder):

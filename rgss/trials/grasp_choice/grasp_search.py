@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from rgss.grasping.candidates import RankedGrasp, RankedGrasps, ranked_grasps, ranked_suction, symmetric_turns
 from rgss.kinematics import Arm, CollisionModel, inverse_kinematics, straight_line
-from rgss.scenes import ChosenGrasp, GraspCandidates, GripperGeometry, Scene, Waypoint
+from rgss.scenes import ChosenGrasp, GraspCandidates, GripperGeometry, Scene
 from rgss.tasks import MoveKind, TaskProgram, stages_of
-from rgss.trials.route import Leg, Route, Stop, route_of
+from rgss.trials.route import Leg, Route, route_of
 
 Vector = NDArray[np.float64]
 
@@ -148,7 +148,6 @@ def _search(
     return GraspSearch(object=name, scene=first or scene, taken=None, ranked=ranked, rejected=dict(rejected))
 
 
-_AT_PLACE = (Waypoint.PLACE_APPROACH, Waypoint.PLACE)
 _STAGES = tuple(Rejection)
 
 
@@ -183,7 +182,7 @@ def _unreached(arm: Arm, route: Route, name: str) -> tuple[Rejection, bool] | No
     for index in sorted({index for leg in _legs_about(route, name) for index in (leg.start, leg.goal)}):
         stop = route.stops[index]
         if stop.pose is not None and not inverse.solve(stop.pose):
-            return Rejection.REACH, _is_before_place(stop)
+            return Rejection.REACH, not stop.is_at_place
     return None
 
 
@@ -198,11 +197,11 @@ def _obstacle(cell: Cell, name: str) -> tuple[Rejection, bool] | None:
             continue
         reached = inverse.solve(stop.pose)
         if not reached:
-            return Rejection.REACH, _is_before_place(stop)
+            return Rejection.REACH, not stop.is_at_place
         models = [cell.planning[leg.step.name] for leg in legs if index in (leg.start, leg.goal)]
         valid[index] = [q for q in reached if all(model.is_valid(q) for model in models)]
         if not valid[index]:
-            return Rejection.COLLISION, _is_before_place(stop)
+            return Rejection.COLLISION, not stop.is_at_place
     for leg in legs:
         goal = route.stops[leg.goal]
         if leg.step.mode is not MoveKind.STRAIGHT or goal.pose is None or leg.start not in valid:
@@ -210,10 +209,5 @@ def _obstacle(cell: Cell, name: str) -> tuple[Rejection, bool] | None:
         model = cell.planning[leg.step.name]
         lines = (straight_line(inverse, q, goal.pose) for q in valid[leg.start])
         if not any(line is not None and all(model.is_valid(state) for state in line) for line in lines):
-            return Rejection.LIFT, _is_before_place(goal)
+            return Rejection.LIFT, not goal.is_at_place
     return None
-
-
-def _is_before_place(stop: Stop) -> bool:
-    """True if a stop is not at the place, so that the object's rotation there does not affect it."""
-    return not any(stop.name.startswith(waypoint.value) for waypoint in _AT_PLACE)

@@ -93,14 +93,14 @@ def waypoint_configurations(cell: Workcell) -> Mapping[str, Array]:
     return {stop.name: found[index] for index, stop in enumerate(cell.route.stops) if index in found}
 
 
-def infeasible_waypoints(cell: Workcell) -> dict[str, GoalReason]:
-    """Reasons why stops have no configuration that is valid in all adjoining moves, by name.
+def infeasible_waypoints(cell: Workcell) -> dict[Stop, GoalReason]:
+    """Reasons why stops have no configuration that is valid in all adjoining moves.
 
     Args:
         cell: Scene, arm and collision models.
     """
     stops = cell.route.stops
-    return {stops[index].name: reason for index, reason in _reasons(cell, range(len(stops))).items()}
+    return {stops[index]: reason for index, reason in _reasons(cell, range(len(stops))).items()}
 
 
 def goal_pose_of(cell: Workcell, stop: Stop) -> Pose:

@@ -79,6 +79,57 @@ def test_a_cup_in_another_body(check_with):
     )
 
 
+MUG = """
+workpieces:
+  - id: mug
+    radius: 30 mm
+    height: 80 mm
+    mass: 0.2 kg
+    friction: 1.0
+    force_limit: 40 N
+    stands_on: counter_pick
+    at: [{at}]
+    colour: "#3d7fd9"
+    place_region: {{stands_on: counter_place, at: [{to}], radius: 30 mm, largest_tilt: 5 deg}}
+
+place_region:
+"""
+
+
+@pytest.mark.parametrize(
+    ("at", "to", "rule", "message", "where"),
+    [
+        ("0.72 m, -0.28 m", "0.60 m, 0.30 m", "scene.object-overlap", "at the start, mug overlaps cup", 0),
+        ("1.20 m, -0.30 m", "0.60 m, 0.30 m", "scene.object-unsupported", "at the start, mug does not rest", 0),
+        ("0.60 m, -0.40 m", "0.60 m, 1.30 m", "scene.place-unsupported", "in its place, mug does not rest", 1),
+    ],
+)
+def test_further_objects_are_checked_as_the_first_is(check_with, at, to, rule, message, where):
+    status, findings, text = check_with(("\nplace_region:\n", MUG.format(at=at, to=to)))
+
+    one = next(one for one in findings if one["rule"] == rule)
+    assert (status, one["severity"]) == (1, "error")
+    assert one["message"].startswith(message)
+    assert one["line"] == line_of(text, f"at: [{(at, to)[where]}]")
+
+
+def test_a_waypoint_of_a_further_object_that_nothing_serves_is_found_at_its_place(check_with, folder):
+    moves = ("grasp_departure", "place_approach", "place")
+    steps = ["{move: {to: grasp}}", "{grip: {}}", "{move: {to: lift, mode: straight}}"]
+    steps += [*(f"{{move: {{to: {name}}}}}" for name in moves), "{release: {}}", "{move: {to: grasp_approach}}"]
+    (folder / "scenes/tasks").mkdir(exist_ok=True)
+    task = "task: mug\nsteps:\n  - for_each:\n      objects: [mug]\n      steps:\n"
+    task += "".join(f"        - {step}\n" for step in steps)
+    (folder / "scenes/tasks/mug.yaml").write_text(task, encoding="utf-8")
+    study = folder / "studies/pick_place.yaml"
+    text = study.read_text(encoding="utf-8")
+    study.write_text(re.sub(r"(?m)^scene: (.*)$", r"scene: \1\ntask: scenes/tasks/mug.yaml", text), encoding="utf-8")
+    _, findings, text = check_with(("\nplace_region:\n", MUG.format(at="0.60 m, -0.40 m", to="1.50 m, 0.30 m")))
+
+    one = next(one for one in findings if one["rule"] == "scene.unserved" and " place of mug" in one["message"])
+    assert one["line"] == line_of(text, "at: [1.50 m, 0.30 m]")
+
+
 def test_a_cup_that_does_not_rest_on_its_support(check_with):
     _, findings, _ = check_with(("at: [0.70 m, -0.30 m]", "at: [1.20 m, -0.30 m]"))
 
