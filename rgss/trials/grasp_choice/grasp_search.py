@@ -176,10 +176,15 @@ def _legs_about(route: Route, name: str) -> list[Leg]:
     return [leg for leg in route.legs if leg.scene.workpiece.id == name]
 
 
+def _stops_of(legs: Sequence[Leg]) -> list[int]:
+    """Indices of the stops of some moves, in the order of the route."""
+    return sorted({index for leg in legs for index in (leg.start, leg.goal)})
+
+
 def _unreached(arm: Arm, route: Route, name: str) -> tuple[Rejection, bool] | None:
     """As `_obstacle`, for the reach alone."""
     inverse = inverse_kinematics(arm)
-    for index in sorted({index for leg in _legs_about(route, name) for index in (leg.start, leg.goal)}):
+    for index in _stops_of(_legs_about(route, name)):
         stop = route.stops[index]
         if stop.pose is not None and not inverse.solve(stop.pose):
             return Rejection.REACH, not stop.is_at_place
@@ -191,7 +196,7 @@ def _obstacle(cell: Cell, name: str) -> tuple[Rejection, bool] | None:
     inverse, route = inverse_kinematics(cell.arm), cell.route
     legs = _legs_about(route, name)
     valid: dict[int, list[Vector]] = {}
-    for index in sorted({index for leg in legs for index in (leg.start, leg.goal)}):
+    for index in _stops_of(legs):
         stop = route.stops[index]
         if stop.pose is None:
             continue
