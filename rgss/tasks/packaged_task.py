@@ -6,7 +6,7 @@ from functools import lru_cache
 from importlib import resources
 
 from rgss.tasks.program import TaskProgram
-from rgss.tasks.task_file import load_task
+from rgss.tasks.reading import load_task
 
 
 @lru_cache(maxsize=1)

@@ -3,25 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NoReturn
 
-from rgss.tasks.check_step import CheckStep
-from rgss.tasks.grip_step import GripStep
-from rgss.tasks.move_kinds import MoveKind
-from rgss.tasks.move_step import MoveStep, Target
-from rgss.tasks.release_step import ReleaseStep
-from rgss.tasks.wait_step import WaitStep
-
-Step = MoveStep | GripStep | ReleaseStep | WaitStep | CheckStep
-
-
-def no_branch_for(step: NoReturn) -> AssertionError:
-    """Error at the end of a function with a branch for each kind of step; mypy reports the call if a kind reaches it.
-
-    Args:
-        step: The step, of no kind that is left.
-    """
-    return AssertionError(f"no branch for {step}")
+from rgss.tasks.steps import HandAction, MoveKind, MoveStep, Step, Target
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,19 +46,19 @@ class TaskProgram:
     @property
     def grips(self) -> tuple[str, ...]:
         """Names of the steps that close the hand."""
-        return tuple(step.name for step in self.steps if isinstance(step, GripStep))
+        return tuple(step.name for step in self.steps if step.hand is HandAction.CLOSES)
 
     @property
     def releases(self) -> tuple[str, ...]:
         """Names of the steps that open the hand."""
-        return tuple(step.name for step in self.steps if isinstance(step, ReleaseStep))
+        return tuple(step.name for step in self.steps if step.hand is HandAction.OPENS)
 
     @property
     def carried(self) -> tuple[str, ...]:
         """Names of the moves with an object in the hand."""
         found, is_held = [], False
         for step in self.steps:
-            is_held = isinstance(step, GripStep) or (is_held and not isinstance(step, ReleaseStep))
+            is_held = step.hand is HandAction.CLOSES or (is_held and step.hand is not HandAction.OPENS)
             if is_held and isinstance(step, MoveStep):
                 found.append(step.name)
         return tuple(found)

@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import takewhile
 
-from rgss.tasks.grip_step import GripStep
-from rgss.tasks.move_step import MoveStep
-from rgss.tasks.program import Step, TaskProgram
-from rgss.tasks.release_step import ReleaseStep
+from rgss.tasks.program import TaskProgram
+from rgss.tasks.steps import HandAction, MoveStep, Step
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,8 +57,9 @@ def stages_of(task: TaskProgram, workpiece: str) -> tuple[Stage, ...]:
     for index, step in enumerate(steps):
         before = steps[index - 1] if index else None
         after = steps[index + 1] if index + 1 < len(steps) else None
-        is_retreat = isinstance(step, MoveStep) and isinstance(before, ReleaseStep)
-        if isinstance(step, GripStep):
+        is_move, closes = isinstance(step, MoveStep), step.hand is HandAction.CLOSES
+        is_retreat = is_move and before is not None and before.hand is HandAction.OPENS
+        if closes:
             held = last = step.object or workpiece
             lifts[held] = lifts.get(held, 0) + 1
         coming = "" if held or is_retreat else _next_gripped(steps[index:], workpiece)
@@ -72,22 +71,25 @@ def stages_of(task: TaskProgram, workpiece: str) -> tuple[Stage, ...]:
                 place=_next_place(steps[index:]) if held or coming else _last_place(steps[:index]),
                 turn=lifts.get(subject, 0) + (1 if coming else 0),
                 is_held=bool(held),
-                is_standing=bool(held) and (isinstance(step, GripStep) or not _has_moved(steps[:index])),
-                is_approach=not (held or is_retreat) and isinstance(step, MoveStep) and isinstance(after, GripStep),
+                is_standing=bool(held) and (closes or not _has_moved(steps[:index])),
+                is_approach=is_move
+                and not (held or is_retreat)
+                and after is not None
+                and after.hand is HandAction.CLOSES,
                 is_retreat=is_retreat,
             )
         )
-        if isinstance(step, ReleaseStep):
+        if step.hand is HandAction.OPENS:
             held = ""
     return tuple(found)
 
 
 def _next_gripped(steps: tuple[Step, ...], workpiece: str) -> str:
-    return next((step.object or workpiece for step in steps if isinstance(step, GripStep)), "")
+    return next((step.object or workpiece for step in steps if step.hand is HandAction.CLOSES), "")
 
 
 def _next_place(steps: tuple[Step, ...]) -> str:
-    return next((step.place for step in steps if isinstance(step, ReleaseStep)), "")
+    return next((step.place for step in steps if step.hand is HandAction.OPENS), "")
 
 
 def _last_place(steps: tuple[Step, ...]) -> str:
@@ -96,5 +98,5 @@ def _last_place(steps: tuple[Step, ...]) -> str:
 
 def _has_moved(before: tuple[Step, ...]) -> bool:
     """True if a move has followed the last grip."""
-    since = takewhile(lambda step: not isinstance(step, GripStep), reversed(before))
+    since = takewhile(lambda step: step.hand is not HandAction.CLOSES, reversed(before))
     return any(isinstance(step, MoveStep) for step in since)

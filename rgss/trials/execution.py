@@ -12,7 +12,7 @@ from rgss.evidence import Failure, Metric
 from rgss.grasping import GraspGeometryCache
 from rgss.physics import Contacts, ContactWorld
 from rgss.scenes import Pose
-from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, Stage, TaskProgram
+from rgss.tasks import CheckStep, GripStep, HandAction, MoveStep, ReleaseStep, Stage, Step, TaskProgram, WaitStep
 from rgss.trials.grip_control import GripControl
 from rgss.trials.hands import hand_of
 from rgss.trials.monitors import (
@@ -95,13 +95,13 @@ class Execution:
         self._configuration = tuple(configuration_rad)
         self._world.reset_arm(self._configuration)
 
-    def move(self, phase: str, reference: Reference) -> PhaseResult:
+    def move(self, step: MoveStep, reference: Reference) -> PhaseResult:
         """Follow a timed motion, with the held object."""
-        world, stage = self._world, self._enter(phase)
+        world, stage = self._world, self._enter(step)
         carried_at = self._held_at if stage.is_carrying else None
         self._grip.begin_phase()
         placed = PlacedObjectMonitor(world) if stage.is_retreat else None
-        targets = self._targets(stage, reference)
+        targets = self._targets(step, reference)
         monitor = self._phase_monitor(carried_at, self._objects.resting_on(stage), targets.tool_m, placed)
         steps, least_margin, is_alone = 0, self._control.tighten_below, self._is_alone
         world.reduce_solver_effort(free=carried_at is None)
@@ -115,7 +115,7 @@ class Execution:
             steps += 1
             contacts = monitor.after_step(load, target)
             if not is_alone:
-                self._show(phase, monitor, contacts)
+                self._show(stage, monitor, contacts)
             if carried_at is not None:
                 is_held = min(contacts.finger_forces_n) > 0.0
                 self._grip.since_tightening_s += self._step_s
@@ -136,12 +136,12 @@ class Execution:
             metrics["tightenings"] = self._grip.tightenings
         if monitor.failure is None:
             self._check_move(stage, monitor, metrics)
-        return self._result(phase, monitor, steps, metrics)
+        return self._result(step, monitor, steps, metrics)
 
-    def _targets(self, stage: Stage, reference: Reference) -> MoveTargets:
+    def _targets(self, step: MoveStep, reference: Reference) -> MoveTargets:
         return MoveTargets(
             reference,
-            reached_rad=stage.step.reached_rad if isinstance(stage.step, MoveStep) else None,
+            reached_rad=step.reached_rad,
             positions_rad=lambda: self._world.arm_state()[0],
             gravity_m_s2=self._world.scene.gravity_m_s2,
             longest_wait_steps=math.ceil(self._settling_limit_s / self._step_s),
@@ -162,15 +162,15 @@ class Execution:
         metrics.update(placed)
         monitor.note(violation)
 
-    def grasp(self, phase: str | None = None) -> PhaseResult:
+    def grip(self, step: GripStep) -> PhaseResult:
         """Close until every finger holds above the force that Coulomb friction needs."""
-        stage = self._enter(phase or self._task.grips[0])
-        name = stage.step.name
+        stage = self._enter(step)
         world, control = self._world, self._control
         scene = world.scene
         monitor = self._phase_monitor(None, scene.support)
         needed_n = self._hand.needed_force_n(self._grip.mass_kg * scene.gravity_m_s2, self._grip.friction)
-        stated_n, firm_for_s = _firmness(stage, control.firm_grasp_s)
+        stated_n = step.firm_above_n
+        firm_for_s = control.firm_grasp_s if step.firm_s is None else step.firm_s
         threshold_n = needed_n if stated_n is None else stated_n
         travel_s = self._hand.longest_travel_s
         self._grip.close()
@@ -184,7 +184,7 @@ class Execution:
         least_s = self._hand.least_closing_s - 1e-9
         while monitor.failure is None and (firm_s < firm_for_s - 1e-9 or steps * self._step_s < least_s):
             self._hold_arm_and_step()
-            contacts = self._observe(name, monitor, scene.gravity_m_s2)
+            contacts = self._observe(stage, monitor, scene.gravity_m_s2)
             steps += 1
             if steps % look_every == 0:
                 hand.look(steps)
@@ -206,12 +206,11 @@ class Execution:
         metrics["finger_travel_m"] = world.finger_travel_m()
         if monitor.failure is None:
             metrics.update(grasp_metrics(world, hand.motion, self._held_at, self._memory))
-        return self._result(name, monitor, steps, metrics)
+        return self._result(step, monitor, steps, metrics)
 
-    def place(self, phase: str | None = None) -> PhaseResult:
+    def release(self, step: ReleaseStep) -> PhaseResult:
         """Open to the initial position and wait until the object is at rest."""
-        stage = self._enter(phase or self._task.releases[0])
-        name = stage.step.name
+        stage = self._enter(step)
         world, gripper, control = self._world, self._world.gripper, self._control
         monitor, landing = self._phase_monitor(None, world.scene.place_support), LandingMonitor(world)
         drag = DragMonitor(world, control)
@@ -220,13 +219,12 @@ class Execution:
         steps = 0
         contacts = world.contacts()
         least_s = self._hand.least_opening_s - 1e-9
-        stated_m = stage.step.opened_m if isinstance(stage.step, ReleaseStep) else None
-        open_within_m = _OPEN_TOLERANCE_M if stated_m is None else stated_m
+        open_within_m = _OPEN_TOLERANCE_M if step.opened_m is None else step.opened_m
         while monitor.failure is None and (
             max(world.finger_travel_m(), default=0.0) > open_within_m or steps * self._step_s < least_s
         ):
             self._hold_arm_and_step()
-            contacts = self._observe(name, monitor, 0.0)
+            contacts = self._observe(stage, monitor, 0.0)
             monitor.note(landing.after_step())
             monitor.note(drag.after_step(contacts))
             steps += 1
@@ -239,7 +237,7 @@ class Execution:
         still_s, waited_s, stood_at = 0.0, 0.0, world.workpiece_pose()
         while still_s < control.settled_s - 1e-9 and waited_s < control.settling_timeout_s and monitor.failure is None:
             self._hold_arm_and_step()
-            contacts = self._observe(name, monitor, 0.0)
+            contacts = self._observe(stage, monitor, 0.0)
             monitor.note(landing.after_step())
             monitor.note(drag.after_step(contacts))
             steps += 1
@@ -257,32 +255,36 @@ class Execution:
         metrics["settling_s"] = waited_s - still_s
         self._check_place(monitor, metrics)
         self._objects.note_release(stage)
-        return self._result(name, monitor, steps, metrics)
+        return self._result(step, monitor, steps, metrics)
 
-    def wait(self, phase: str, duration_s: float) -> PhaseResult:
+    def wait(self, step: WaitStep) -> PhaseResult:
         """Hold the configuration for a time, with the held object."""
-        stage, world = self._enter(phase), self._world
+        return self._rest(step, step.duration_s)
+
+    def check(self, step: CheckStep) -> PhaseResult:
+        """Evaluate the conditions of a check step."""
+        before = self._world.object_pose(step.object or self._objects.stage(step.name).object)
+        rested = self._rest(step, self._control.settled_s)
+        problem = "" if rested.failure else violated_condition(self._world, self._control, step, before)
+        return replace(rested, failure=Failure.CHECK_FAILED, detail=problem) if problem else rested
+
+    def _rest(self, step: Step, duration_s: float) -> PhaseResult:
+        """Hold the configuration for a time, with the held object."""
+        stage, world = self._enter(step), self._world
         carried_at = self._held_at if stage.is_held else None
         self._grip.begin_phase()
         monitor = self._phase_monitor(carried_at, self._objects.resting_on(stage))
         steps, load_m_s2 = 0, world.scene.gravity_m_s2 if stage.is_held else 0.0
         while steps * self._step_s < duration_s - 1e-9 and monitor.failure is None:
             self._hold_arm_and_step()
-            self._observe(phase, monitor, load_m_s2)
+            self._observe(stage, monitor, load_m_s2)
             steps += 1
         monitor.finish()
-        return self._result(phase, monitor, steps, monitor.metrics())
+        return self._result(step, monitor, steps, monitor.metrics())
 
-    def check(self, step: CheckStep) -> PhaseResult:
-        """Evaluate the conditions of a check step."""
-        before = self._world.object_pose(step.object or self._objects.stage(step.name).object)
-        rested = self.wait(step.name, self._control.settled_s)
-        problem = "" if rested.failure else violated_condition(self._world, self._control, step, before)
-        return replace(rested, failure=Failure.CHECK_FAILED, detail=problem) if problem else rested
-
-    def _enter(self, phase: str) -> Stage:
+    def _enter(self, step: Step) -> Stage:
         """Begin a phase: make its object that of the world and the grip control."""
-        stage = self._objects.stage(phase)
+        stage = self._objects.stage(step.name)
         if self._objects.enter(stage):
             workpiece, rate_hz = self._world.scene.workpiece, self._world.settings.rate_hz
             self._memory = GraspGeometryCache()
@@ -317,40 +319,31 @@ class Execution:
             sensor=self._sensor,
         )
 
-    def _observe(self, phase: str, monitor: PhaseMonitor, load_m_s2: float) -> Contacts:
+    def _observe(self, stage: Stage, monitor: PhaseMonitor, load_m_s2: float) -> Contacts:
         """Observe a step in which the arm is at rest."""
         contacts = monitor.after_step(load_m_s2, None)
         if not self._is_alone:
-            self._show(phase, monitor, contacts)
+            self._show(stage, monitor, contacts)
         return contacts
 
-    def _show(self, phase: str, monitor: PhaseMonitor, contacts: Contacts) -> None:
+    def _show(self, stage: Stage, monitor: PhaseMonitor, contacts: Contacts) -> None:
         """Call the observer and the checkpoint, which may block or end the task."""
         if self._observer is not None:
-            stage = self._objects.stage(phase)
-            is_closed = stage.is_carrying or isinstance(stage.step, GripStep)
+            is_closed = stage.is_carrying or stage.step.hand is HandAction.CLOSES
             force_n = self._grip.force_n if is_closed else None
-            self._observer.after_step(self._world, phase, contacts, monitor.grip_margin, force_n)
+            self._observer.after_step(self._world, stage.step.name, contacts, monitor.grip_margin, force_n)
         if self._checkpoint is not None:
             self._checkpoint()
 
-    def _result(self, phase: str, monitor: PhaseMonitor, steps: int, metrics: dict[str, Metric]) -> PhaseResult:
+    def _result(self, step: Step, monitor: PhaseMonitor, steps: int, metrics: dict[str, Metric]) -> PhaseResult:
         monitor.note(self._objects.displaced(self._control.displaced_m))
         pose = self._world.workpiece_pose()
         metrics["workpiece_position_m"] = pose.position_m
         metrics["workpiece_tilt_rad"] = pose.tilt_rad
         return PhaseResult(
-            phase=phase,
+            phase=step.name,
             failure=monitor.failure,
             detail=monitor.detail,
             duration_s=steps * self._step_s,
             metrics=metrics,
         )
-
-
-def _firmness(stage: Stage, common_s: float) -> tuple[float | None, float]:
-    """Threshold of every finger's force, None if the step does not state one, and its duration."""
-    step = stage.step
-    if not isinstance(step, GripStep):
-        return None, common_s
-    return step.firm_above_n, common_s if step.firm_s is None else step.firm_s

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, Step, TaskProgram, WaitStep, no_branch_for
+from rgss.tasks import MoveStep, TaskProgram
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants import Plant
 from rgss.trials.reference import Reference
@@ -40,25 +40,13 @@ def run_program(
     for step in steps:
         if checkpoint is not None:
             checkpoint()
-        if isinstance(step, MoveStep) and step.name not in references:
+        if not isinstance(step, MoveStep):
+            result = step.run(plant)
+        elif step.name in references:
+            result = plant.move(step, references[step.name])
+        else:
             break
-        result = _run_step(plant, step, references)
         results.append(result)
         if result.failure is not None:
             break
     return tuple(results)
-
-
-def _run_step(plant: Plant, step: Step, references: Mapping[str, Reference]) -> PhaseResult:
-    """Result of one step on the plant."""
-    if isinstance(step, MoveStep):
-        return plant.move(step.name, references[step.name])
-    if isinstance(step, GripStep):
-        return plant.grasp(step.name)
-    if isinstance(step, ReleaseStep):
-        return plant.place(step.name)
-    if isinstance(step, WaitStep):
-        return plant.wait(step.name, step.duration_s)
-    if isinstance(step, CheckStep):
-        return plant.check(step)
-    raise no_branch_for(step)

@@ -17,7 +17,7 @@ from rgss.scenes import (
     scene_about,
     waypoint_poses,
 )
-from rgss.tasks import GripStep, MoveStep, ReleaseStep, Stage, Target, TaskProgram, stages_of
+from rgss.tasks import HandAction, MoveStep, Stage, Target, TaskProgram, stages_of
 
 _AT_PLACE = (Waypoint.PLACE_APPROACH, Waypoint.PLACE)
 
@@ -101,9 +101,9 @@ def route_of(scene: Scene, geometry: GripperGeometry, task: TaskProgram) -> Rout
         if isinstance(stage.step, MoveStep):
             visited.append(cell.stop_of(stage.step.target, stage))
             moves.append((stage.step, *cell.context_of(stage)))
-        elif isinstance(stage.step, GripStep):
+        elif stage.step.hand is HandAction.CLOSES:
             cell.grip(stage)
-        elif isinstance(stage.step, ReleaseStep):
+        elif stage.step.hand is HandAction.OPENS:
             cell.release(stage)
     stops, indices = _numbered(visited)
     legs = tuple(

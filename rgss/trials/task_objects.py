@@ -7,7 +7,7 @@ import math
 from rgss.evidence import Failure
 from rgss.physics import ContactWorld
 from rgss.scenes import ObjectPlacement, Pose, Scene, initial_placements, scene_about
-from rgss.tasks import ReleaseStep, Stage, TaskProgram, stages_of
+from rgss.tasks import HandAction, Stage, TaskProgram, stages_of
 from rgss.trials.object_checks import moved_by_itself
 
 
@@ -81,7 +81,7 @@ class TaskObjects:
         Args:
             stage: The stage.
         """
-        if isinstance(stage.step, ReleaseStep) or stage.is_retreat:
+        if stage.step.hand is HandAction.OPENS or stage.is_retreat:
             return self._world.scene.place_support
         if not stage.is_held or stage.is_standing:
             return self._supports[stage.object]

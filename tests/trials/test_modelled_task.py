@@ -19,7 +19,7 @@ from rgss.motion import PlanningClock, TimingOutcome
 from rgss.physics import Contacts, HandView, PhysicsSettings
 from rgss.requirements import StateKind, load_requirements
 from rgss.scenes import Pose
-from rgss.tasks import default_task
+from rgss.tasks import MoveStep, default_task
 from rgss.trials import timing
 from rgss.trials.execution import Execution
 from rgss.trials.phase_result import PhaseResult
@@ -30,7 +30,7 @@ from rgss.trials.record import assemble_record
 from rgss.trials.reference import Reference
 from rgss.trials.route import route_of
 from rgss.trials.timing import time_task
-from tests.fixtures.eight_states import CARRYING, PLANNED_PHASES, Phase
+from tests.fixtures.eight_states import CARRYING, PLANNED_PHASES, Phase, step_of
 
 PHASES = tuple(Phase)
 MOVES = tuple(phase for phase in Phase if phase not in (Phase.GRASP, Phase.PLACE))
@@ -73,15 +73,15 @@ class ScriptedPlant:
     def start(self, configuration_rad):
         pass
 
-    def move(self, phase, reference):
-        failure = self._by if phase == self._fails_in else None
-        return PhaseResult(phase=phase, failure=failure, detail="", duration_s=1.0, metrics={})
+    def move(self, step, reference):
+        failure = self._by if step.name == self._fails_in else None
+        return PhaseResult(phase=step.name, failure=failure, detail="", duration_s=1.0, metrics={})
 
-    def grasp(self, phase=Phase.GRASP):
-        return self.move(Phase.GRASP, None)
+    def grip(self, step):
+        return self.move(step, None)
 
-    def place(self, phase=Phase.PLACE):
-        return self.move(Phase.PLACE, None)
+    def release(self, step):
+        return self.move(step, None)
 
 
 def reference(tool_m=(0.0, 0.0, 0.0)):
@@ -221,7 +221,7 @@ def physical_failures(spec):
             execution = Execution(world, REFERENCES, ControlSettings(), world, task=default_task())
             execution.start((0.0,) * 6)
             if phase in CARRYING:
-                assert execution.grasp().failure is None
+                assert execution.grip(step_of(Phase.GRASP)).failure is None
             world.enter(phase)
             assert result_of(execution, world, phase).failure is None, phase
             world.enter(phase)
@@ -232,11 +232,10 @@ def physical_failures(spec):
 
 
 def result_of(execution, world, phase):
-    if phase == Phase.GRASP:
-        return execution.grasp()
-    if phase == Phase.PLACE:
-        return execution.place()
-    return execution.move(phase, reference(world.scene.grasp.position_m))
+    step = step_of(phase)
+    if isinstance(step, MoveStep):
+        return execution.move(step, reference(world.scene.grasp.position_m))
+    return step.run(execution)
 
 
 class ScriptedWorld:

@@ -12,6 +12,7 @@ from rgss.scenes import Pose
 from rgss.tasks import default_task
 from rgss.trials.execution import Execution
 from rgss.trials.plants.control import ControlSettings
+from tests.fixtures.eight_states import Phase, step_of
 
 pytestmark = pytest.mark.engine
 
@@ -55,7 +56,7 @@ def place(spec_of):
                 world, {}, CONTROL, Arm(scene.robot, spec.gripper.geometry.grasp_centre), task=default_task()
             )
             execution.start(scene.robot.home_rad)
-            return execution.place()
+            return execution.release(step_of(Phase.PLACE))
 
     return run
 

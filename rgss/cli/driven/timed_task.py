@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 from rgss.drivers import GripperState, Segment, TimedTask
 from rgss.errors import MotionError
-from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, WaitStep, no_branch_for
 
 if TYPE_CHECKING:
+    from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, Step, StepMachine, WaitStep
     from rgss.trials import TaskPlan, TaskTiming, TrialSpec
 
 
@@ -23,42 +23,45 @@ def timed_task(spec: TrialSpec, plan: TaskPlan, timing: TaskTiming) -> TimedTask
     Raises:
         MotionError: A move was not planned or timed.
     """
-    state, segments = GripperState.OPEN, []
-    for step in spec.task.steps:
-        if isinstance(step, GripStep):
-            state = GripperState.CLOSED
-        elif isinstance(step, ReleaseStep):
-            state = GripperState.OPEN
-        # A driver does not report the quantities that a check observes.
-        if not isinstance(step, CheckStep):
-            segments.append(_segment(step, state, spec, plan, timing))
-    return TimedTask(segments=tuple(segments))
+    recorder: StepMachine[Segment | None] = _Recorder(spec, plan, timing)
+    segments = (step.run(recorder) for step in spec.task.steps)
+    return TimedTask(segments=tuple(segment for segment in segments if segment is not None))
 
 
-def _segment(
-    step: MoveStep | GripStep | ReleaseStep | WaitStep,
-    state: GripperState,
-    spec: TrialSpec,
-    plan: TaskPlan,
-    timing: TaskTiming,
-) -> Segment:
-    """One step: a motion, or a wait with the gripper in a state."""
-    control, gripper = spec.settings.control, spec.gripper
-    travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
-    if isinstance(step, GripStep):
-        return Segment(name=step.name, gripper=state, wait_s=travel_s + control.firm_grasp_s)
-    if isinstance(step, ReleaseStep):
-        return Segment(name=step.name, gripper=state, wait_s=travel_s + control.settled_s)
-    if isinstance(step, WaitStep):
-        return Segment(name=step.name, gripper=state, wait_s=step.duration_s)
-    if isinstance(step, MoveStep):
-        if step.name not in timing.trajectories:
+class _Recorder:
+    """Machine that turns each step into a segment: a motion, or a wait with the gripper in a state."""
+
+    def __init__(self, spec: TrialSpec, plan: TaskPlan, timing: TaskTiming) -> None:
+        self._control = spec.settings.control
+        self._travel_s = spec.gripper.geometry.stroke_m / spec.gripper.finger_velocity_m_s
+        self._plan = plan
+        self._timing = timing
+        self._state = GripperState.OPEN
+
+    def move(self, step: MoveStep) -> Segment:
+        if step.name not in self._timing.trajectories:
             raise MotionError(
-                f"the move {step.name} cannot be sent to a robot: {_reason(step.name, plan, timing)}",
+                f"the move {step.name} cannot be sent to a robot: {_reason(step.name, self._plan, self._timing)}",
                 hint="'rgss run' without --driver shows the trial",
             )
-        return Segment(name=step.name, gripper=state, motion=timing.trajectories[step.name])
-    raise no_branch_for(step)
+        return Segment(name=step.name, gripper=self._state, motion=self._timing.trajectories[step.name])
+
+    def grip(self, step: GripStep) -> Segment:
+        self._state = GripperState.CLOSED
+        return self._rest(step, self._travel_s + self._control.firm_grasp_s)
+
+    def release(self, step: ReleaseStep) -> Segment:
+        self._state = GripperState.OPEN
+        return self._rest(step, self._travel_s + self._control.settled_s)
+
+    def wait(self, step: WaitStep) -> Segment:
+        return self._rest(step, step.duration_s)
+
+    def check(self, step: CheckStep) -> None:
+        """No segment: a driver does not report the quantities that a check observes."""
+
+    def _rest(self, step: Step, duration_s: float) -> Segment:
+        return Segment(name=step.name, gripper=self._state, wait_s=duration_s)
 
 
 def _reason(phase: str, plan: TaskPlan, timing: TaskTiming) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rgss.findings import Finding
-from rgss.tasks import CheckStep, LoadedTask
+from rgss.tasks import LoadedTask
 from rgss.trials import ControlMode, JointController, least_stable_rate_hz, stated_in_step
 
 _ANY_JOINT = ""
@@ -21,7 +21,7 @@ def step_control_findings(loaded: LoadedTask, controller: JointController, *, ra
     """
     seen = set()
     for step, at in zip(loaded.program.steps, loaded.places, strict=True):
-        if isinstance(step, CheckStep) or step.control is None or at in seen:
+        if step.control is None or at in seen:
             continue
         seen.add(at)
         own = stated_in_step(controller, step.control)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from rgss.evidence import Metric
 from rgss.scenes import ChosenGrasp, Scene
-from rgss.tasks import GripStep, TaskProgram, stages_of
+from rgss.tasks import HandAction, TaskProgram, stages_of
 from rgss.trials.phase_result import PhaseResult
 
 
@@ -23,7 +23,7 @@ def with_chosen_grasp(results: Iterable[PhaseResult], scene: Scene, task: TaskPr
     of_phase = {
         stage.step.name: _metrics(taken[stage.object])
         for stage in stages_of(task, scene.workpiece.id)
-        if isinstance(stage.step, GripStep) and stage.object in taken
+        if stage.step.hand is HandAction.CLOSES and stage.object in taken
     }
     return tuple(
         replace(one, metrics={**one.metrics, **of_phase[one.phase]}) if one.phase in of_phase else one

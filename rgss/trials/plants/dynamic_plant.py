@@ -16,7 +16,7 @@ from rgss.evidence import Failure, Metric
 from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
 from rgss.scenes import Gripper, Pose, Scene, Workpiece, grasp_opening_m
-from rgss.tasks import CheckStep, StepControl, TaskProgram
+from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, Step, StepControl, TaskProgram, WaitStep
 from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics_by_differences
@@ -89,12 +89,12 @@ class DynamicPlant:
         self._at_rad = np.array(configuration_rad)
         self._machine.reset(configuration_rad, 0.0)
 
-    def move(self, phase: str, reference: Reference) -> PhaseResult:
+    def move(self, step: MoveStep, reference: Reference) -> PhaseResult:
         """Follow the targets until the end is reached."""
         log = self._log()
-        self._enter(phase)
+        self._enter(step)
         log.positions_rad.append(np.array(self._machine.state()[0]))
-        self._followed[phase] = log.positions_rad
+        self._followed[step.name] = log.positions_rad
         target = reference.positions_rad
         # The engine adds an acceleration to the speed of the previous step, and that speed to the position.
         speeds = np.vstack([np.zeros((1, target.shape[1])), reference.velocities_rad_s])
@@ -107,42 +107,38 @@ class DynamicPlant:
         log.arm.note_tool(tool)
         self._at_rad = target[-1]
         failure, detail = None, ""
-        if (
-            not self._settle(log, self._grips.reached_rad(phase))
-            or tool["tracking_error_m"] > self._control.largest_tracking_error_m
-        ):
+        if not self._settle(log, step.reached_rad) or tool["tracking_error_m"] > self._control.largest_tracking_error_m:
             failure, detail = Failure.TRACKING_ERROR, log.arm.tracking_failure(tool["tracking_error_m"])
-            stated_rad = self._grips.reached_rad(phase)
+            stated_rad = step.reached_rad
             if stated_rad is not None and tool["tracking_error_m"] <= self._control.largest_tracking_error_m:
                 detail = f"a joint is {self._error_rad():.2g} from its target, at most {stated_rad:.2g} are allowed"
-        return self._result(phase, log, failure, detail, {})
+        return self._result(step.name, log, failure, detail, {})
 
-    def grasp(self, phase: str | None = None) -> PhaseResult:
+    def grip(self, step: GripStep) -> PhaseResult:
         """Close: the arm rests for the fingers' travel and the duration of a firm grasp."""
-        name = phase or self._grips.first_grip
-        view = self._grips.view_of(name)
+        view = self._grips.view_of(step)
         misfit = self._hand.misfit(view)
         if misfit:
-            waited = self._wait(name, self._hand.longest_travel_s + self._control.grasp_timeout_s, {})
+            waited = self._rest(step, self._hand.longest_travel_s + self._control.grasp_timeout_s, {})
             return replace(waited, failure=Failure.NO_FIRM_GRASP, detail=misfit)
-        result = self._wait(name, self._hand.closing_s(view, self._grips.firm_s(name, self._control.firm_grasp_s)), {})
-        self._machine.hold_fingers(self._grips.travel_m(name))
+        firm_s = self._control.firm_grasp_s if step.firm_s is None else step.firm_s
+        result = self._rest(step, self._hand.closing_s(view, firm_s), {})
+        self._machine.hold_fingers(self._grips.travel_m(step))
         self._machine.attach(view.workpiece, _held_at(view))
         self._model = self._loaded_with(view)
         return result
 
-    def place(self, phase: str | None = None) -> PhaseResult:
+    def release(self, step: ReleaseStep) -> PhaseResult:
         """Open: the arm rests for the fingers' travel."""
-        name = phase or self._grips.first_release
         self._machine.detach()
         self._machine.hold_fingers(0.0)
         self._model = self._empty
-        opening_s = self._hand.opening_s(self._grips.view_of(name))
-        return self._wait(name, opening_s, {"opening_s": opening_s})
+        opening_s = self._hand.opening_s(self._grips.view_of(step))
+        return self._rest(step, opening_s, {"opening_s": opening_s})
 
-    def wait(self, phase: str, duration_s: float) -> PhaseResult:
+    def wait(self, step: WaitStep) -> PhaseResult:
         """Hold the configuration with the held object."""
-        return self._wait(phase, duration_s, {})
+        return self._rest(step, step.duration_s, {})
 
     def check(self, step: CheckStep) -> PhaseResult:
         """Assume that the conditions hold: objects that are not held are not modelled."""
@@ -151,9 +147,9 @@ class DynamicPlant:
     def _law_of(self, controller: JointController) -> ControlLaw:
         return control_law(controller, self._scene.robot.joints, step_s=self._step_s, tool=self._arm)
 
-    def _enter(self, phase: str) -> None:
+    def _enter(self, step: Step) -> None:
         """Begin a step with its own control or that of the study; a new control law starts at rest."""
-        own = self._grips.control_in(phase)
+        own = step.control
         if own != self._own_control:
             self._own_control = own
             self._law = self._law_of(self._controller if own is None else stated_in_step(self._controller, own))
@@ -170,13 +166,13 @@ class DynamicPlant:
             self._loaded[workpiece.id] = ArmDynamics(view.robot, (*loads, held), gravity_m_s2=view.gravity_m_s2)
         return self._loaded[workpiece.id]
 
-    def _wait(self, phase: str, duration_s: float, metrics: dict[str, Metric]) -> PhaseResult:
+    def _rest(self, step: Step, duration_s: float, metrics: dict[str, Metric]) -> PhaseResult:
         log = self._log()
-        self._enter(phase)
+        self._enter(step)
         still = np.zeros(len(self._at_rad))
         for _ in range(math.ceil(duration_s / self._step_s)):
             self._drive(self._at_rad, still, still, log)
-        return self._result(phase, log, None, "", metrics)
+        return self._result(step.name, log, None, "", metrics)
 
     def _log(self) -> _Log:
         return _Log(arm=ArmObservations(self._scene.robot.joints, self._step_s))

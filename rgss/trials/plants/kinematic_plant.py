@@ -14,7 +14,7 @@ import numpy as np
 
 from rgss.evidence import Failure, Metric
 from rgss.scenes import Gripper, Joint
-from rgss.tasks import CheckStep
+from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, WaitStep
 from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import tool_metrics_by_differences
@@ -78,9 +78,9 @@ class KinematicPlant:
     def start(self, configuration_rad: Sequence[float]) -> None:
         """Put the arm at a configuration; the model has no state between moves, since each ends at rest."""
 
-    def move(self, phase: str, reference: Reference) -> PhaseResult:
+    def move(self, step: MoveStep, reference: Reference) -> PhaseResult:
         """Follow the targets with the joints' response and wait until the end is reached."""
-        deviation = self._deviation(reference.positions_rad, self._grips.reached_rad(phase))
+        deviation = self._deviation(reference.positions_rad, step.reached_rad)
         held = np.vstack([reference.positions_rad, np.repeat(reference.positions_rad[-1:], len(deviation), axis=0)])
         actual = held[: len(deviation)] + deviation
         tool_m = np.asarray(self._tool.tool_position(actual))
@@ -89,7 +89,7 @@ class KinematicPlant:
         )
         peaks_rad_s = np.abs(np.diff(actual, axis=0)).max(axis=0, initial=0.0) / self._step_s
         return self._result(
-            phase,
+            step.name,
             (len(deviation) - 1) * self._step_s,
             {
                 **tool_metrics_by_differences(tool_m, wanted_m, step_s=self._step_s),
@@ -97,25 +97,24 @@ class KinematicPlant:
             },
         )
 
-    def grasp(self, phase: str | None = None) -> PhaseResult:
+    def grip(self, step: GripStep) -> PhaseResult:
         """Close: the travel at the finger velocity, then the duration of a firm grasp."""
-        name = phase or self._grips.first_grip
-        view = self._grips.view_of(name)
+        view = self._grips.view_of(step)
         misfit = self._hand.misfit(view)
         if misfit:
             waited_s = self._hand.longest_travel_s + self._control.grasp_timeout_s
-            return replace(self._result(name, waited_s, {}), failure=Failure.NO_FIRM_GRASP, detail=misfit)
-        return self._result(name, self._hand.closing_s(view, self._grips.firm_s(name, self._control.firm_grasp_s)), {})
+            return replace(self._result(step.name, waited_s, {}), failure=Failure.NO_FIRM_GRASP, detail=misfit)
+        firm_s = self._control.firm_grasp_s if step.firm_s is None else step.firm_s
+        return self._result(step.name, self._hand.closing_s(view, firm_s), {})
 
-    def place(self, phase: str | None = None) -> PhaseResult:
+    def release(self, step: ReleaseStep) -> PhaseResult:
         """Open: the same travel back."""
-        name = phase or self._grips.first_release
-        opening_s = self._hand.opening_s(self._grips.view_of(name))
-        return self._result(name, opening_s, {"opening_s": opening_s})
+        opening_s = self._hand.opening_s(self._grips.view_of(step))
+        return self._result(step.name, opening_s, {"opening_s": opening_s})
 
-    def wait(self, phase: str, duration_s: float) -> PhaseResult:
+    def wait(self, step: WaitStep) -> PhaseResult:
         """Hold the configuration."""
-        return self._result(phase, duration_s, {})
+        return self._result(step.name, step.duration_s, {})
 
     def check(self, step: CheckStep) -> PhaseResult:
         """Assume that the conditions hold: objects are not modelled."""

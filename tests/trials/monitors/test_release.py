@@ -22,7 +22,7 @@ from rgss.trials.plants.control import ControlSettings
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import workcell_of
-from tests.fixtures.eight_states import Phase
+from tests.fixtures.eight_states import Phase, step_of
 
 CONTROL = ControlSettings()
 
@@ -59,7 +59,7 @@ def landed(spec_of):
                 world, {}, CONTROL, Arm(scene.robot, spec.gripper.geometry.grasp_centre), task=default_task()
             )
             execution.start(scene.robot.home_rad)
-            return execution.place()
+            return execution.release(step_of(Phase.PLACE))
 
     return run
 

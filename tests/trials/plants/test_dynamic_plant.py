@@ -21,7 +21,7 @@ from rgss.trials.record import assemble_record
 from rgss.trials.reference import Reference, reference_of
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import Workcell
-from tests.fixtures.eight_states import Phase
+from tests.fixtures.eight_states import Phase, step_of
 
 pytestmark = pytest.mark.engine
 
@@ -239,7 +239,7 @@ def test_an_end_that_is_not_reached_is_a_failure_after_half_a_second(planned):
     with machine_of(planned) as machine:
         plant = plant_of(planned, machine, controller=JointController(natural_frequency_rad_s=1.0))
         plant.start(at)
-        result = plant.move(Phase.LIFT, jump)
+        result = plant.move(step_of(Phase.LIFT), jump)
     assert result.failure is Failure.TRACKING_ERROR
     assert result.duration_s == pytest.approx(0.5 + 1 / 240)
 
@@ -251,11 +251,11 @@ def test_the_object_weighs_on_the_joints_from_the_grasp_to_the_release(planned):
     with machine_of(planned) as machine:
         plant = plant_of(planned, machine)
         plant.start(at)
-        before = plant.move(Phase.LIFT, wait)
-        grasp = plant.grasp()
-        carrying = plant.move(Phase.LIFT, wait)
-        place = plant.place()
-        after = plant.move(Phase.LIFT, wait)
+        before = plant.move(step_of(Phase.LIFT), wait)
+        grasp = plant.grip(step_of(Phase.GRASP))
+        carrying = plant.move(step_of(Phase.LIFT), wait)
+        place = plant.release(step_of(Phase.PLACE))
+        after = plant.move(step_of(Phase.LIFT), wait)
     rest, closed, opened = np.zeros(6), spec.scene.workpiece.shape.radius_m, spec.gripper.geometry.largest_opening_m
     held = workpiece_load(spec.scene.workpiece, spec.gripper.geometry.grasp_centre)
 
@@ -303,6 +303,6 @@ def test_a_checkpoint_is_passed_before_every_step(planned):
         plant = plant_of(planned, machine, checkpoint=lambda: passed.append(machine.state()))
         at = planned.spec.scene.robot.home_rad
         plant.start(at)
-        plant.move(Phase.LIFT, still(at, planned.cell, 10))
+        plant.move(step_of(Phase.LIFT), still(at, planned.cell, 10))
     assert len(passed) == 10
     assert all(first[0] == pytest.approx(second[0], abs=1e-4) for first, second in pairwise(passed))

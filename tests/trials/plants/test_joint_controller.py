@@ -13,7 +13,7 @@ from rgss.trials.plants import DynamicPlant
 from rgss.trials.plants.joint_controller import control_law
 from rgss.trials.reference import Reference
 from rgss.trials.workcell import cell_of
-from tests.fixtures.eight_states import Phase
+from tests.fixtures.eight_states import Phase, step_of
 
 RATE_HZ = 2000.0
 OFFSET_RAD = 0.02
@@ -59,7 +59,7 @@ def followed(spec):
                 checkpoint=lambda: states.append(machine.state()[0]),
             )
             plant.start(targets[0] if start is None else start)
-            result = plant.move(Phase.LIFT, reference)
+            result = plant.move(step_of(Phase.LIFT), reference)
         assert result.metrics["joint_saturated_s"] == (0.0,) * len(targets[0])
         return np.array(states)[: len(targets)]
 

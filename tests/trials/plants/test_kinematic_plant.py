@@ -17,7 +17,7 @@ from rgss.trials.pieces.run import run_trial
 from rgss.trials.plants.control import ControlSettings
 from rgss.trials.plants.kinematic_plant import JointResponse, KinematicPlant
 from rgss.trials.reference import Reference
-from tests.fixtures.eight_states import Phase
+from tests.fixtures.eight_states import Phase, step_of
 
 ROOT = Path(__file__).parents[3]
 STEP_S = 1.0 / 240.0
@@ -82,21 +82,13 @@ def gripper_with(**changes):
 class Grips:
     """One object, round which the hand opens to a radius."""
 
-    first_grip, first_release = "grasp", "place"
+    def __init__(self, radius_m):
+        self.radius_m = radius_m
 
-    def __init__(self, gripper, radius_m, within_rad=None):
-        self.gripper, self.radius_m, self.within_rad = gripper, radius_m, within_rad
-
-    def view_of(self, phase):
+    def view_of(self, step):
         scene = load_scene(ROOT / "scenes" / "restaurant.yaml")
         shape = replace(scene.workpiece.shape, radius_m=self.radius_m)
         return replace(scene, workpiece=replace(scene.workpiece, shape=shape))
-
-    def reached_rad(self, phase):
-        return self.within_rad
-
-    def firm_s(self, phase, common_s):
-        return common_s
 
 
 def plant_with(tool=None, *, step_s=STEP_S, response=None, radius_m=0.035, control=None, **gripper):
@@ -104,7 +96,7 @@ def plant_with(tool=None, *, step_s=STEP_S, response=None, radius_m=0.035, contr
         tool or Tool(),
         JOINTS,
         gripper_with(**gripper),
-        Grips(gripper_with(**gripper), radius_m),
+        Grips(radius_m),
         control or ControlSettings(),
         step_s=step_s,
         response=response,
@@ -130,7 +122,7 @@ def reference_from(angle, duration_s, step_s=STEP_S):
 def deviation(response, reference, step_s=STEP_S):
     """Where the joints were, less where they should have been, for the first joint; and the phase's result."""
     tool = Tool()
-    result = plant_with(tool, step_s=step_s, response=response).move(Phase.LIFT, reference)
+    result = plant_with(tool, step_s=step_s, response=response).move(step_of(Phase.LIFT), reference)
     rows = len(tool.seen)
     ends = np.repeat(reference.positions_rad[-1:], rows, axis=0)
     wanted = np.vstack([reference.positions_rad, ends])[:rows]
@@ -278,7 +270,7 @@ def test_the_deviation_is_of_the_tool_also_after_the_last_target():
 def test_the_hand_takes_the_time_of_the_fingers_travel():
     control = replace(ControlSettings(), firm_grasp_s=0.08)
     plant = plant_with(radius_m=0.030, control=control)
-    closed, opened = plant.grasp(), plant.place()
+    closed, opened = plant.grip(step_of(Phase.GRASP)), plant.release(step_of(Phase.PLACE))
     assert closed.duration_s == pytest.approx(0.040 / 0.04 + 0.08)
     assert opened.duration_s == pytest.approx(0.040 / 0.04)
     assert (closed.phase, closed.metrics) == (Phase.GRASP, {})
@@ -287,17 +279,17 @@ def test_the_hand_takes_the_time_of_the_fingers_travel():
 
 def test_the_fingers_travel_no_further_than_their_stroke():
     plant = plant_with(radius_m=0.010, finger_velocity_m_s=0.02)
-    assert plant.place().duration_s == pytest.approx(0.048 / 0.02)
+    assert plant.release(step_of(Phase.PLACE)).duration_s == pytest.approx(0.048 / 0.02)
 
 
 def test_moves_do_not_depend_on_those_before():
     reference = reference_from(wave(0.3, 5.0), 1.0)
     plant = plant_with()
     plant.start((0.0,) * 6)
-    first = plant.move(Phase.LIFT, reference)
-    plant.move(Phase.LIFT, reference_from(ramp(3.0), 0.2))
-    plant.grasp()
-    assert plant.move(Phase.LIFT, reference) == first
+    first = plant.move(step_of(Phase.LIFT), reference)
+    plant.move(step_of(Phase.LIFT), reference_from(ramp(3.0), 0.2))
+    plant.grip(step_of(Phase.GRASP))
+    assert plant.move(step_of(Phase.LIFT), reference) == first
 
 
 @pytest.mark.engine

@@ -6,12 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from rgss.documents import Document
 from rgss.findings import Finding
-from rgss.tasks.grip_step import GripStep
-from rgss.tasks.move_step import MoveStep
-from rgss.tasks.program import Step
-from rgss.tasks.release_step import ReleaseStep
-
-Location = tuple[str | int, ...]
+from rgss.tasks.reading.reader import Location
+from rgss.tasks.steps import HandAction, MoveStep, Step
 
 
 def hand_findings(document: Document, placed: Sequence[tuple[Step, Location]]) -> Iterator[Finding]:
@@ -23,7 +19,7 @@ def hand_findings(document: Document, placed: Sequence[tuple[Step, Location]]) -
     """
     is_held = False
     for index, (step, at) in enumerate(placed):
-        if isinstance(step, GripStep):
+        if step.hand is HandAction.CLOSES:
             if is_held:
                 message = f"{step.name!r} grips while an object is held"
                 yield document.finding("task.grip", message, at, hint="add a release before it")
@@ -31,7 +27,7 @@ def hand_findings(document: Document, placed: Sequence[tuple[Step, Location]]) -
                 message = f"{step.name!r} needs a move before it that brings the hand to the object"
                 yield document.finding("task.grip", message, at, hint="add a move to grasp before it")
             is_held = True
-        elif isinstance(step, ReleaseStep):
+        elif step.hand is HandAction.OPENS:
             if not is_held:
                 message = f"{step.name!r} releases, and nothing is held"
                 yield document.finding("task.release", message, at, hint="add a grip before it")

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 from rgss.scenes import Pose
-from rgss.tasks.move_kinds import MoveKind
-from rgss.tasks.step_settings import StepControl
+from rgss.tasks.steps.base import Mention, Named, Result, Result_co, TaskStep
+from rgss.tasks.steps.move_kind import MoveKind
+from rgss.tasks.steps.step_control import StepControl
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,13 +33,27 @@ class Target:
     configuration_rad: tuple[float, ...] = ()
     pose: Pose | None = None
 
+    @property
+    def mentions(self) -> tuple[Mention, ...]:
+        """The things of the scene that it names."""
+        return (
+            Mention(kind=Named.OBJECT, name=self.object),
+            Mention(kind=Named.PLACE, name=self.place, key=("place",)),
+        )
+
+
+class MovingMachine(Protocol[Result_co]):
+    """Machine that moves its arm."""
+
+    def move(self, step: MoveStep) -> Result_co:
+        """Move as a step says."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MoveStep:
+class MoveStep(TaskStep):
     """A move of the arm.
 
     Attributes:
-        name: Name of the phase.
         target: Its target.
         mode: Planned by a planner, straight line of the tool, or straight line in joint space.
         speed_share: Share of the tool speed of the design.
@@ -48,7 +64,6 @@ class MoveStep:
         control: Joint control; None for that of the study.
     """
 
-    name: str
     target: Target
     mode: MoveKind = MoveKind.PLANNED
     speed_share: float = 1.0
@@ -56,3 +71,12 @@ class MoveStep:
     resolution_rad: float | None = None
     reached_rad: float | None = None
     control: StepControl | None = None
+
+    @property
+    def mentions(self) -> tuple[Mention, ...]:
+        """The things of the scene that its target names."""
+        return self.target.mentions
+
+    def run(self, machine: MovingMachine[Result]) -> Result:
+        """Run it on a machine."""
+        return machine.move(self)

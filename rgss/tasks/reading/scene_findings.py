@@ -1,0 +1,58 @@
+"""Findings about a task in a scene: unknown objects and places, configurations out of range."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from rgss.findings import Finding
+from rgss.scenes import Scene
+from rgss.tasks.reading.reader import Location
+from rgss.tasks.reading.task_file import LoadedTask
+from rgss.tasks.steps import Mention, MoveStep, Named, Target
+
+
+def task_findings(loaded: LoadedTask, scene: Scene) -> tuple[Finding, ...]:
+    """Findings about a task in a scene.
+
+    Args:
+        loaded: The task with its positions in the file.
+        scene: The scene.
+    """
+    found: list[Finding] = []
+    start = loaded.program.start
+    if start is not None:
+        found += _of_mentions(loaded, scene, start.mentions, ("start",))
+        found += _of_joints(loaded, scene, start)
+    for step, at in zip(loaded.program.steps, loaded.places, strict=True):
+        found += _of_mentions(loaded, scene, step.mentions, at)
+        if isinstance(step, MoveStep):
+            found += _of_joints(loaded, scene, step.target)
+    return tuple(sorted(set(found)))
+
+
+def _of_mentions(loaded: LoadedTask, scene: Scene, mentions: Iterable[Mention], at: Location) -> Iterator[Finding]:
+    """Names that the scene does not have."""
+    objects, places = [one.workpiece.id for one in scene.objects], [one.id for one in scene.places]
+    for mention in mentions:
+        kind, known = mention.kind.value, objects if mention.kind is Named.OBJECT else places
+        if mention.name and mention.name not in known:
+            message = f"there is no {kind} {mention.name!r}"
+            hint = f"{kind}s: {', '.join(known)}" if known else "list it under places in the scene"
+            yield loaded.document.finding(f"task.unknown-{kind}", message, (*at, *mention.key), hint=hint)
+
+
+def _of_joints(loaded: LoadedTask, scene: Scene, target: Target) -> Iterator[Finding]:
+    angles, joints = target.configuration_rad, scene.robot.joints
+    if not angles:
+        return
+    place = ("configurations", target.name)
+    if len(angles) != len(joints):
+        message = f"configuration {target.name!r} has {len(angles)} joints, the robot has {len(joints)}"
+        hint = f"joints: {', '.join(joint.name for joint in joints)}"
+        yield loaded.document.finding("task.joints", message, place, hint=hint)
+        return
+    for index, (angle, joint) in enumerate(zip(angles, joints, strict=True)):
+        if not joint.lower_rad <= angle <= joint.upper_rad:
+            message = f"{joint.name} is at {angle:.4g}, outside its range"
+            hint = f"from {joint.lower_rad:.4g} to {joint.upper_rad:.4g}"
+            yield loaded.document.finding("task.joint-range", message, (*place, index), hint=hint)
