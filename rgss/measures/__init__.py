@@ -19,6 +19,7 @@ from rgss.measures.evaluation import COMPLETE, design_values, evaluate, trial_va
 from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
 from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.loading import load_measures
+from rgss.measures.ranges import Range
 from rgss.measures.ratios import ratio_values
 from rgss.measures.readings import with_alternative
 from rgss.measures.verdicts import StaleCause, Verdict, judge, meets

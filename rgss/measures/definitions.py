@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import Annotated, Any
 
@@ -12,6 +12,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema
 from rgss.documents import DocumentModel, Identifier, QuantityText, Text, UnitText
 from rgss.errors import DefinitionError
 from rgss.measures.expressions import Expression
+from rgss.measures.ranges import Range
 from rgss.quantities import dimension
 
 _NEVER_NEGATIVE = tuple(((name, 1.0),) for name in ("time", "mass", "currency"))
@@ -230,6 +231,7 @@ class MeasureSet:
         evaluation_order: The measures in topological order.
         used: For each measure, the ids of all measures and the symbols of all inputs and constants on which it depends,
         directly or not.
+        metric_ranges: Ranges of metrics of trials, in SI; a metric that is absent may have any value.
     """
 
     constants: tuple[Constant, ...]
@@ -239,6 +241,7 @@ class MeasureSet:
     measures: tuple[Measure, ...]
     evaluation_order: tuple[Measure, ...]
     used: Mapping[str, frozenset[str]]
+    metric_ranges: Mapping[str, Range] = field(default_factory=dict)
 
     def measure(self, id: str) -> Measure:  # noqa: A002 - the domain's word
         """Measure by id.

@@ -9,6 +9,8 @@ from rgss.errors import DefinitionError
 from rgss.measures.definitions import Estimator, InputSymbol, Measure, MeasureSet, Population
 from rgss.measures.estimates import Estimate, mean_estimate, proportion_estimate
 from rgss.measures.functions import FUNCTIONS, Value
+from rgss.measures.possible_values import possible_ranges
+from rgss.measures.ranges import Range
 from rgss.measures.ratios import ratio_values
 
 Observed = float | int | None | Sequence[float | int | None]
@@ -49,6 +51,7 @@ def evaluate(
     design = design_values(measure_set, fixed=fixed, variant=variant)
     rows = [trial_values(measure_set, design=design, trial=trial) for trial in trials]
     successes = [trial.get("success") == 1 for trial in trials]
+    possible = possible_ranges(measure_set, design)
     estimates: dict[str, Estimate] = {}
     for measure in measure_set.measures:
         rule = measure.estimate
@@ -68,7 +71,7 @@ def evaluate(
             complete = sum(value >= COMPLETE for value in known)
             estimates[measure.id] = proportion_estimate(complete, len(known))
         else:
-            estimates[measure.id] = _mean(measure, known, variant)
+            estimates[measure.id] = _mean(measure, known, possible[measure.id], variant)
     return estimates
 
 
@@ -91,8 +94,8 @@ def _same(measure: Measure, known: Sequence[float], variant: int) -> Estimate:
     return Estimate(value=known[0], unit=measure.unit, low=known[0], high=known[0], n=len(known))
 
 
-def _mean(measure: Measure, known: Sequence[float], variant: int) -> Estimate:
-    """Mean of a measure's values, with bounds declared or implied by its unit."""
+def _mean(measure: Measure, known: Sequence[float], possible: Range, variant: int) -> Estimate:
+    """Mean of a measure's values, with bounds that are declared or follow from its definition or its unit."""
     for value in known:
         if (measure.least is not None and value < measure.least) or (measure.most is not None and value > measure.most):
             raise DefinitionError(
@@ -100,11 +103,15 @@ def _mean(measure: Measure, known: Sequence[float], variant: int) -> Estimate:
                 "outside the bounds that the measure declares",
                 hint="correct 'least' and 'most' of its estimate in the measures file",
             )
-    least = measure.least
+    least, most = measure.least, measure.most
     # One trial has no variance, so only a declared bound gives an interval.
-    if least is None and measure.is_never_negative and len(known) > 1 and min(known) >= 0.0:
-        least = 0.0
-    return mean_estimate(known, measure.unit, least=least, most=measure.most)
+    if len(known) > 1:
+        if least is None and measure.is_never_negative and min(known) >= 0.0:
+            least = 0.0
+        if measure.estimate is None or measure.estimate.statistic is not Estimator.RATIO:
+            least = possible.low if least is None and math.isfinite(possible.low) else least
+            most = possible.high if most is None and math.isfinite(possible.high) else most
+    return mean_estimate(known, measure.unit, least=least, most=most)
 
 
 def design_values(measure_set: MeasureSet, *, fixed: Mapping[str, float | str], variant: int) -> dict[str, float]:

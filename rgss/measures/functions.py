@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from enum import Enum
 from types import MappingProxyType
 
+from rgss.measures.ranges import Range
+
 Value = float | None | tuple[float | None, ...]
 """A number or a row of numbers in SI; None for an unknown value or entry."""
 
@@ -30,6 +32,7 @@ class Function:
         reduced to the extreme.
         dimension_power: The result's dimension as a power of the argument's.
         compute: The function of a number (element-wise) or of a row of known numbers.
+        range: The range of the result from that of the argument, or of each entry of the row.
         skips_unknown: True if a reduction skips unknown entries.
     """
 
@@ -37,6 +40,7 @@ class Function:
     shape: Shape
     dimension_power: float
     compute: Callable[..., float]
+    range: Callable[[Range], Range]
     skips_unknown: bool = False
 
     def evaluate(self, arguments: tuple[Value, ...]) -> Value:
@@ -73,6 +77,10 @@ def _norm(values: list[float]) -> float:
     return math.hypot(*values)
 
 
+def _root_range(one: Range) -> Range:
+    return one.power(0.5)
+
+
 def _count(values: list[float]) -> float:
     return float(len(values))
 
@@ -81,14 +89,33 @@ FUNCTIONS: Mapping[str, Function] = MappingProxyType(
     {
         function.name: function
         for function in (
-            Function(name="abs", shape=Shape.ENTRY_BY_ENTRY, dimension_power=1.0, compute=abs),
-            Function(name="count", shape=Shape.REDUCTION, dimension_power=0.0, compute=_count, skips_unknown=True),
-            Function(name="max", shape=Shape.EXTREME, dimension_power=1.0, compute=max),
-            Function(name="mean", shape=Shape.REDUCTION, dimension_power=1.0, compute=_mean),
-            Function(name="min", shape=Shape.EXTREME, dimension_power=1.0, compute=min),
-            Function(name="norm", shape=Shape.REDUCTION, dimension_power=1.0, compute=_norm),
-            Function(name="sqrt", shape=Shape.ENTRY_BY_ENTRY, dimension_power=0.5, compute=math.sqrt),
-            Function(name="sum", shape=Shape.REDUCTION, dimension_power=1.0, compute=math.fsum),
+            Function(
+                name="abs",
+                shape=Shape.ENTRY_BY_ENTRY,
+                dimension_power=1.0,
+                compute=abs,
+                range=Range.absolute,
+            ),
+            Function(
+                name="count",
+                shape=Shape.REDUCTION,
+                dimension_power=0.0,
+                compute=_count,
+                range=Range.count,
+                skips_unknown=True,
+            ),
+            Function(name="max", shape=Shape.EXTREME, dimension_power=1.0, compute=max, range=Range.entry),
+            Function(name="mean", shape=Shape.REDUCTION, dimension_power=1.0, compute=_mean, range=Range.entry),
+            Function(name="min", shape=Shape.EXTREME, dimension_power=1.0, compute=min, range=Range.entry),
+            Function(name="norm", shape=Shape.REDUCTION, dimension_power=1.0, compute=_norm, range=Range.norm),
+            Function(
+                name="sqrt",
+                shape=Shape.ENTRY_BY_ENTRY,
+                dimension_power=0.5,
+                compute=math.sqrt,
+                range=_root_range,
+            ),
+            Function(name="sum", shape=Shape.REDUCTION, dimension_power=1.0, compute=math.fsum, range=Range.total),
         )
     }
 )

@@ -1,17 +1,29 @@
-"""Check that the sources of the measures' inputs exist."""
+"""Sources of the measures' inputs: the check that they exist, and the ranges of those from trials."""
 
 from __future__ import annotations
 
 import difflib
+import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from rgss.documents import Document
 from rgss.findings import Finding
-from rgss.measures import InputSymbol
+from rgss.measures import InputSymbol, Range
 from rgss.quantities import dimension
 from rgss.trials import FOR_EACH_JOINT, METRICS
 
 _LONGEST_LIST = 12
+
+
+def metric_ranges() -> dict[str, Range]:
+    """Range of each metric of trials, in SI."""
+    return {
+        name: Range(
+            low=-math.inf if metric.least is None else metric.least,
+            high=math.inf if metric.most is None else metric.most,
+        )
+        for name, metric in METRICS.items()
+    }
 
 
 def source_findings(

@@ -19,7 +19,7 @@ from rgss.scenes import GripperFile, Scene, load_gripper_file, load_scene
 from rgss.scenes.uncertainty import NOTHING_UNCERTAIN, ONE_WORKLOAD, Uncertainty, Workload
 from rgss.studies.design_settings import GRIPPER, design_findings
 from rgss.studies.finding_suppression import without_consequences
-from rgss.studies.measure_sources import source_findings
+from rgss.studies.measure_sources import metric_ranges, source_findings
 from rgss.studies.measure_traces import measure_traces
 from rgss.studies.motion import motion_findings
 from rgss.studies.project_folders import REQUIREMENTS, measures_of, requirements_named, study_file
@@ -144,6 +144,7 @@ class _Reader:
         if named_set is not None:
             requirements = self._try(lambda: load_requirements(folder / named_set, label_root=named_set))
             measures = self._try(lambda: load_measures(folder / measures_of(named_set), label=measures_of(named_set)))
+            measures = None if measures is None else replace(measures, metric_ranges=metric_ranges())
         study = self._try(lambda: read_study(path, measures, project=folder, label=label))
         # What the study names is read even if something else in the study is wrong.
         named = self._named_files(path, label)

@@ -76,6 +76,28 @@ def test_a_trial_has_what_its_fidelity_observes(recorded, fidelity):
     assert found <= stated
 
 
+def entries(value):
+    return value if isinstance(value, tuple) else (value,)
+
+
+@pytest.mark.parametrize("fidelity", list(Fidelity))
+def test_values_are_within_the_ranges_of_their_metrics(recorded, fidelity):
+    record = recorded[fidelity]
+    found = [(METRICS[name], value) for name, value in record.metrics.items()]
+    found += [(PHASE_METRICS[name], value) for phase in record.phases for name, value in phase.metrics.items()]
+    values = [(metric, entry) for metric, value in found for entry in entries(value) if entry is not None]
+
+    assert len({metric.name for metric, _ in values}) > 10
+    for metric, entry in values:
+        assert metric.least is None or entry >= metric.least, metric.name
+        assert metric.most is None or entry <= metric.most, metric.name
+
+
+def test_what_has_a_sign_has_no_least_value():
+    signed = {name for name, metric in METRICS.items() if metric.least is None}
+    assert signed == {"joint_net_work_j", "path_clearance_min_m", "contact_gap_min_m", "at_grasp_contact_gap_min_m"}
+
+
 def test_a_new_metric_is_one_descriptor(spec_of, monkeypatch):
     new = MetricDescriptor(
         name="noise_n", unit="N", meaning="noise", better=Direction.HIGHER, trial=Aggregation.WORST_CARRIED

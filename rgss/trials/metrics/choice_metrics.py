@@ -50,11 +50,14 @@ CHOICE_METRICS: tuple[MetricDescriptor, ...] = (
         unit="m",
         meaning="position of the grasp centre in the object's frame: x, y, z",
         length=3,
+        least=None,
     ),
     MetricDescriptor(
         name="chosen_grasp_quaternion_1",
         unit="1",
         meaning="orientation of the tool in the object's frame: quaternion x, y, z, w",
         length=4,
+        least=-1.0,
+        most=1.0,
     ),
 )

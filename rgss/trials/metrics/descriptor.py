@@ -79,6 +79,8 @@ class MetricDescriptor:
         length: Number of entries of a row; 0 for one per finger, `FOR_EACH_MOVE` for one per planned move of the task,
             `FOR_EACH_JOINT` for one per joint of the arm, None for a single number. A recorded value of a phase is
             always a single number.
+        least: Least possible value, of each entry of a row; None if there is none. Most metrics are magnitudes.
+        most: Greatest possible value, of each entry of a row; None if there is none.
         phase_meaning: Definition for one phase, if it differs.
         source: The metric evaluated at the grasp, for `Aggregation.AT_GRASP`; the metric that selects the phase, for
         `Aggregation.OF_GREATEST`.
@@ -92,6 +94,8 @@ class MetricDescriptor:
     phase: PhaseValue | None = PhaseValue.OBSERVED
     fidelities: tuple[Fidelity, ...] = EVERY_FIDELITY
     length: int | None = None
+    least: float | None = 0.0
+    most: float | None = None
     phase_meaning: str = ""
     source: str = ""
 

@@ -25,6 +25,7 @@ GRASP_METRICS: tuple[MetricDescriptor, ...] = (
         better=Direction.HIGHER,
         trial=Aggregation.WORST_CARRIED,
         fidelities=WITH_CONTACT,
+        most=1.0,
     ),
     MetricDescriptor(
         name="grasp_force_closure",
@@ -33,6 +34,7 @@ GRASP_METRICS: tuple[MetricDescriptor, ...] = (
         better=Direction.HIGHER,
         trial=Aggregation.WORST_CARRIED,
         fidelities=WITH_CONTACT,
+        most=1.0,
     ),
     MetricDescriptor(
         name="grasp_form_closure",
@@ -41,6 +43,7 @@ GRASP_METRICS: tuple[MetricDescriptor, ...] = (
         better=Direction.HIGHER,
         trial=Aggregation.WORST_CARRIED,
         fidelities=WITH_CONTACT,
+        most=1.0,
     ),
     MetricDescriptor(
         name="grasp_q_msv_1",
@@ -65,6 +68,7 @@ GRASP_METRICS: tuple[MetricDescriptor, ...] = (
         better=Direction.HIGHER,
         trial=Aggregation.WORST_CARRIED,
         fidelities=WITH_CONTACT,
+        most=1.0,
     ),
     MetricDescriptor(
         name="grasp_q_gpri_1",
@@ -73,6 +77,7 @@ GRASP_METRICS: tuple[MetricDescriptor, ...] = (
         better=Direction.LOWER,
         trial=Aggregation.WORST_CARRIED,
         fidelities=WITH_CONTACT,
+        most=1.0,
     ),
     MetricDescriptor(
         name="grasp_q_diff_m",
@@ -105,6 +110,7 @@ GRASP_METRICS: tuple[MetricDescriptor, ...] = (
         better=Direction.HIGHER,
         trial=Aggregation.WORST_CARRIED,
         fidelities=WITH_CONTACT,
+        least=None,
     ),
     MetricDescriptor(
         name="contact_closing_speed_m_s",
@@ -205,6 +211,7 @@ CARRY_METRICS: tuple[MetricDescriptor, ...] = (
         trial=Aggregation.COMPUTED,
         phase=None,
         fidelities=WITH_CONTACT,
+        most=1.0,
     ),
 )
 """Metrics of the carry."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from rgss.trials.metrics.descriptor import WITH_CONTACT, Direction, MetricDescriptor
 
 PHASE_ONLY_METRICS: tuple[MetricDescriptor, ...] = (
@@ -30,6 +32,7 @@ PHASE_ONLY_METRICS: tuple[MetricDescriptor, ...] = (
         meaning="position of the object in the world at the end: x, y, z",
         fidelities=WITH_CONTACT,
         length=3,
+        least=None,
     ),
     MetricDescriptor(
         name="workpiece_tilt_rad",
@@ -37,6 +40,7 @@ PHASE_ONLY_METRICS: tuple[MetricDescriptor, ...] = (
         meaning="tilt of the object at the end",
         better=Direction.LOWER,
         fidelities=WITH_CONTACT,
+        most=math.pi,
     ),
     MetricDescriptor(
         name="finger_force_n",
@@ -77,6 +81,7 @@ PHASE_ONLY_METRICS: tuple[MetricDescriptor, ...] = (
         unit="m",
         meaning="height above the surface at which the object was released",
         fidelities=WITH_CONTACT,
+        least=None,
     ),
     MetricDescriptor(
         name="landing_speed_m_s",

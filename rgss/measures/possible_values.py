@@ -1,0 +1,65 @@
+"""Ranges of values that measures cannot leave, from those of their inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from rgss.measures.definitions import MeasureSet
+from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
+from rgss.measures.functions import FUNCTIONS
+from rgss.measures.ranges import Range
+
+
+def possible_ranges(measure_set: MeasureSet, design: Mapping[str, float]) -> dict[str, Range]:
+    """Range of every measure's values in trials of a design, each in the measure's unit.
+
+    Args:
+        measure_set: The measures, with the ranges of metrics.
+        design: Values of the symbols that depend only on the design, in SI.
+    """
+    ranges = {name: Range.of_number(value) for name, value in design.items()}
+    for symbol in measure_set.inputs:
+        if symbol.from_trial:
+            ranges[symbol.id] = replace(measure_set.metric_ranges.get(symbol.metric, Range()), length=symbol.length)
+    found = {}
+    for measure in measure_set.evaluation_order:
+        if measure.from_trials:
+            ranges[measure.id] = range_of(measure.expression.root, ranges)
+        one = ranges[measure.id]
+        if measure.summary is not None:
+            one = FUNCTIONS[measure.summary.value].range(one)
+        found[measure.id] = one.times(Range.of_number(1.0 / measure.si_per_unit))
+    return found
+
+
+def range_of(node: Node, ranges: Mapping[str, Range]) -> Range:
+    """Range that an expression's value, where it is defined, cannot leave; it may be wider than necessary.
+
+    Args:
+        node: The expression.
+        ranges: Ranges of its symbols in SI.
+    """
+    if isinstance(node, Number):
+        return Range.of_number(node.value)
+    if isinstance(node, Name):
+        return ranges[node.id]
+    if isinstance(node, Negative):
+        return range_of(node.operand, ranges).negated()
+    if isinstance(node, Power):
+        return range_of(node.base, ranges).power(node.exponent)
+    if isinstance(node, Binary):
+        left, right = range_of(node.left, ranges), range_of(node.right, ranges)
+        if node.symbol in "+-":
+            return left.plus(right if node.symbol == "+" else right.negated())
+        return left.times(right if node.symbol == "*" else right.inverse())
+    return _of_call(node, ranges)
+
+
+def _of_call(node: Call, ranges: Mapping[str, Range]) -> Range:
+    arguments = [range_of(argument, ranges) for argument in node.arguments]
+    if len(arguments) == 1:
+        return FUNCTIONS[node.function].range(arguments[0])
+    # Only the extremes take several numbers, and they are monotone in each.
+    extreme = FUNCTIONS[node.function].compute
+    return Range(low=extreme([one.low for one in arguments]), high=extreme([one.high for one in arguments]))
