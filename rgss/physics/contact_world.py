@@ -31,6 +31,10 @@ class ContactWorld(Protocol):
     def grip_fault(self) -> str:
         """Reason why a switched-on suction cup does not hold the workpiece; empty if it does, and for fingers."""
 
+    @property
+    def seal_margin(self) -> float | None:
+        """Factor by which the load of a suction cup could grow before its seal breaks; None if it is unknown."""
+
     def __enter__(self) -> ContactWorld: ...
 
     def __exit__(

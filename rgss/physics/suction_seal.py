@@ -29,6 +29,8 @@ class SuctionSeal:
     Attributes:
         force_n: Present normal force of the vacuum; 0 if not sealed.
         fault: Reason why the cup does not hold the workpiece; empty if it does.
+        margin: Factor by which the load could grow before the seal breaks, below 1 for the load that broke it; None if
+        the load is unknown.
     """
 
     def __init__(
@@ -59,6 +61,7 @@ class SuctionSeal:
         """
         self.force_n = 0.0
         self.fault = ""
+        self.margin: float | None = None
         self._engine, self._client = engine, client
         self._robot, self._link, self._body = robot, cup_link, body
         self._point, self._gripper, self._suction, self._step_s = point, gripper, suction, step_s
@@ -103,7 +106,7 @@ class SuctionSeal:
             self._off_s += self._step_s
             if self._off_s >= self._suction.release_s - 1e-9:
                 self._release("the vacuum is off")
-                self._on_s = None
+                self._on_s, self.margin = None, None
             return
         if self._bond is None:
             self.fault = self._misplaced(lip, workpiece)
@@ -163,6 +166,7 @@ class SuctionSeal:
         if self._is_standing():
             # The support then shares the load, in a proportion that is arbitrary in the solver.
             self._loads.clear()
+            self.margin = None
             return
         self._loads.append(self._load(lip))
         if len(self._loads) < (self._loads.maxlen or 1):
@@ -172,6 +176,12 @@ class SuctionSeal:
         )
         tangential_n, bending_n_m = math.hypot(along_x, along_y), math.hypot(about_x, about_y)
         greatest_n = tight * self._suction.tangential_force_n
+        self.margin = seal_margin(
+            self.force_n,
+            greatest_n,
+            lifting_n=tension_n + bending_n_m / self._radius_m,
+            tangential_n=tangential_n,
+        )
         if tension_n > self.force_n:
             self._release(f"the cup holds {self.force_n:.2f} N along its axis, the object pulls with {tension_n:.2f} N")
         elif tangential_n > greatest_n:
@@ -207,3 +217,16 @@ class SuctionSeal:
         if math.isinf(self._off_s):
             # A cup that was torn off does not seal again.
             self._on_s = None
+
+
+def seal_margin(normal_n: float, across_n: float, *, lifting_n: float, tangential_n: float) -> float | None:
+    """Factor by which a load could grow before it breaks a seal; None if it never would.
+
+    Args:
+        normal_n: Force of the vacuum.
+        across_n: Greatest force along the surface.
+        lifting_n: Tension, plus the moment divided by the radius of the lip.
+        tangential_n: Force along the surface.
+    """
+    limits = [limit / load for limit, load in ((normal_n, lifting_n), (across_n, tangential_n)) if load > 0.0]
+    return min(limits, default=None)

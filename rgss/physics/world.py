@@ -281,6 +281,11 @@ class World(ClientOwner):
         return "" if self._seal is None else self._seal.fault
 
     @property
+    def seal_margin(self) -> float | None:
+        """Factor by which the load of a suction cup could grow before its seal breaks; None if it is unknown."""
+        return None if self._seal is None else self._seal.margin
+
+    @property
     def follow_error(self) -> float:
         """Greatest deviation of a linkage's joint from its ratio in rad or m; 0 for other grippers."""
         return 0.0 if self._linkage is None else self._linkage.largest_error

@@ -29,8 +29,8 @@ class TaskObjects:
         self._scene = world.scene
         self.first = self._scene.workpiece.id
         self._stages = {stage.step.name: stage for stage in stages_of(task, self.first)}
-        begin = next(iter(self._stages.values()), None)
-        self._about = (self.first, 1, "") if begin is None else (self.first, begin.turn, begin.place)
+        # The scene of the world is about the first object and its own place.
+        self._about = (self.first, 1, "")
         self._supports = {name: one.support for name, one in initial_placements(self._scene).items()}
         self._around: dict[str, Pose] = {}
 

@@ -122,6 +122,11 @@ class MujocoWorld:
         """Always empty: the world supports only fingers."""
         return ""
 
+    @property
+    def seal_margin(self) -> float | None:
+        """Always None: the world supports only fingers."""
+        return None
+
     def hold_open(self) -> None:
         """Hold the fingers at their open end, against its stop."""
         self.drive_fingers(-self.gripper.finger_velocity_m_s, self.gripper.finger_force_n)

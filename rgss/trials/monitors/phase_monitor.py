@@ -25,7 +25,8 @@ class PhaseMonitor:
     Attributes:
         failure: The first failure; None so far.
         detail: Numbers of the failure.
-        grip_margin: Last observed friction available over friction needed; None so far.
+        grip_margin: Last observed friction available over friction needed, or of a suction cup the factor by which
+        its load could grow; None so far.
         robot_touched_object: Whether any link of the robot has been in contact with the object.
     """
 
@@ -63,6 +64,7 @@ class PhaseMonitor:
         self._world = world
         self._control = control
         self._resting_on = resting_on
+        self._has_cup = world.gripper.geometry.cup is not None
         self._friction = world.gripper.grip_coefficient(world.scene.workpiece.friction)
         self._mass_kg = world.scene.workpiece.mass_kg
         self._step_s = world.settings.step_s
@@ -177,10 +179,8 @@ class PhaseMonitor:
             )
 
     def _check_grip(self, forces_n: tuple[float, ...], load_m_s2: float) -> None:
-        window = self._forces_n
-        window.append(math.fsum(forces_n))
-        if len(window) == self._window:
-            margin = self._friction * math.fsum(window) / self._window / (self._mass_kg * load_m_s2)
+        margin = self._world.seal_margin if self._has_cup else self._friction_margin(forces_n, load_m_s2)
+        if margin is not None:
             self.grip_margin = margin
             if margin < self._margin:
                 self._margin = margin
@@ -196,6 +196,14 @@ class PhaseMonitor:
         if self._lost_s >= self._control.lost_contact_s:
             lost = f"{touching} fingers touched the object for {self._lost_s * 1e3:.0f} ms"
             self.fail(Failure.OBJECT_DROPPED, self._world.grip_fault or lost)
+
+    def _friction_margin(self, forces_n: tuple[float, ...], load_m_s2: float) -> float | None:
+        """Friction available over friction needed, averaged over a window; None until it is full."""
+        window = self._forces_n
+        window.append(math.fsum(forces_n))
+        if len(window) < self._window:
+            return None
+        return self._friction * math.fsum(window) / self._window / (self._mass_kg * load_m_s2)
 
     def _check_slip(self, slip_m: float) -> None:
         if slip_m > self._control.largest_slip_m:

@@ -111,6 +111,33 @@ def test_a_cup_is_torn_off_by_an_object_that_is_too_heavy(trial):
     assert weighed.failure_detail == "the cup holds 13.50 N, the object weighs 14.71 N"
 
 
+def at_rate(spec, rate_hz):
+    return replace(spec, settings=replace(spec.settings, physics=replace(spec.settings.physics, rate_hz=rate_hz)))
+
+
+def test_the_margin_of_a_cup_is_the_factor_by_which_its_load_could_grow(trial):
+    phases = {}
+    for mass_kg in (0.25, 0.5):
+        record = Pieces().record(at_rate(trial("vacuum", Fidelity.CONTACT, mass_kg=mass_kg), 960.0))
+        phases[mass_kg] = {phase.phase: phase.metrics for phase in record.phases}
+        lift = phases[mass_kg]["lift"]
+        # Over the centre of mass the load is the weight and the force of the acceleration, along the cup's axis.
+        pull_n = mass_kg * (9.81 + lift["commanded_tool_acceleration_m_s2"])
+        assert lift["grip_margin_min"] == pytest.approx(13.5 / pull_n, rel=0.02)
+    # Where the tool moves sideways, inertia and the lever of the centre of mass bend the lip.
+    across = [one["move_to_place_approach"]["grip_margin_min"] for one in phases.values()]
+    assert across[0] == pytest.approx(2 * across[1], rel=0.02)
+    assert across[1] < phases[0.5]["lift"]["grip_margin_min"]
+
+    # In coarse steps the pull jumps as the object leaves its support.
+    coarse = Pieces().record(trial("vacuum", Fidelity.CONTACT, mass_kg=0.5))
+    (lift,) = (phase.metrics for phase in coarse.phases if phase.phase == "lift")
+    assert 0.9 < lift["grip_margin_min"] / phases[0.5]["lift"]["grip_margin_min"] < 1.0
+
+    torn = Pieces().record(trial("vacuum", Fidelity.CONTACT, mass_kg=1.3))
+    assert 0.8 < torn.metrics["grip_margin_min"] < 1.0
+
+
 @pytest.mark.parametrize(
     ("changes", "phase", "start"),
     [

@@ -7,7 +7,17 @@ from dataclasses import replace
 import pytest
 
 from rgss.evidence import Failure, Fidelity
-from rgss.scenes import Approach, Box, Cylinder, GraspCandidates, PlaceRegion, Pose, SceneObject, finger_pads
+from rgss.scenes import (
+    Approach,
+    Box,
+    Cylinder,
+    GraspCandidates,
+    NamedPlace,
+    PlaceRegion,
+    Pose,
+    SceneObject,
+    finger_pads,
+)
 from rgss.tasks import load_task
 from rgss.trials import cell_of
 from rgss.trials.pieces.run import Pieces
@@ -34,6 +44,26 @@ steps:
         - move: {{to: place, mode: straight}}
         - release: {{}}
         - move: {{to: place_approach, mode: straight, name: retreat}}
+"""
+
+BY_THE_BUFFER = """
+task: by_the_buffer
+steps:
+  - move: {to: grasp_approach}
+  - move: {to: grasp, mode: straight}
+  - grip: {}
+  - move: {to: lift, mode: straight}
+  - move: {to: place_approach, place: buffer}
+  - move: {name: down, to: place, place: buffer, mode: straight}
+  - release: {name: set_down, place: buffer}
+  - check: {name: stands, at: buffer, upright: true, held: false}
+  - move: {name: back, to: grasp, mode: straight}
+  - grip: {name: again}
+  - move: {name: off, to: lift, mode: straight}
+  - move: {name: over, to: place_approach}
+  - move: {to: place, mode: straight}
+  - release: {}
+  - move: {name: retreat, to: place_approach, mode: straight}
 """
 
 
@@ -173,6 +203,24 @@ def test_a_cup_takes_objects_of_different_heights(with_two, tmp_path, candidates
         assert record.success, (fidelity, record.failed_phase, record.failure_detail)
         chosen = ["chosen_grasp_rank" in phase.metrics for phase in record.phases]
         assert any(chosen) == (candidates is not None)
+
+
+@pytest.mark.parametrize("fidelity", Fidelity)
+def test_the_first_object_is_set_down_at_another_place_before_its_own(with_two, tmp_path, fidelity):
+    spec = with_two()
+    (tin,) = spec.scene.others
+    path = tmp_path / "by_the_buffer.yaml"
+    path.write_text(BY_THE_BUFFER, encoding="utf-8")
+    buffer = NamedPlace(id="buffer", region=tin.place, support=tin.place_support)
+    scene = replace(spec.scene, places=(buffer,))
+
+    record = Pieces().record(replace(spec, scene=scene, task=load_task(path).program, fidelity=fidelity))
+
+    assert record.success, (record.failed_phase, record.failure_detail)
+    if fidelity is Fidelity.CONTACT:
+        at = {phase.phase: phase.metrics["workpiece_position_m"][:2] for phase in record.phases}
+        assert at["set_down"] == pytest.approx(buffer.region.centre_m[:2], abs=2e-3)
+        assert at["retreat"] == pytest.approx(scene.place.centre_m[:2], abs=2e-3)
 
 
 def test_an_object_that_has_no_grasp_is_named_and_the_other_keeps_its_own(with_two):
