@@ -20,7 +20,8 @@ from rgss.scenes import JointKind, Pose
 Vector = NDArray[np.float64]
 
 _STARTS = 128
-_ROUNDS = (1, 7, 24, 96, 384)
+_ROUNDS_OF_FULL_POSE = (1, 7, 24, 96)
+_ROUNDS = (*_ROUNDS_OF_FULL_POSE, 384)
 _MOST_TRIED = 512
 _ITERATIONS = 60
 _CONVERGED = 1e-11
@@ -100,7 +101,8 @@ class NumericalInverse:
         starts = np.vstack([near, self._starts(_MOST_TRIED - 1)])
         for residual in residuals:
             first = 0
-            for count in _ROUNDS:
+            # The full pose of an arm of fewer joints is given up after as many starts as in `solve`.
+            for count in _ROUNDS if residual is residuals[-1] else _ROUNDS_OF_FULL_POSE:
                 found = [
                     near + self._least_turn(q - near)
                     for q in self._reached(residual, starts[first : first + count])
@@ -148,16 +150,13 @@ class NumericalInverse:
         """Distinct ends of the descents that converge to the pose."""
         ends = np.round(self._descend(residual, starts, limited=limited and self.is_redundant), _DIGITS)
         same = _REDUNDANT_SAME if self.is_redundant else _SAME
+        ends = ends[residual.deviation(self._chain.state(ends)) < TOLERANCE]
+        if not (limited and self.is_redundant):
+            ends[:, ~self._chain.slides] = _principal(ends[:, ~self._chain.slides])
         kept: list[Vector] = []
-        state = self._chain.state(ends)
-        for q, error in zip(ends, residual.deviation(state).tolist(), strict=True):
-            if error >= TOLERANCE:
-                continue
-            q[~self._chain.slides] = (
-                q[~self._chain.slides] if limited and self.is_redundant else _principal(q[~self._chain.slides])
-            )
-            if not any(np.max(np.abs(self._least_turn(q - other))) < same for other in kept):
-                kept.append(q)
+        while len(ends):
+            kept.append(ends[0])
+            ends = ends[np.max(np.abs(self._least_turn(ends - ends[0])), axis=1) >= same]
         return kept
 
     def _descend(self, residual: PoseResidual, starts: Vector, *, limited: bool) -> Vector:
