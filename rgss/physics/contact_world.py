@@ -35,6 +35,9 @@ class ContactWorld(Protocol):
     def seal_margin(self) -> float | None:
         """Factor by which the load of a suction cup could grow before its seal breaks; None if it is unknown."""
 
+    def seal_pull(self) -> tuple[tuple[float, float, float], tuple[float, float, float]] | None:
+        """Centre of a suction cup's lip in the world and the force in N on the workpiece there; None without a seal."""
+
     def __enter__(self) -> ContactWorld: ...
 
     def __exit__(

@@ -123,6 +123,13 @@ class SuctionSeal:
             # While the vacuum builds up the object comes to rest on its support.
             self._seal()
 
+    def pull_n(self) -> tuple[float, float, float] | None:
+        """Force on the workpiece in the world, in the last step; None without a bond."""
+        if self._bond is None:
+            return None
+        fx, fy, fz, *_ = self._engine.getConstraintState(self._bond, self._client)
+        return -fx, -fy, -fz
+
     def _misplaced(self, lip: Pose, workpiece: Pose) -> str:
         """Reason why the cup cannot seal at its pose; empty if it can."""
         suction, point, workpiece_to_lip = self._suction, self._point, lip.inverse() @ workpiece

@@ -285,6 +285,13 @@ class World(ClientOwner):
         """Factor by which the load of a suction cup could grow before its seal breaks; None if it is unknown."""
         return None if self._seal is None else self._seal.margin
 
+    def seal_pull(self) -> tuple[tuple[float, float, float], tuple[float, float, float]] | None:
+        """Centre of a suction cup's lip in the world and the force in N on the workpiece there; None without a seal."""
+        pull_n = None if self._seal is None else self._seal.pull_n()
+        if pull_n is None:
+            return None
+        return (self._flange_pose() @ self.gripper.geometry.lip).position_m, pull_n
+
     @property
     def follow_error(self) -> float:
         """Greatest deviation of a linkage's joint from its ratio in rad or m; 0 for other grippers."""

@@ -153,7 +153,7 @@ class _Places:
             of = f" with {', '.join(grippers)}" if grippers else ""
             location = (*location[:-1], "id")
             message = f"no grasp candidate of {first}{of} can be carried out: {problem.detail}"
-            hint = "let the task try more approaches, turn or move the object, or take a gripper that opens wider"
+            hint = "let the task try more approaches, turn or move the object, or take another gripper"
         elif problem.kind is SceneProblemKind.HOME_COLLISION:
             message = f"at its home the robot is in collision: {first} with {second}, {millimetres} deep"
             hint = "change 'home' in the robot's file, or move the body or the robot's base"

@@ -127,6 +127,10 @@ class MujocoWorld:
         """Always None: the world supports only fingers."""
         return None
 
+    def seal_pull(self) -> tuple[tuple[float, float, float], tuple[float, float, float]] | None:
+        """Always None: the world supports only fingers."""
+        return None
+
     def hold_open(self) -> None:
         """Hold the fingers at their open end, against its stop."""
         self.drive_fingers(-self.gripper.finger_velocity_m_s, self.gripper.finger_force_n)

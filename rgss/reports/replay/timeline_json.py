@@ -38,10 +38,14 @@ def timeline_to_json(timeline: Timeline, scene: ReplayScene) -> dict[str, Any]:
         "plots": [_plot(plot) for plot in (timeline.joint_positions, *timeline.quantities)],
         "contacts": [{"points_m": _rows(one.points_m), "forces_n": _rows(one.forces_n)} for one in scene.contacts],
         "greatest_force_n": _number(timeline.greatest_force_n),
-        "perceived": {
-            "distance_mm": round(1e3 * scene.perceived.distance_m, 2),
-            "angle_deg": round(math.degrees(scene.perceived.angle_rad), 2),
-        },
+        "perceived": [
+            {
+                "object": one.object,
+                "distance_mm": round(1e3 * one.distance_m, 2),
+                "angle_deg": round(math.degrees(one.angle_rad), 2),
+            }
+            for one in scene.perceived
+        ],
         "middle_m": list(scene.middle_m),
     }
 

@@ -15,19 +15,24 @@ _NO_CONTACT: Row = (math.nan,) * 6
 
 
 class ReplayRecorder:
-    """Observer that samples the world at a fixed rate, without side effects."""
+    """Observer that samples the world at a fixed rate, without side effects.
+
+    Attributes:
+        pressing: Number of forces on the object: one for each finger, or that of a suction cup.
+    """
 
     def __init__(self, objects: tuple[str, ...], *, fingers: int, step_s: float, rate_hz: float) -> None:
         """Start without samples.
 
         Args:
             objects: Ids of the scene's objects, the first one first.
-            fingers: Number of fingers.
+            fingers: Number of fingers; 0 for a suction cup.
             step_s: Length of a physics step.
             rate_hz: Samples a second, at most one for each step.
         """
         self._objects = objects
-        self._fingers = fingers
+        self.pressing = max(1, fingers)
+        self._has_fingers = fingers > 0
         self._step_s = step_s
         self._stride = max(1, round(1.0 / (rate_hz * step_s)))
         self._steps = 0
@@ -55,9 +60,13 @@ class ReplayRecorder:
         self._joints_rad.append(world.arm_state()[0])
         self._travel_m.append(world.finger_travel_m())
         self._poses.append(tuple(self._pose(world, name) for name in self._objects))
+        if not self._has_fingers:
+            point_m, force_n = world.seal_pull() or (_NO_CONTACT[:3], _NO_CONTACT[3:])
+            self._contacts.append(((*point_m, *force_n),))
+            return
         pressed = world.finger_contacts() if contacts.fingers_touching else ()
         pose = world.workpiece_pose()
-        self._contacts.append(tuple(_resultant(pressed, finger, pose) for finger in range(self._fingers)))
+        self._contacts.append(tuple(_resultant(pressed, finger, pose) for finger in range(self.pressing)))
 
     def count_until(self, end_s: float) -> int:
         """Number of samples up to a time.
@@ -90,7 +99,15 @@ class ReplayRecorder:
         return [poses[place] for poses in self._poses[:count]]
 
     def contacts_of(self, finger: int, count: int) -> NDArray[np.float64]:
-        """Centre of contact (m) and force (N) of a finger in the first samples, in the world, shape (count, 6)."""
+        """Centre of contact (m) and force (N) of a finger or the cup in the first samples, in the world.
+
+        Args:
+            finger: Its number, from 0; 0 for the cup.
+            count: Number of samples.
+
+        Returns:
+            Rows of shape (count, 6).
+        """
         return np.array([rows[finger] for rows in self._contacts[:count]]).reshape(count, 6)
 
     def _pose(self, world: ContactWorld, name: str) -> Pose:

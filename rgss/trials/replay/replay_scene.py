@@ -81,13 +81,15 @@ class Line:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PerceivedOffset:
-    """Error of the perceived pose of the object.
+    """Error of the perceived pose of an object.
 
     Attributes:
+        object: The object's id.
         distance_m: Distance of its perceived from its true position.
         angle_rad: Angle between its perceived and its true orientation.
     """
 
+    object: str
     distance_m: float
     angle_rad: float
 
@@ -99,9 +101,9 @@ class ReplayScene:
     Attributes:
         time_s: Times of the samples, shape (n,).
         nodes: The rendered bodies.
-        contacts: The force of each finger.
+        contacts: The force of each finger, or of the suction cup.
         lines: Planned paths and graphs of the planner.
-        perceived: Error of the perceived pose of the first object.
+        perceived: Error of the perceived pose of each object.
         middle_m: Point between grasp and place in the world, the initial target of the viewer.
     """
 
@@ -109,5 +111,5 @@ class ReplayScene:
     nodes: tuple[NodeTrack, ...]
     contacts: tuple[ContactForce, ...]
     lines: tuple[Line, ...]
-    perceived: PerceivedOffset
+    perceived: tuple[PerceivedOffset, ...]
     middle_m: tuple[float, float, float]

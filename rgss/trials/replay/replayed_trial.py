@@ -99,9 +99,9 @@ def _scene_of(spec: TrialSpec, recorder: ReplayRecorder, end_s: float) -> Replay
     for one in true_scene.objects:
         poses = recorder.poses_of(one.workpiece.id, total)
         nodes.append(_object_node(one.workpiece, NodeKind.OBJECT, [poses[index] for index in chosen]))
-    perceived = conditions.perceived_scene.workpiece
-    nodes.append(_object_node(perceived, NodeKind.PERCEIVED, [perceived.pose], colour=_PERCEIVED_COLOUR))
-    forces = [recorder.contacts_of(finger, total)[chosen] for finger in range(spec.gripper.geometry.fingers)]
+    seen = [one.workpiece for one in conditions.perceived_scene.objects]
+    nodes += [_object_node(one, NodeKind.PERCEIVED, [one.pose], colour=_PERCEIVED_COLOUR) for one in seen]
+    forces = [recorder.contacts_of(finger, total)[chosen] for finger in range(recorder.pressing)]
     grasp, place = true_scene.grasp.position_m, true_scene.place_pose.position_m
     x, y, z = ((a + b) / 2 for a, b in zip(grasp, place, strict=True))
     return ReplayScene(
@@ -112,7 +112,7 @@ def _scene_of(spec: TrialSpec, recorder: ReplayRecorder, end_s: float) -> Replay
             for finger, rows in enumerate(forces)
         ),
         lines=planned_lines(spec),
-        perceived=_offset(true_scene.workpiece.pose, perceived.pose),
+        perceived=tuple(_offset(true.workpiece, one) for true, one in zip(true_scene.objects, seen, strict=True)),
         middle_m=(x, y, z + _ABOVE_M),
     )
 
@@ -163,9 +163,10 @@ def _node(name: str, kind: NodeKind, solids: tuple[SeenSolid, ...], poses: list[
     return NodeTrack(name=name, kind=kind, solids=solids, positions_m=positions, quaternions_xyzw=quaternions)
 
 
-def _offset(true: Pose, perceived: Pose) -> PerceivedOffset:
-    relative = perceived.relative_to(true)
+def _offset(true: Workpiece, perceived: Workpiece) -> PerceivedOffset:
+    relative = perceived.pose.relative_to(true.pose)
     return PerceivedOffset(
-        distance_m=math.dist(true.position_m, perceived.position_m),
+        object=true.id,
+        distance_m=math.dist(true.pose.position_m, perceived.pose.position_m),
         angle_rad=2.0 * math.acos(min(1.0, abs(relative.quaternion_xyzw[3]))),
     )

@@ -61,7 +61,10 @@ def test_there_is_no_arrow_without_contact(timeline):
         known = [time for time, point in zip(timeline["time_s"], one["points_m"], strict=True) if point is not None]
         assert min(known) > 1.0
     assert timeline["greatest_force_n"] == pytest.approx(5.0)
-    assert timeline["perceived"] == {"distance_mm": 12.3, "angle_deg": 5.73}
+    assert timeline["perceived"] == [
+        {"object": "red cup", "distance_mm": 12.3, "angle_deg": 5.73},
+        {"object": "other cup", "distance_mm": 10.0, "angle_deg": 0.0},
+    ]
 
 
 def test_a_trial_without_contact_has_no_force():

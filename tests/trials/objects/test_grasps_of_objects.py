@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from rgss.evidence import Failure, Fidelity
@@ -18,9 +19,12 @@ from rgss.scenes import (
     SceneObject,
     finger_pads,
 )
+from rgss.scenes.uncertainty import Constant, Uncertainty, UncertainValue
 from rgss.tasks import load_task
 from rgss.trials import cell_of
 from rgss.trials.pieces.run import Pieces
+from rgss.trials.replay import NodeKind
+from rgss.trials.replay.replayed_trial import run_replayed_trial
 from rgss.trials.route import route_of
 from rgss.trials.scene_check import SceneProblemKind, reach_problems
 from rgss.trials.second_engine import mujoco_settings
@@ -203,6 +207,42 @@ def test_a_cup_takes_objects_of_different_heights(with_two, tmp_path, candidates
         assert record.success, (fidelity, record.failed_phase, record.failure_detail)
         chosen = ["chosen_grasp_rank" in phase.metrics for phase in record.phases]
         assert any(chosen) == (candidates is not None)
+
+
+def test_the_replay_has_the_pull_of_a_cup_and_where_each_object_is_perceived(with_two, tmp_path):
+    spec = with_two()
+    task = replace(spec.scene.task, candidates=None)
+    errors = [("perception.x", 2e-3), ("perception.tin.y", -1e-3)]
+    values = tuple(UncertainValue(quantity=name, distribution=Constant(value=value)) for name, value in errors)
+    scene = replace(spec.scene, task=task)
+    replayed = run_replayed_trial(
+        replace(
+            spec,
+            scene=scene,
+            gripper=gripper_of(tmp_path, "vacuum", CARTON),
+            uncertainty=Uncertainty(values=values),
+            fidelity=Fidelity.CONTACT,
+        )
+    )
+
+    assert replayed.record.success, replayed.record.failure_detail
+    found = replayed.scene
+    apart = {one.object: one.distance_m for one in found.perceived}
+    assert apart == {
+        one.workpiece.id: pytest.approx(abs(by)) for one, (_, by) in zip(scene.objects, errors, strict=True)
+    }
+    seen = [node.name for node in found.nodes if node.kind is NodeKind.PERCEIVED]
+    assert seen == [one.workpiece.id for one in scene.objects]
+    # Newton's second law: over a carry from rest to rest the mean vertical force is the weight.
+    (pull,) = found.contacts
+    for one in scene.objects:
+        span = next(span for span in replayed.trace.spans if span.phase == f"{one.workpiece.id}.move_to_place_approach")
+        within = (found.time_s > span.start_s) & (found.time_s <= span.end_s)
+        upward = pull.forces_n[within, 2]
+        assert float(np.mean(upward)) == pytest.approx(one.workpiece.mass_kg * scene.gravity_m_s2, rel=0.05)
+        (node,) = (node for node in found.nodes if (node.kind, node.name) == (NodeKind.OBJECT, one.workpiece.id))
+        above_m = pull.points_m[within, 2] - node.positions_m[within, 2]
+        assert above_m == pytest.approx(one.workpiece.shape.half_height_m, abs=3e-3)
 
 
 @pytest.mark.parametrize("fidelity", Fidelity)

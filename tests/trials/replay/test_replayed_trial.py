@@ -88,10 +88,9 @@ def test_the_perceived_object_is_where_the_draws_put_it(spec_of):
 
     assert perceived.positions_m == pytest.approx(np.array([conditions.perceived_scene.workpiece.pose.position_m]))
     apart = np.array(conditions.true_scene.workpiece.pose.position_m) - perceived.positions_m[0]
-    assert scene.perceived.distance_m == pytest.approx(np.linalg.norm(apart))
-    assert np.linalg.norm(true.positions_m[0] - perceived.positions_m[0]) == pytest.approx(
-        scene.perceived.distance_m, abs=1e-3
-    )
+    (offset,) = scene.perceived
+    assert offset.distance_m == pytest.approx(np.linalg.norm(apart))
+    assert np.linalg.norm(true.positions_m[0] - perceived.positions_m[0]) == pytest.approx(offset.distance_m, abs=1e-3)
 
 
 def test_the_forces_of_the_fingers_carry_the_object(spec, replayed, scene):

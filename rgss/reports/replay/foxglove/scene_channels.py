@@ -177,24 +177,27 @@ def _arrows(contacts: Sequence[ContactForce], sample: int, greatest_n: float) ->
 def _object_channels(
     scene: ReplayScene, perceived: Sequence[NodeTrack], bodies: Sequence[NodeTrack]
 ) -> tuple[Channel, ...]:
-    """True pose of the first object over time, and its perceived pose."""
-    (seen,) = perceived
-    true = next(track for track in bodies if track.kind is NodeKind.OBJECT and track.name == seen.name)
+    """True pose of each object over time, and its perceived pose; the topics of further objects end with their ids."""
     schema = published_schema("PoseInFrame")
     times = scene.time_s.tolist()
-    samples = times if len(true.positions_m) > 1 else [START_S]
-    return (
-        Channel(
-            topic="/object_pose",
-            schema=schema,
-            messages=[(time_s, _pose_in_frame(true, sample, time_s)) for sample, time_s in enumerate(samples)],
-        ),
-        Channel(
-            topic="/perceived_object_pose",
-            schema=schema,
-            messages=[(START_S, _pose_in_frame(seen, 0, START_S))],
-        ),
-    )
+    channels = []
+    for place, seen in enumerate(perceived):
+        true = next(track for track in bodies if track.kind is NodeKind.OBJECT and track.name == seen.name)
+        samples = times if len(true.positions_m) > 1 else [START_S]
+        of_object = f"/{seen.name}" if place else ""
+        channels += [
+            Channel(
+                topic=f"/object_pose{of_object}",
+                schema=schema,
+                messages=[(time_s, _pose_in_frame(true, sample, time_s)) for sample, time_s in enumerate(samples)],
+            ),
+            Channel(
+                topic=f"/perceived_object_pose{of_object}",
+                schema=schema,
+                messages=[(START_S, _pose_in_frame(seen, 0, START_S))],
+            ),
+        ]
+    return tuple(channels)
 
 
 def _pose_in_frame(track: NodeTrack, sample: int, time_s: float) -> dict[str, Any]:

@@ -58,9 +58,12 @@ const replays = (() => {
       this.chapters = made("ol", { className: "replay-chapters" }, ...lead.phases.map((phase, place) => this.chapter(phase, place)));
       const side = made("div", { className: "replay-side" });
       for (const one of this.timelines) side.append(made("p", {}, made("strong", {}, one.title), made("br"), one.outcome));
-      const { distance_mm: distance, angle_deg: angle } = lead.perceived;
+      const [first] = lead.perceived;
+      const perceived = lead.perceived.length === 1
+        ? `The object is perceived ${first.distance_mm} mm and ${first.angle_deg}° from where it is (violet).`
+        : `Objects are perceived (violet) beside where they are: ${lead.perceived.map((one) => `${one.object} by ${one.distance_mm} mm and ${one.angle_deg}°`).join(", ")}.`;
       side.append(made("h3", { textContent: "Phases" }), this.chapters);
-      side.append(made("p", { className: "replay-note" }, `The object is perceived ${distance} mm and ${angle}° from where it is (violet). The longest arrow is ${lead.greatest_force_n.toFixed(1)} N.`));
+      side.append(made("p", { className: "replay-note" }, `${perceived} The longest arrow is ${lead.greatest_force_n.toFixed(1)} N.`));
       this.plotPlace = made("div", { className: "replay-plots" });
       this.place.append(made("div", { className: "replay-stage" }, this.stage, this.scrub, bar, shows), side, this.plotPlace);
       this.stage.addEventListener("keydown", (event) => this.key(event));

@@ -18,7 +18,10 @@ from rgss.reports.replay.viewer_file import replay_to_viewer_file
 from rgss.trials.replay import LineKind, NodeKind
 from tests.fixtures.made_replay import JOINTS, made_record, made_scene, made_trace
 
-ONCE = ["/tf_static", "/scene", "/perceived", "/planned_paths", "/search_graphs", "/perceived_object_pose"]
+ONCE = [
+    *("/tf_static", "/scene", "/perceived", "/planned_paths", "/search_graphs", "/perceived_object_pose"),
+    *("/object_pose/other cup", "/perceived_object_pose/other cup"),
+]
 EACH_SAMPLE = [
     *("/tf", "/contact_forces", "/object_pose", "/joint_states", "/joint_positions", "/joint_speeds"),
     *("/tool_speed", "/finger_forces", "/grip_margin"),
@@ -132,7 +135,7 @@ def test_transforms_are_the_poses_of_the_trial(topics, scene):
             moving.add(one["child_frame_id"])
 
     assert moving == {"link/link/1", "link/gripper_base", "object/red cup"}
-    assert set(still) == {"body/the floor", "object/other cup", "perceived/red cup"}
+    assert set(still) == {"body/the floor", "object/other cup", "perceived/red cup", "perceived/other cup"}
     assert still["object/other cup"]["translation"] == {"x": 0.3, "y": -0.3, "z": 0.05}
 
 
@@ -159,6 +162,11 @@ def test_the_perceived_pose_is_beside_the_true_one(topics, scene):
     assert seen["pose"]["position"] == {"x": 0.52, "y": 0.01, "z": 0.3}
     assert list(true[30][1]["pose"]["position"].values()) == cup.positions_m[30].tolist()
     assert list(true[30][1]["pose"]["orientation"].values()) == cup.quaternions_xyzw[30].tolist()
+    other = [
+        only(topics, f"/{topic}/other cup")["pose"]["position"]["x"]
+        for topic in ("object_pose", "perceived_object_pose")
+    ]
+    assert other == [0.3, 0.31]
 
 
 def test_an_object_that_never_moves_has_one_pose():
