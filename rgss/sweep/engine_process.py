@@ -18,7 +18,7 @@ import weakref
 from collections.abc import Callable
 from functools import lru_cache
 from multiprocessing.connection import Connection, Pipe
-from typing import Any, TypeVar, cast
+from typing import IO, Any, TypeVar, cast
 
 from rgss.engines import require_engines
 from rgss.errors import RgssError, SimulationError
@@ -108,7 +108,7 @@ class _Child:
                 # Ctrl-C reaches a whole group, and only this process answers it.
                 start_new_session=True,
             )
-        self._finalizer = weakref.finalize(self, _kill, self._process, self.pipe)
+        self._finalizer = weakref.finalize(self, _discard, self._process, self.pipe, self._output)
 
     def end(self) -> str:
         """End it; returns how it had ended."""
@@ -116,9 +116,9 @@ class _Child:
             status: int | None = self._process.wait(0.5)
         except subprocess.TimeoutExpired:
             status = None
-        self._finalizer()
+        _kill(self._process, self.pipe)
         tail = self._stderr_tail()
-        self._output.close()
+        self._finalizer()
         if status is not None and status < 0:
             with contextlib.suppress(ValueError):
                 return f"was killed by {signal.Signals(-status).name}{tail}"
@@ -136,6 +136,11 @@ def _kill(process: subprocess.Popen[bytes], pipe: Connection) -> None:
     pipe.close()
     process.kill()
     process.wait()
+
+
+def _discard(process: subprocess.Popen[bytes], pipe: Connection, output: IO[bytes]) -> None:
+    _kill(process, pipe)
+    output.close()
 
 
 @lru_cache(maxsize=1)

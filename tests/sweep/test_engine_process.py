@@ -74,6 +74,14 @@ sys.stdin.read()
 """
 
 
+def test_nothing_is_left_open_at_the_exit():
+    leave = SCRIPT.replace("sys.stdin.read()", "")
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", leave], capture_output=True, text=True, cwd=REPOSITORY, check=True
+    )
+    assert done.stderr == ""
+
+
 def test_it_ends_with_the_process_that_started_it_even_if_that_is_killed():
     with subprocess.Popen(
         [sys.executable, "-c", SCRIPT], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, cwd=REPOSITORY
