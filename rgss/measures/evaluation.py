@@ -51,7 +51,8 @@ def evaluate(
     design = design_values(measure_set, fixed=fixed, variant=variant)
     rows = [trial_values(measure_set, design=design, trial=trial) for trial in trials]
     successes = [trial.get("success") == 1 for trial in trials]
-    possible = possible_ranges(measure_set, design)
+    # An interval of fewer trials has declared bounds alone.
+    possible = possible_ranges(measure_set, design) if len(rows) > 1 else {}
     estimates: dict[str, Estimate] = {}
     for measure in measure_set.measures:
         rule = measure.estimate
@@ -71,7 +72,7 @@ def evaluate(
             complete = sum(value >= COMPLETE for value in known)
             estimates[measure.id] = proportion_estimate(complete, len(known))
         else:
-            estimates[measure.id] = _mean(measure, known, possible[measure.id], variant)
+            estimates[measure.id] = _mean(measure, known, possible.get(measure.id, Range()), variant)
     return estimates
 
 
