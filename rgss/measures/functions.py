@@ -77,10 +77,6 @@ def _norm(values: list[float]) -> float:
     return math.hypot(*values)
 
 
-def _root_range(one: Range) -> Range:
-    return one.power(0.5)
-
-
 def _count(values: list[float]) -> float:
     return float(len(values))
 
@@ -89,13 +85,7 @@ FUNCTIONS: Mapping[str, Function] = MappingProxyType(
     {
         function.name: function
         for function in (
-            Function(
-                name="abs",
-                shape=Shape.ENTRY_BY_ENTRY,
-                dimension_power=1.0,
-                compute=abs,
-                range=Range.absolute,
-            ),
+            Function(name="abs", shape=Shape.ENTRY_BY_ENTRY, dimension_power=1.0, compute=abs, range=Range.absolute),
             Function(
                 name="count",
                 shape=Shape.REDUCTION,
@@ -108,13 +98,7 @@ FUNCTIONS: Mapping[str, Function] = MappingProxyType(
             Function(name="mean", shape=Shape.REDUCTION, dimension_power=1.0, compute=_mean, range=Range.entry),
             Function(name="min", shape=Shape.EXTREME, dimension_power=1.0, compute=min, range=Range.entry),
             Function(name="norm", shape=Shape.REDUCTION, dimension_power=1.0, compute=_norm, range=Range.norm),
-            Function(
-                name="sqrt",
-                shape=Shape.ENTRY_BY_ENTRY,
-                dimension_power=0.5,
-                compute=math.sqrt,
-                range=_root_range,
-            ),
+            Function(name="sqrt", shape=Shape.ENTRY_BY_ENTRY, dimension_power=0.5, compute=math.sqrt, range=Range.root),
             Function(name="sum", shape=Shape.REDUCTION, dimension_power=1.0, compute=math.fsum, range=Range.total),
         )
     }

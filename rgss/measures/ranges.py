@@ -56,6 +56,10 @@ class Range:
             return replace(self, low=_power(near, exponent), high=_power(far, exponent))
         return replace(self, low=0.0, high=_power(max(0.0, self.high), exponent))
 
+    def root(self) -> Range:
+        """Range of the square roots that are defined."""
+        return self.power(0.5)
+
     def absolute(self) -> Range:
         """Range of the absolute values."""
         return replace(self, low=max(0.0, self.low, -self.high), high=max(-self.low, self.high))
@@ -76,7 +80,7 @@ class Range:
 
     def norm(self) -> Range:
         """Range of the Euclidean norm of a row."""
-        return self.power(2.0).total().power(0.5)
+        return self.power(2.0).total().root()
 
 
 def _common_length(one: Range, other: Range) -> int | None:
