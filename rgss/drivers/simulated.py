@@ -10,7 +10,7 @@ from rgss.drivers.driver import Estimate, GripperState, SetPoint
 from rgss.errors import DriverError
 from rgss.kinematics import ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.scenes import Gripper, Scene, grasp_opening_m
+from rgss.scenes import Gripper, Scene, grasp_opening_m, object_in_hand
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,7 +79,7 @@ class SimulatedDriver:
         self._machine = TorqueArm(scene.robot, gripper, self._settings, gravity_m_s2=scene.gravity_m_s2)
         self._machine.reset(self._start_rad, 0.0)
         opening_m = gripper.geometry.largest_opening_m
-        self._held = None if scene.grasp_in_object is None else scene.grasp_in_object.inverse()
+        self._held = object_in_hand(scene, gripper.geometry)
         centre = gripper.geometry.grasp_centre if self._held is None else gripper.geometry.grasp_centre @ self._held
         held = workpiece_load(scene.workpiece, centre)
         loaded = gripper_loads(gripper, grasp_opening_m(scene, gripper.geometry))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from rgss.physics.contacts import Contacts, FingerContact
@@ -20,7 +20,7 @@ class ContactReader:
         *,
         robot: int,
         workpiece: int,
-        finger_links: Sequence[int],
+        finger_of_link: Mapping[int, int],
         link_names: Mapping[int, str],
         scene_names: Mapping[int, str],
         principal: Pose | None = None,
@@ -32,7 +32,7 @@ class ContactReader:
             client: The physics client.
             robot: The robot's body.
             workpiece: The workpiece's body.
-            finger_links: The link of each finger.
+            finger_of_link: The finger to which a link belongs, for each link of one.
             link_names: Names of the robot's links.
             scene_names: Names of the scene's bodies.
             principal: Transform of the workpiece's principal axes, whose pose the engine reports, to the frame of its
@@ -44,8 +44,8 @@ class ContactReader:
         self._client = client
         self._robot = robot
         self._workpiece = workpiece
-        self._finger_joints = tuple(finger_links)
-        self._finger_of_link = {link: finger for finger, link in enumerate(finger_links)}
+        self._fingers = len(set(finger_of_link.values()))
+        self._finger_of_link = finger_of_link
         self._link_names = link_names
         self._scene_names = scene_names
         self._resting: dict[tuple[str, ...], Contacts] = {}
@@ -61,10 +61,11 @@ class ContactReader:
         """
         if standing is not None and not self._engine.getContactPoints(self._robot, -1, -2, -2, self._client):
             return standing
-        forces = [0.0] * len(self._finger_joints)
+        forces = [0.0] * self._fingers
         other, pressed = 0.0, []
         robot_bodies: tuple[tuple[str, str], ...] = ()
         workpiece_bodies: tuple[str, ...] = ()
+        pressing_links: tuple[str, ...] = ()
         robot, workpiece = self._robot, self._workpiece
         names, finger_of_link = self._scene_names, self._finger_of_link
         is_robot_touching = False
@@ -93,17 +94,19 @@ class ContactReader:
             finger = finger_of_link.get(link)
             if finger is None:
                 other += force
+                if self._link_names[link] not in pressing_links:
+                    pressing_links = (*pressing_links, self._link_names[link])
                 continue
             forces[finger] += force
             # The engine reports friction as it acts on body A.
             pressed.append((sign, point))
         if is_robot_touching:
-            return Contacts(tuple(forces), other, tuple(pressed), robot_bodies, workpiece_bodies)
+            return Contacts(tuple(forces), other, tuple(pressed), robot_bodies, workpiece_bodies, pressing_links)
         # This is the case half of the time, with one body under the workpiece or none.
         resting = self._resting.get(workpiece_bodies)
         if resting is None:
             nothing = (0.0,) * len(forces)
-            resting = self._resting[workpiece_bodies] = Contacts(nothing, 0.0, (), (), workpiece_bodies)
+            resting = self._resting[workpiece_bodies] = Contacts(nothing, 0.0, (), (), workpiece_bodies, ())
         return resting
 
     def scene_force_n(self) -> float:

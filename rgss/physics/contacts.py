@@ -17,6 +17,7 @@ class Contacts(NamedTuple):
         friction on the workpiece.
         robot_bodies: Pairs (link, body) of the robot touching the scene.
         workpiece_bodies: Scene bodies that the workpiece touches.
+        pressing_links: Names of those other links, in the order of the engine.
     """
 
     finger_forces_n: tuple[float, ...]
@@ -24,6 +25,7 @@ class Contacts(NamedTuple):
     pressed: tuple[tuple[float, Any], ...]
     robot_bodies: tuple[tuple[str, str], ...]
     workpiece_bodies: tuple[str, ...]
+    pressing_links: tuple[str, ...]
 
     @property
     def finger_force_sum_n(self) -> float:

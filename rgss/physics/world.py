@@ -316,7 +316,7 @@ class World(ClientOwner):
             if abs(ax * bx + ay * by + az * bz + aw * bw) >= _RENEWAL_COSINE:
                 return
             self._renewed_at = turned
-            self._to_renew = list(self._finger_joints)
+            self._to_renew = list(self._finger_of_link)
         # One finger at a time, so that the friction of the others holds the object.
         self._rediscover(self._robot, self._to_renew.pop())
 
@@ -351,7 +351,7 @@ class World(ClientOwner):
             self._client,
             robot=self._robot,
             workpiece=self._workpiece,
-            finger_links=self._finger_links,
+            finger_of_link=self._finger_of_link,
             link_names=self._link_names,
             scene_names={**self._scene_names, **others},
             principal=self._principal,
@@ -366,7 +366,7 @@ class World(ClientOwner):
         self._finger_joints = index.finger_joints
         self._flange = index.flange
         self._grasp_centre_m = self.gripper.geometry.grasp_centre.position_m
-        self._finger_links = self._finger_joints if index.cup is None else [index.cup]
+        self._finger_of_link = index.finger_of_link if index.cup is None else {index.cup: 0}
         self._link_names = index.link_names
         self._reader = self._reader_of_workpiece()
         builder.set_robot_dynamics(self._robot, index)

@@ -28,6 +28,7 @@ from rgss.scenes import (
     assembled_urdf,
     finger_joint,
     finger_pads,
+    link_names_of,
     most_elements,
     standing_links,
     suction_point_of,
@@ -45,6 +46,7 @@ class RobotIndex:
     Attributes:
         arm_joints: Joints of the arm, from the base to the flange.
         finger_joints: Joints of the fingers, which are also the ids of their links.
+        finger_of_link: The finger to which a link belongs: those links, and what is fixed relative to a pad.
         flange: Link of the flange.
         cup: Link of the suction cup; None for a gripper with fingers.
         link_names: Name of each link by its id; -1 is the base.
@@ -53,6 +55,7 @@ class RobotIndex:
 
     arm_joints: list[int]
     finger_joints: list[int]
+    finger_of_link: Mapping[int, int]
     flange: int
     cup: int | None
     link_names: Mapping[int, str]
@@ -184,9 +187,17 @@ class WorldBuilder:
         links = {entry[12].decode(): entry[0] for entry in info}
         link_names = {index: name for name, index in links.items()}
         link_names[-1] = engine.getBodyInfo(robot, physicsClientId=client)[0].decode()
+        geometry = self.gripper.geometry
+        fingers = [joints[finger_joint(finger)] for finger in range(geometry.fingers)]
+        finger_of_link = {link: finger for finger, link in enumerate(fingers)}
+        if geometry.linkage is not None:
+            names = link_names_of(geometry.linkage)
+            for finger, parts in enumerate(geometry.linkage.finger_parts):
+                finger_of_link |= {links[names[part]]: finger for part in parts}
         return RobotIndex(
             arm_joints=[joints[joint.name] for joint in self.scene.robot.joints],
-            finger_joints=[joints[finger_joint(finger)] for finger in range(self.gripper.geometry.fingers)],
+            finger_joints=fingers,
+            finger_of_link=finger_of_link,
             flange=links[self.scene.robot.flange],
             cup=links.get(CUP_LINK),
             link_names=link_names,
@@ -202,10 +213,10 @@ class WorldBuilder:
             )
         elements = most_elements(self.pads)
         stiffness_n_m = self.settings.pad_stiffness_n_m / elements
-        for joint in index.finger_joints:
+        for link in index.finger_of_link:
             engine.changeDynamics(
                 robot,
-                joint,
+                link,
                 lateralFriction=self.gripper.friction,
                 frictionAnchor=1,
                 contactStiffness=stiffness_n_m,

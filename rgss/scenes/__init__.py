@@ -43,10 +43,12 @@ from rgss.scenes.hands import (
     at_top,
     find_pads,
     misfit,
+    object_in_hand,
     palm_fit,
     suction_point_of,
     too_narrow,
     too_wide,
+    tool_with_pads_at,
 )
 from rgss.scenes.link_solids import LinkSolid, link_solid
 from rgss.scenes.linkage import Linkage, LinkageMotion

@@ -95,6 +95,16 @@ class Linkage:
         return tuple(still)
 
     @property
+    def finger_parts(self) -> tuple[tuple[int, ...], ...]:
+        """For each pad the indices of the links that are fixed relative to it, itself among them."""
+        moved_by: list[int] = []
+        for index, link in enumerate(self.links):
+            moved_by.append(moved_by[link.parent] if link.kind is None and link.parent >= 0 else index)
+        return tuple(
+            tuple(index for index, mover in enumerate(moved_by) if mover == moved_by[pad.link]) for pad in self.pads
+        )
+
+    @property
     def palm_mass_kg(self) -> float:
         """Mass of those links."""
         return math.fsum(self.links[index].mass_kg for index in self.palm_links)

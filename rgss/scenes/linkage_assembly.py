@@ -15,6 +15,7 @@ from rgss.scenes.robot import JointKind
 
 _MARGIN_M = 1.0e-3
 _MARGIN_SHARE = 0.25
+_SAME_M = 1.0e-6
 # A frame without a mass; engines would assume a default.
 _NO_MASS_KG, _NO_MOMENT_KG_M2 = 1e-6, 1e-9
 _KINDS = {None: "fixed", JointKind.REVOLUTE: "continuous", JointKind.PRISMATIC: "prismatic"}
@@ -68,10 +69,12 @@ def add_linkage(
         pads: Contact elements of the pad of each finger; empty for flat pads.
     """
     layouts = {pad.link: (pad, layout) for pad, layout in zip(linkage.pads, pads, strict=True)} if pads else {}
+    faces = _faces(linkage, pads) if pads else {}
     masses_kg = linkage_masses_kg(gripper, linkage)
     for index, link in enumerate(linkage.links):
-        pad = layouts.get(index)
-        _add_link(root, link, names[index], masses_kg[index], pad)
+        _add_link(root, link, names[index], masses_kg[index], faces.get(index))
+        if index in layouts:
+            _add_elements(root[-1], *layouts[index])
         kind = _KINDS[link.kind]
         driven = index == linkage.driven
         if driven and link.kind is JointKind.REVOLUTE:
@@ -89,9 +92,19 @@ def add_linkage(
         ET.SubElement(joint, "limit", {key: repr(float(value)) for key, value in limits.items()})
 
 
-def _add_link(
-    root: ET.Element, link: LinkageLink, name: str, mass_kg: float, pad: tuple[LinkagePad, PadLayout] | None
-) -> None:
+def _faces(linkage: Linkage, pads: Sequence[PadLayout]) -> dict[int, tuple[Pose, float]]:
+    """For each link of a finger the frame of its pad's face in it, and the distance that it stays behind the face."""
+    poses = linkage.link_poses(linkage.opened)
+    faces: dict[int, tuple[Pose, float]] = {}
+    for pad, layout, parts in zip(linkage.pads, pads, linkage.finger_parts, strict=True):
+        behind_m = layout.proud_m + min(_MARGIN_M, _MARGIN_SHARE * pad.size_m[0])
+        for index in parts:
+            frame = pad.frame if index == pad.link else poses[index].inverse() @ poses[pad.link] @ pad.frame
+            faces[index] = frame, behind_m
+    return faces
+
+
+def _add_link(root: ET.Element, link: LinkageLink, name: str, mass_kg: float, face: tuple[Pose, float] | None) -> None:
     element = ET.SubElement(root, "link", {"name": name})
     inertial = ET.SubElement(element, "inertial")
     _add_origin(inertial, link.inertial)
@@ -104,21 +117,21 @@ def _add_link(
     ET.SubElement(inertial, "inertia", {key: repr(value) for key, value in zip(keys, moments, strict=True)})
     for hull in link.hulls_m:
         for tag in ("collision", "visual"):
-            corners = hull if pad is None or tag == "visual" else tuple(_behind(*pad, corner) for corner in hull)
+            corners = hull if face is None or tag == "visual" else tuple(_behind(*face, corner) for corner in hull)
             geometry = ET.SubElement(ET.SubElement(element, tag), "geometry")
             geometry.append(convex_element(corners))
-    if pad is not None:
-        _add_elements(element, *pad)
 
 
-def _behind(pad: LinkagePad, layout: PadLayout, corner: Triple) -> Triple:
-    """Corner of a finger, moved behind the contact elements of its pad if it would touch before them."""
-    (px, py, pz), (x, y, z) = pad.frame.position_m, corner
-    dx, dy, dz = pad.frame.inverse_rotate((x - px, y - py, z - pz))
-    behind_m = layout.proud_m + min(_MARGIN_M, _MARGIN_SHARE * pad.size_m[0])
-    if dx >= behind_m:
+def _behind(face: Pose, behind_m: float, corner: Triple) -> Triple:
+    """Corner of a finger, moved behind the contact elements of its pad if it would touch before them.
+
+    What lies before the pad's face, such as a hook above it, stays.
+    """
+    (px, py, pz), (x, y, z) = face.position_m, corner
+    dx, dy, dz = face.inverse_rotate((x - px, y - py, z - pz))
+    if dx >= behind_m or dx < -_SAME_M:
         return corner
-    mx, my, mz = pad.frame.rotate((behind_m, dy, dz))
+    mx, my, mz = face.rotate((behind_m, dy, dz))
     return px + mx, py + my, pz + mz
 
 

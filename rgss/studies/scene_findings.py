@@ -153,6 +153,8 @@ class _Places:
             of = f" with {', '.join(grippers)}" if grippers else ""
             location = (*location[:-1], "id")
             message = f"no grasp candidate of {first}{of} can be carried out: {problem.detail}"
+            if problem.reason is not None:
+                message += f"; the best one does not serve {problem.waypoint}: {problem.reason}"
             hint = "let the task try more approaches, turn or move the object, or take another gripper"
         elif problem.kind is SceneProblemKind.HOME_COLLISION:
             message = f"at its home the robot is in collision: {first} with {second}, {millimetres} deep"

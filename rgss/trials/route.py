@@ -15,6 +15,7 @@ from rgss.scenes import (
     grasp_opening_m,
     initial_placements,
     scene_about,
+    tool_with_pads_at,
     waypoint_poses,
 )
 from rgss.tasks import HandAction, MoveStep, Stage, Target, TaskProgram, stages_of
@@ -147,10 +148,10 @@ class _Cell:
         parts = [target.name]
         parts += [f"of {name}"] if name != self._scene.workpiece.id else []
         parts += [f"at {place}"] if place and waypoint in _AT_PLACE else []
-        pose = waypoint_poses(view)[waypoint].raised(target.raised_m)
+        pads = waypoint_poses(view)[waypoint].raised(target.raised_m)
         return Stop(
             name=" ".join(parts),
-            pose=pose,
+            pose=tool_with_pads_at(pads, view, self._geometry),
             is_turn_free=self._scene.task.is_yaw_free,
             object=name,
             place=place,
@@ -175,14 +176,15 @@ class _Cell:
     def grip(self, stage: Stage) -> None:
         """Move the object into the hand."""
         view = self._view(stage)
-        self._held = view.grasp.inverse() @ view.workpiece.pose
+        self._held = tool_with_pads_at(view.grasp, view, self._geometry).inverse() @ view.workpiece.pose
 
     def release(self, stage: Stage) -> None:
         """Leave the object at its place."""
         if self._held is None:
             raise AssertionError("checked before: an object is held")
         view = self._view(stage)
-        pose = (view.place_pose @ self._held).raised(-view.task.place_clearance_m)
+        tool = tool_with_pads_at(view.place_pose, view, self._geometry)
+        pose = (tool @ self._held).raised(-view.task.place_clearance_m)
         self._placements[stage.object] = ObjectPlacement(pose=pose, support=view.place_support)
         self._held = None
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
+from rgss.grasping.candidates import FrameRejection
 from rgss.kinematics import Overlap, Solid, overlaps
 from rgss.scenes import (
     Box,
@@ -21,7 +22,7 @@ from rgss.scenes import (
     scene_about,
 )
 from rgss.tasks import TaskProgram
-from rgss.trials.grasp_choice import with_stated_suction
+from rgss.trials.grasp_choice import GraspSearch, with_stated_suction
 from rgss.trials.planning import GoalReason, infeasible_waypoints
 from rgss.trials.workcell import Workcell, grasp_searches_of
 
@@ -61,7 +62,8 @@ class SceneProblem:
         second: The other body; empty if there is none.
         distance_m: Penetration depth of an overlap, or distance of the object beyond its support's edge; NaN for other
         problems.
-        waypoint: The waypoint without a configuration; None for other problems.
+        waypoint: The waypoint without a configuration, of the best candidate if no grasp can be carried out; None for
+        other problems.
         is_at_place: True if it is a waypoint at the place, of which `second` is the name, if it has one.
         reason: The reason; None for other problems.
         detail: Numbers of grasp candidates rejected by each filter; empty for other problems.
@@ -106,15 +108,12 @@ def reach_problems(
     Raises:
         DefinitionError: The robot is ill defined.
     """
-    found = []
+    found: list[SceneProblem] = []
+    ungrasped: list[GraspSearch] = []
     if scene.task.candidates is not None:
         searches = grasp_searches_of(scene, geometry, friction=friction, clearance_m=clearance_m, task=task)
         scene = searches[-1].scene
-        found += [
-            SceneProblem(kind=SceneProblemKind.NO_GRASP, first=search.object, detail=search.reasons)
-            for search in searches
-            if search.taken is None
-        ]
+        ungrasped = [search for search in searches if search.taken is None]
     scene = with_stated_suction(scene, geometry)
     cell = Workcell(scene, geometry, clearance_m=clearance_m, task=task)
     model = next(iter(cell.planning.values()))
@@ -125,8 +124,8 @@ def reach_problems(
                 kind=SceneProblemKind.HOME_COLLISION, first=pair.first, second=pair.second, distance_m=-pair.distance_m
             )
         )
-    if any(problem.kind is SceneProblemKind.NO_GRASP for problem in found):
-        return tuple(found)
+    if ungrasped:
+        return (*found, *_without_grasp(ungrasped, cell))
     found += [
         SceneProblem(
             kind=SceneProblemKind.UNSERVED,
@@ -139,6 +138,30 @@ def reach_problems(
         for stop, reason in infeasible_waypoints(cell).items()
     ]
     return tuple(found)
+
+
+def _without_grasp(searches: Sequence[GraspSearch], cell: Workcell) -> Iterator[SceneProblem]:
+    """Objects of which every candidate was rejected, with the first waypoint that the best of them does not serve."""
+    unserved = infeasible_waypoints(cell) if any(search.ranked.grasps for search in searches) else {}
+    for search in searches:
+        problem = SceneProblem(kind=SceneProblemKind.NO_GRASP, first=search.object, detail=search.reasons)
+        stops = [stop for stop in unserved if stop.object == search.object]
+        if not search.ranked.grasps:
+            problem = replace(problem, detail=search.reasons + _widths(search, cell.geometry))
+        elif stops:
+            problem = replace(problem, waypoint=stops[0].name, reason=unserved[stops[0]])
+        yield problem
+
+
+def _widths(search: GraspSearch, geometry: GripperGeometry) -> str:
+    """Width of the object, where it is nearest to what the gripper takes, and the end of the gripper's range."""
+    texts = []
+    for why, opening_m in search.ranked.nearest_opening_m.items():
+        is_wide = why is FrameRejection.TOO_WIDE
+        end_m = geometry.largest_opening_m if is_wide else geometry.least_opening_m
+        ends = "opens" if is_wide else "closes"
+        texts.append(f"; {2e3 * opening_m:.4g} mm across at best, and the gripper {ends} to {2e3 * end_m:.4g} mm")
+    return "".join(texts)
 
 
 def _furniture(scene: Scene) -> Iterator[SceneProblem]:

@@ -30,6 +30,7 @@ def test_sums_and_counts_follow_from_the_forces():
         ),
         robot_bodies=(),
         workpiece_bodies=(),
+        pressing_links=(),
     )
     assert contacts.finger_force_sum_n == 4.0
     assert contacts.friction_n == (4.0, -3.0, 1.0)
@@ -153,6 +154,7 @@ def test_the_grippers_base_on_the_cup_is_another_force(cell):
         cell.follow(world, cell.path(above, onto, 0.5))
         contacts = world.contacts()
     assert contacts.other_force_n > 1.0
+    assert contacts.pressing_links == ("gripper_base",)
     assert contacts.fingers_touching == 0
     assert contacts.robot_bodies == ()
 

@@ -15,7 +15,7 @@ from rgss.scenes import load_gripper_file
 from rgss.studies.robot_project.drafted_gripper import drafted_gripper
 from tests.robots.conftest import urdf_of
 from tests.scenes.linkage_texts import JAWS
-from tests.trials.hands.gripper_files import TWO_FINGER
+from tests.trials.hands.gripper_files import TWO_FINGER, with_thin_pads
 
 pytestmark = pytest.mark.engine
 
@@ -157,6 +157,19 @@ def test_a_fast_gripper_of_long_pads_is_slowed_and_grasps_near_its_tips(tmp_path
     assert "speed: 50 mm/s" in text
     assert "grasp_from_tip: 14 mm" in text
     assert [note.about for note in drafted.notes] == ["speed", "grasp_from_tip"]
+
+
+def test_what_carries_a_pad_takes_no_room_above_the_object(tmp_path):
+    """A pad of its own before each tip, without a mass: the object of the new project is as large as without them."""
+    urdf = tmp_path / "two_finger.urdf"
+    urdf.write_text(with_thin_pads(TWO_FINGER.read_text(encoding="utf-8")), encoding="utf-8")
+    plain = drafted_gripper(TWO_FINGER, tmp_path / "plain")
+    own = drafted_gripper(urdf, tmp_path / "own")
+
+    assert "pads: [left_pad, right_pad]" in (tmp_path / "own/scenes/grippers/two_finger.yaml").read_text("utf-8")
+    assert own.geometry.grasp_depth_m > plain.geometry.grasp_depth_m - 2e-3
+    for one, other in zip(own.cups, plain.cups, strict=True):
+        assert (one.radius_m, one.height_m) == pytest.approx((other.radius_m, other.height_m), abs=3e-3)
 
 
 BACK_TO_THE_PALM = '<joint name="back" type="fixed"><parent link="left"/><child link="palm"/></joint></robot>'

@@ -113,6 +113,21 @@ def test_pads_of_cranks_move_on_arcs(two_finger):
     assert two_finger.settings["gripper.finger.force"] == pytest.approx(1.0 / radius_m, rel=1e-3)
 
 
+def test_what_is_fixed_to_a_link_with_a_mass_needs_none(jaws):
+    pad = """  <link name="pad"><collision><geometry><box size="0.02 0.002 0.04"/></geometry></collision></link>
+  <joint name="pad_joint" type="fixed">
+    <origin xyz="0 0.001 0.02"/><parent link="left"/><child link="pad"/>
+  </joint>
+</robot>"""
+    linkage = jaws("</robot>", pad).geometry.linkage
+    assert [link.name for link in linkage.links if not link.mass_kg] == ["camera", "pad"]
+    assert linkage.moved_mass_kg == pytest.approx(0.1)
+    assert [[linkage.links[index].name for index in parts] for parts in linkage.finger_parts] == [
+        ["left", "pad"],
+        ["right"],
+    ]
+
+
 @pytest.mark.engine
 def test_the_hand_of_a_whole_robot_is_read_from_its_urdf(tmp_path):
     shutil.copytree(urdf_of("seven with a hand").parent, tmp_path / "franka_panda")
@@ -155,6 +170,7 @@ def test_the_hand_of_a_whole_robot_is_read_from_its_urdf(tmp_path):
         ('joint="left_joint"/>', 'joint="left_joint" multiplier="0.5"/>', "mm beside the tool axis"),
         ('joint="left_joint"/>', 'joint="left_joint" offset="0.01"/>', "mm beside the tool axis"),
         ('value="0.05"', 'value="0"', "has no mass or no inertia for link 'left'"),
+        ('value="0.4"', 'value="0"', "has no mass or no inertia for link 'palm'"),
         ('xyz="0 0 0.06"', 'xyz="0 0 60"', "places a part of the link 'left' 60.04 m from the flange"),
         ('value="0.4"', 'value="400"', "gives the link 'palm' 400 kg"),
         ('effort="30"', 'effort="0"', "gives the driven joint 'left_joint' no effort"),

@@ -240,7 +240,7 @@ UNFORESEEN = {
     ),
     "a taller cup": (
         with_tall_cup,
-        (Failure.OBJECT_COLLISION, Phase.MOVE_TO_GRASP, r"the arm pressed the object with \d+\.\d\d N"),
+        (Failure.OBJECT_COLLISION, Phase.MOVE_TO_GRASP, r"gripper_base pressed the object with \d+\.\d\d N"),
     ),
     "a cup under the finger": (
         lambda spec: with_cup_at(spec, 0.74, -0.3),

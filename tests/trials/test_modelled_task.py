@@ -271,6 +271,7 @@ class ScriptedWorld:
             pressed=(),
             robot_bodies=(("forearm", "column"),) if self.wrong == "the arm touches the scene" else (),
             workpiece_bodies=("column",) if self.wrong == "the object touches the scene" else (),
+            pressing_links=("forearm",) if self.wrong == "the arm presses the object" else (),
         )
 
     def finger_contacts(self):

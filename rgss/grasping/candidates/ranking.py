@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 
 from rgss.grasping.candidates.boxes import box_frames
@@ -72,10 +73,21 @@ class RankedGrasps:
     Attributes:
         grasps: The candidates.
         rejected_frames: Number of rejected tool frames by reason.
+        nearest_opening_m: Of the frames that are too wide or too narrow for the gripper, the opening nearest to its
+        range by reason.
     """
 
     grasps: tuple[RankedGrasp, ...]
     rejected_frames: Mapping[FrameRejection, int]
+    nearest_opening_m: Mapping[FrameRejection, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class _Rejected:
+    """Rejection of a tool frame, with the opening of the pads in contact where it is known."""
+
+    reason: FrameRejection
+    opening_m: float = math.nan
 
 
 def ranked_grasps(
@@ -91,10 +103,12 @@ def ranked_grasps(
     """
     found: list[RankedGrasp] = []
     rejected_frames: Counter[FrameRejection] = Counter()
+    openings_m: dict[FrameRejection, list[float]] = {}
     for frame in _frames(workpiece, geometry, options, friction):
         one = _ranked(frame, workpiece, geometry, options, friction)
-        if isinstance(one, FrameRejection):
-            rejected_frames[one] += 1
+        if isinstance(one, _Rejected):
+            rejected_frames[one.reason] += 1
+            openings_m.setdefault(one.reason, []).append(one.opening_m)
         else:
             found.append(one)
     found.sort(
@@ -105,7 +119,12 @@ def ranked_grasps(
             grasp.id,
         )
     )
-    return RankedGrasps(grasps=tuple(found), rejected_frames=dict(rejected_frames))
+    nearest = {FrameRejection.TOO_WIDE: min, FrameRejection.TOO_NARROW: max}
+    return RankedGrasps(
+        grasps=tuple(found),
+        rejected_frames=dict(rejected_frames),
+        nearest_opening_m={why: of(openings_m[why]) for why, of in nearest.items() if why in openings_m},
+    )
 
 
 def _frames(
@@ -127,25 +146,25 @@ def _frames(
 
 def _ranked(
     frame: ToolFrame, workpiece: Workpiece, geometry: GripperGeometry, options: GraspCandidates, friction: float
-) -> RankedGrasp | FrameRejection:
+) -> RankedGrasp | _Rejected:
     approach = approach_of(frame.tool_in_object)
     if approach is None or approach not in options.approaches:
-        return FrameRejection.APPROACH
+        return _Rejected(FrameRejection.APPROACH)
     settled = settled_grasp(workpiece.shape, frame.tool_in_object, geometry)
     if settled is None:
-        return FrameRejection.CONTACT
+        return _Rejected(FrameRejection.CONTACT)
     tool_in_object, patches = settled
     opening_m = max(patch.opening_m for patch in patches)
     if opening_m > geometry.largest_opening_m - _OPEN_GAP_M:
-        return FrameRejection.TOO_WIDE
+        return _Rejected(FrameRejection.TOO_WIDE, opening_m)
     if opening_m <= geometry.largest_opening_m - geometry.stroke_m:
-        return FrameRejection.TOO_NARROW
+        return _Rejected(FrameRejection.TOO_NARROW, opening_m)
     if any(patch.is_on_rim for patch in patches):
-        return FrameRejection.RIM
+        return _Rejected(FrameRejection.RIM)
     points = contact_points(patches, tool_in_object, geometry, friction)
     quality = quality_1(points, workpiece)
     if quality <= 0.0:
-        return FrameRejection.NO_FORCE_CLOSURE
+        return _Rejected(FrameRejection.NO_FORCE_CLOSURE)
     return RankedGrasp(
         id=frame.id,
         tool_in_object=tool_in_object,

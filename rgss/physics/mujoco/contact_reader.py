@@ -85,6 +85,7 @@ class MujocoContactReader:
         forces, other_n = [0.0] * self._fingers, 0.0
         pressed: list[tuple[float, Vector3]] = []
         workpiece_bodies: dict[str, None] = {}
+        pressing_links: dict[str, None] = {}
         for point in points:
             body = self._body_of.get(point.partner)
             if body is not None:
@@ -94,10 +95,18 @@ class MujocoContactReader:
             finger = self._finger_of.get(point.partner)
             if finger is None:
                 other_n += normal_n
+                pressing_links[self._link_of[point.partner]] = None
             elif normal_n > _NO_FORCE:
                 forces[finger] += normal_n
                 pressed.append((1.0, self._friction_n(point)))
-        return PointContacts(tuple(forces), other_n, tuple(pressed), tuple(robot_bodies), tuple(workpiece_bodies))
+        return PointContacts(
+            tuple(forces),
+            other_n,
+            tuple(pressed),
+            tuple(robot_bodies),
+            tuple(workpiece_bodies),
+            tuple(pressing_links),
+        )
 
     def scene_force_n(self) -> float:
         """Sum of the normal forces of the scene's bodies on the workpiece in the last step."""

@@ -108,12 +108,7 @@ def mechanism_problems(root: ET.Element, entry: LinkageGripperDocument) -> Itera
     yield from _mimic_problems(joints)
     for name in driven:
         yield from _limit_problems(joints[name])
-    for name, link in links.items():
-        carrier = next((joint for joint in joints.values() if _end(joint, "child") == name), None)
-        needs = link.find("collision") is not None or (carrier is not None and carrier.get("type") != "fixed")
-        if needs and not _has_inertia(link):
-            hint = "give it an <inertial> with a mass above 0 and its moments"
-            yield f"has no mass or no inertia for link {name!r}", ("description",), hint
+    yield from _mass_problems(links, joints, palm_of(root, entry))
 
 
 def links_of(root: ET.Element, palm: str, mount: Pose) -> tuple[LinkageLink, ...]:
@@ -151,6 +146,24 @@ def follows(name: str, joints: Mapping[str, ET.Element]) -> tuple[float, float]:
     multiplier, offset = follows(mimic.get("joint", ""), joints)
     own = float(mimic.get("multiplier", "1"))
     return own * multiplier, own * offset + float(mimic.get("offset", "0"))
+
+
+def _mass_problems(links: Mapping[str, ET.Element], joints: Mapping[str, ET.Element], palm: str) -> Iterable[Problem]:
+    """Rigid parts without a mass: links on fixed joints are one part with the link that carries them."""
+    fixed_to = {
+        _end(joint, "child"): _end(joint, "parent") for joint in joints.values() if joint.get("type") == "fixed"
+    }
+    parts: dict[str, list[ET.Element]] = {}
+    for name, link in links.items():
+        first, seen = name, {name}
+        while first != palm and fixed_to.get(first, "") in links and fixed_to[first] not in seen:
+            first = fixed_to[first]
+            seen.add(first)
+        parts.setdefault(first, []).append(link)
+    for first, part in parts.items():
+        if not any(_has_inertia(link) for link in part):
+            hint = "give it an <inertial> with a mass above 0 and its moments"
+            yield f"has no mass or no inertia for link {first!r}", ("description",), hint
 
 
 def _mimic_problems(joints: Mapping[str, ET.Element]) -> Iterable[Problem]:

@@ -21,6 +21,7 @@ from rgss.scenes.urdf_meshes import embed_collision_meshes, files_of
 
 _PADS = 2
 _SAME_OPENING_M = 1.0e-3
+_BEFORE_M = 1.0e-5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,7 +41,8 @@ def find_pads(urdf: Path, *, palm: str | None, project: Path, mounts: Sequence[P
     """Find the pads of a gripper: of the mounts, the one with the pads farthest from the flange.
 
     Of several pairs of links that close on the tool axis, the pair with the least opening touches an object first; of
-    equal ones (such as a finger and its tip), the pair with the largest faces is taken.
+    equal ones (such as a finger and its tip), the pair with the largest faces is taken, but no face behind another of
+    the same fingers.
 
     Args:
         urdf: The URDF.
@@ -67,7 +69,8 @@ def find_pads(urdf: Path, *, palm: str | None, project: Path, mounts: Sequence[P
     _, mount, found = max(reached, key=lambda one: one[0])
     least_m = min(linkage.opening_m(linkage.opened) for linkage in found)
     inner = [linkage for linkage in found if linkage.opening_m(linkage.opened) < least_m + _SAME_OPENING_M]
-    one, other = max(inner, key=_face_m2).pads
+    foremost = [one for one in inner if not any(_is_before(other, one) for other in inner)]
+    one, other = max(foremost, key=_face_m2).pads
     return FoundPads(links=(inner[0].links[one.link].name, inner[0].links[other.link].name), mount=mount)
 
 
@@ -119,6 +122,12 @@ def _closing_pairs(root: ET.Element, palm: str, mount: Pose, problems: list[PadE
             continue
         if _depth_m(linkage) > 0.0:
             yield linkage
+
+
+def _is_before(one: Linkage, other: Linkage) -> bool:
+    """True if the pads of a pair are before those of another pair that is fixed relative to them."""
+    closer_m = other.opening_m(other.opened) - one.opening_m(one.opened)
+    return one.finger_parts == other.finger_parts and closer_m > _BEFORE_M
 
 
 def _depth_m(linkage: Linkage) -> float:

@@ -43,7 +43,7 @@ def grasp_from_tip_m(geometry: GripperGeometry) -> float | None:
     """Distance of the grasp centre from the ends of the pads in m, in whole millimetres; None for their middle.
 
     An object is held in the middle of its height, so that its half must have room below the grasp centre, for the ends
-    of the pads above the table, and above it, below the links that close on it.
+    of the pads and of what carries them above the table, and above it, below the links that close on it.
 
     Args:
         geometry: The gripper with its grasp centre in the middle of the pads.
@@ -51,7 +51,8 @@ def grasp_from_tip_m(geometry: GripperGeometry) -> float | None:
     radius_m, half_m = _radius_m(geometry), geometry.finger.size_m[2] / 2
     end_m = at_opening(geometry, radius_m).grasp_depth_m + half_m
     below_links_m = end_m - _reach_above_m(geometry, radius_m) - _TOP_ROOM_M
-    wanted_m = min(_LARGEST_FROM_TIP_M, (below_links_m - _TABLE_ROOM_M) / 2)
+    past_pads_m = max(0.0, _fingers_end_m(geometry, radius_m) - end_m)
+    wanted_m = min(_LARGEST_FROM_TIP_M, (below_links_m - _TABLE_ROOM_M - past_pads_m) / 2)
     return None if wanted_m >= half_m else min(max(_whole_mm(wanted_m), _LEAST_FROM_TIP_M), half_m)
 
 
@@ -64,6 +65,23 @@ def _least_radius_m(geometry: GripperGeometry) -> float:
     return geometry.largest_opening_m - geometry.stroke_m + _CLOSED_ROOM_M
 
 
+def _fingers_end_m(geometry: GripperGeometry, radius_m: float) -> float:
+    """Greatest distance from the flange of the links with the pads, closed on a cup, in m."""
+    linkage = geometry.linkage
+    if linkage is None:
+        return geometry.base.height_m + geometry.finger.size_m[2]
+    motion = LinkageMotion(linkage)
+    poses = linkage.link_poses(motion.driven_at(motion.largest_opening_m - radius_m))
+    ends = (
+        poses[index].position_m[2] + poses[index].rotate(corner)[2]
+        for parts in linkage.finger_parts
+        for index in parts
+        for hull in linkage.links[index].hulls_m
+        for corner in hull
+    )
+    return max(ends)
+
+
 def _reach_above_m(geometry: GripperGeometry, radius_m: float) -> float:
     """Greatest distance from the flange of what is above a cup while the pads close on it, in m."""
     linkage = geometry.linkage
@@ -71,11 +89,14 @@ def _reach_above_m(geometry: GripperGeometry, radius_m: float) -> float:
         return geometry.base.height_m
     motion = LinkageMotion(linkage)
     pads = {pad.link for pad in linkage.pads}
+    fingers = {index for parts in linkage.finger_parts for index in parts}
     deepest_m = 0.0
     for driven in np.linspace(linkage.opened, motion.driven_at(motion.largest_opening_m - radius_m), _CLOSING_SAMPLES):
         for index, pose in enumerate(linkage.link_poses(float(driven))):
             for points_m in () if index in pads else _points(linkage, index, pose):
-                above = points_m[np.hypot(points_m[:, 0], points_m[:, 1]) < radius_m + _SIDE_ROOM_M]
+                # What carries a pad stays as far beside the object as its pad lets it.
+                side_m = radius_m if index in fingers else radius_m + _SIDE_ROOM_M
+                above = points_m[np.hypot(points_m[:, 0], points_m[:, 1]) < side_m]
                 deepest_m = max(deepest_m, float(above[:, 2].max(initial=0.0)))
     return deepest_m
 

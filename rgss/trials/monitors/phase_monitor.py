@@ -149,7 +149,7 @@ class PhaseMonitor:
         }
 
     def _check_contacts(self, contacts: Contacts) -> None:
-        forces_n, other_n, _, robot_bodies, workpiece_bodies = contacts
+        forces_n, other_n, _, robot_bodies, workpiece_bodies, pressing_links = contacts
         force_n = max(forces_n)
         if force_n > self._peak_force_n:
             self._peak_force_n = force_n
@@ -166,7 +166,8 @@ class PhaseMonitor:
             link, body = robot_bodies[0]
             self.fail(Failure.ARM_COLLISION, f"{link} touched {body}")
         if other_n > 0.0:
-            self.fail(Failure.OBJECT_COLLISION, f"the arm pressed the object with {other_n:.2f} N")
+            links = " and ".join(pressing_links)
+            self.fail(Failure.OBJECT_COLLISION, f"{links} pressed the object with {other_n:.2f} N")
         for body in workpiece_bodies:
             if body != self._resting_on:
                 self.fail(Failure.OBJECT_COLLISION, f"the object touched {body}")

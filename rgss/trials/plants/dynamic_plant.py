@@ -15,7 +15,7 @@ import numpy as np
 from rgss.evidence import Failure, Metric
 from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.scenes import Gripper, Pose, Scene, Workpiece, grasp_opening_m
+from rgss.scenes import Gripper, Scene, Workpiece, grasp_opening_m, object_in_hand
 from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, Step, StepControl, TaskProgram, WaitStep
 from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
@@ -124,7 +124,7 @@ class DynamicPlant:
         firm_s = self._control.firm_grasp_s if step.firm_s is None else step.firm_s
         result = self._rest(step, self._hand.closing_s(view, firm_s), {})
         self._machine.hold_fingers(self._grips.travel_m(step))
-        self._machine.attach(view.workpiece, _held_at(view))
+        self._machine.attach(view.workpiece, object_in_hand(view, self._gripper.geometry))
         self._model = self._loaded_with(view)
         return result
 
@@ -158,10 +158,10 @@ class DynamicPlant:
         """Dynamics of the arm in the controller's model, with the object of a scene in the hand."""
         workpiece = view.workpiece
         if workpiece.id not in self._loaded:
-            gripper = self._gripper
+            gripper, geometry = self._gripper, self._gripper.geometry
             known = self._assumed.get(workpiece.id, workpiece)
-            loads, at = gripper_loads(gripper, grasp_opening_m(view, gripper.geometry)), _held_at(view)
-            centre = gripper.geometry.grasp_centre
+            loads, at = gripper_loads(gripper, grasp_opening_m(view, geometry)), object_in_hand(view, geometry)
+            centre = geometry.grasp_centre
             held = workpiece_load(known, centre if at is None else centre @ at)
             self._loaded[workpiece.id] = ArmDynamics(view.robot, (*loads, held), gravity_m_s2=view.gravity_m_s2)
         return self._loaded[workpiece.id]
@@ -214,11 +214,6 @@ class DynamicPlant:
                 return True
             self._drive(self._at_rad, still, still, log)
         return False
-
-
-def _held_at(view: Scene) -> Pose | None:
-    """Transform of the held object to the grasp-centre frame; None for a cylinder gripped along its axis from above."""
-    return None if view.grasp_in_object is None else view.grasp_in_object.inverse()
 
 
 @dataclass(slots=True)

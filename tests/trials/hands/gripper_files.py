@@ -64,6 +64,21 @@ TWO_FINGER = Path(__file__).with_name("two_finger.urdf")
 HELD = Cylinder(radius_m=0.015, height_m=0.04)
 """An object that each of them can hold."""
 
+
+def with_thin_pads(urdf: str) -> str:
+    """The cranks with a pad of its own on each tip, 0.3 mm before its face and without a mass."""
+    pads = ""
+    for side in ("left", "right"):
+        pads += f"""
+  <link name="{side}_pad">
+    <collision><geometry><box size="0.002 0.03 0.03"/></geometry></collision>
+  </link>
+  <joint name="{side}_pad_joint" type="fixed">
+    <origin xyz="0.0007 0 0.033"/><parent link="{side}_tip"/><child link="{side}_pad"/>
+  </joint>"""
+    return urdf.replace("</robot>", f"{pads}\n</robot>")
+
+
 UNFIT = {"fingers": 0.004, "parallel": 0.007, "open-loop": 0.007, "vacuum": 0.007, "linkage": 0.006}
 """Radius of an object that each of them can be put over and cannot hold."""
 

@@ -11,11 +11,11 @@ from rgss.errors import DefinitionError
 from rgss.kinematics import gripper_loads
 from rgss.physics import PhysicsSettings, open_world
 from rgss.physics.linkage_drive import least_iterations
-from rgss.scenes import LinkageMotion
+from rgss.scenes import LinkageMotion, at_opening, load_gripper_file
 from rgss.trials.payload_bench.of_trial import payload_bench
 from rgss.trials.payload_bench.rig import PayloadRig
 from rgss.trials.second_engine import mujoco_settings
-from tests.trials.hands.gripper_files import HELD, gripper_of
+from tests.trials.hands.gripper_files import FILES, HELD, gripper_of, with_thin_pads
 
 MASS_KG = 0.3
 
@@ -110,6 +110,33 @@ def test_the_solver_takes_the_iterations_that_gears_need(bench):
     linkage = bench().gripper.geometry.linkage
     assert [link.kind is None for link in linkage.links].count(False) == 4
     assert bench().physics.solver_iterations < least_iterations(linkage) == 1200
+
+
+def test_what_carries_a_pad_is_of_its_finger(bench, spec_of, tmp_path):
+    """Pads of their own, 0.3 mm before the tips: no other force, and that of virtual work as without them."""
+    sums_n = {}
+    for name in ("plain", "thin pads"):
+        spec = bench(960.0, 15.0)
+        if name == "thin pads":
+            path = tmp_path / "two_finger.urdf"
+            path.write_text(with_thin_pads(path.read_text(encoding="utf-8")), encoding="utf-8")
+            text = FILES["linkage"].replace("left_tip, right_tip", "left_pad, right_pad")
+            (tmp_path / "own.yaml").write_text(text, encoding="utf-8")
+            geometry = at_opening(load_gripper_file(tmp_path / "own.yaml").geometry, HELD.radius_m)
+            spec = replace(spec, gripper=replace(spec.gripper, geometry=geometry))
+            linkage = geometry.linkage
+            of_fingers = [[linkage.links[part].name for part in parts] for parts in linkage.finger_parts]
+            assert of_fingers == [["left_tip", "left_pad"], ["right_tip", "right_pad"]]
+        others_n, found_n = [], []
+        with PayloadRig(spec, MASS_KG) as rig:
+            rig.grasp()
+            for _ in range(30):
+                rig.accelerate(2.0, 0.01)
+                others_n.append(rig.contacts().other_force_n)
+                found_n.append(rig.contacts().finger_force_sum_n)
+        assert (rig.stopped_by, max(others_n)) == (None, 0.0)
+        sums_n[name] = sum(found_n) / len(found_n)
+    assert sums_n["thin pads"] == pytest.approx(sums_n["plain"], rel=0.02)
 
 
 def test_loads_are_the_masses_of_the_links(tmp_path):

@@ -286,7 +286,9 @@ class ScriptedWorld:
 
 
 def pressing(*forces_n):
-    return Contacts(finger_forces_n=forces_n, other_force_n=0.0, pressed=(), robot_bodies=(), workpiece_bodies=())
+    return Contacts(
+        finger_forces_n=forces_n, other_force_n=0.0, pressed=(), robot_bodies=(), workpiece_bodies=(), pressing_links=()
+    )
 
 
 def test_what_the_object_does_by_itself_is_not_the_robot_s(spec_of):

@@ -16,7 +16,14 @@ from rgss.trials.monitors.phase_monitor import PhaseMonitor
 from rgss.trials.plants.control import ControlSettings
 
 CONTROL = ControlSettings()
-QUIET = Contacts(finger_forces_n=(0.0, 0.0, 0.0), other_force_n=0.0, pressed=(), robot_bodies=(), workpiece_bodies=())
+QUIET = Contacts(
+    finger_forces_n=(0.0, 0.0, 0.0),
+    other_force_n=0.0,
+    pressed=(),
+    robot_bodies=(),
+    workpiece_bodies=(),
+    pressing_links=(),
+)
 TOOL = Pose(position_m=(0.1, 0.2, 0.3), quaternion_xyzw=(1.0, 0.0, 0.0, 0.0))
 HELD = Pose(position_m=(0.0, 0.0, 0.01))
 
@@ -87,6 +94,7 @@ def contacts(*forces, other=0.0, robot=(), workpiece=()):
         pressed=(),
         robot_bodies=robot,
         workpiece_bodies=workpiece,
+        pressing_links=("forearm_link", "gripper_base") if other > 0.0 else (),
     )
 
 
@@ -111,7 +119,11 @@ def test_nothing_happens(world):
     ("what", "failure", "detail"),
     [
         (contacts(robot=(("forearm_link", "shelf"),)), Failure.ARM_COLLISION, "forearm_link touched shelf"),
-        (contacts(other=1.234), Failure.OBJECT_COLLISION, "the arm pressed the object with 1.23 N"),
+        (
+            contacts(other=1.234),
+            Failure.OBJECT_COLLISION,
+            "forearm_link and gripper_base pressed the object with 1.23 N",
+        ),
         (contacts(workpiece=("menu_stand",)), Failure.OBJECT_COLLISION, "the object touched menu_stand"),
         (
             contacts(3.0, 2.4 * 40.5),  # in one of the 2.4 steps of 10 ms

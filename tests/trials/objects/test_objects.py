@@ -11,6 +11,7 @@ from rgss.evidence import Fidelity
 from rgss.scenes import Approach, Box, GraspCandidates, LyingCylinder, MeshShape
 from rgss.trials.conditions import conditions_of
 from rgss.trials.pieces.run import Pieces
+from rgss.trials.planning.goal_reasons import Obstacle
 from rgss.trials.scene_check import SceneProblemKind, reach_problems
 from rgss.trials.workcell import cell_of, grasp_searches_of
 
@@ -83,7 +84,38 @@ def test_an_object_that_the_hand_cannot_close_on_is_a_finding(with_object):
     spec = with_object(Box(size_m=(0.2, 0.2, 0.1)))
     problems = reach_problems(spec.scene, spec.gripper.geometry, clearance_m=0.005, task=spec.task, friction=0.7)
     (problem,) = [one for one in problems if one.kind is SceneProblemKind.NO_GRASP]
-    assert "too wide" in problem.detail
+    # Its height would fit from the side, where the table is in the way.
+    assert "too wide: " in problem.detail
+    assert problem.reason.obstacle is Obstacle.COLLISION
+
+
+def test_an_object_that_does_not_enter_the_hand_is_given_with_both_sizes(with_object):
+    spec = with_object(Box(size_m=(0.2, 0.21, 0.19)))
+    (problem,) = reach_problems(spec.scene, spec.gripper.geometry, clearance_m=0.005, task=spec.task, friction=0.7)
+    opens_mm = 2e3 * spec.gripper.geometry.largest_opening_m
+    assert problem.detail.endswith(f"; 190 mm across at best, and the gripper opens to {opens_mm:.4g} mm")
+    assert problem.reason is None
+
+
+def test_an_object_that_the_closed_hand_does_not_touch_is_a_finding(with_object):
+    spec = with_object(Box(size_m=(0.003, 0.004, 0.006)))
+    geometry = replace(spec.gripper.geometry, stroke_m=0.02)
+    (problem,) = reach_problems(spec.scene, geometry, clearance_m=0.005, task=spec.task, friction=0.7)
+    assert "too narrow: " in problem.detail
+    closes_mm = 2e3 * (geometry.largest_opening_m - 0.02)
+    assert problem.detail.endswith(f"; 6 mm across at best, and the gripper closes to {closes_mm:.4g} mm")
+
+
+def test_the_best_grasp_that_no_arm_reaches_is_given_with_its_distance(with_object):
+    spec = with_object("box")
+    x, y, z = spec.scene.workpiece.pose.position_m
+    away = replace(spec.scene.workpiece.pose, position_m=(x + 3.0, y, z))
+    scene = replace(spec.scene, workpiece=replace(spec.scene.workpiece, pose=away))
+    (problem,) = reach_problems(scene, spec.gripper.geometry, clearance_m=0.005, task=spec.task, friction=0.7)
+    assert (problem.kind, problem.first) == (SceneProblemKind.NO_GRASP, spec.scene.workpiece.id)
+    assert problem.waypoint == "grasp_approach"
+    assert problem.reason.obstacle is Obstacle.OUT_OF_REACH
+    assert problem.reason.distance_m > 3.0
 
 
 def test_a_grasp_that_no_arm_reaches_is_counted_by_its_filter(with_object):
