@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+import shutil
 import xml.etree.ElementTree as ET
 
 import pytest
@@ -92,6 +93,54 @@ def test_the_hand_is_where_the_urdf_has_it(tmp_path):
     assert (roll, pitch) == (0.0, 0.0)
     robot = yaml.safe_load((tmp_path / "new" / "scenes" / "robots" / "panda.yaml").read_text(encoding="utf-8"))
     assert robot["without"] == ["panda_hand"]
+
+
+def arm_with(tmp_path, added):
+    """The arm of six joints with more links and joints, in a folder with its meshes."""
+    source = urdf_of("six")
+    shutil.copytree(source.parent, tmp_path / "arm")
+    urdf = tmp_path / "arm" / source.name
+    text = urdf.read_text(encoding="utf-8")
+    assert text.count("</robot>") == 1
+    urdf.write_text(text.replace("</robot>", f"{added}</robot>"), encoding="utf-8")
+    return urdf
+
+
+def test_fingers_on_the_last_link_of_the_arm_are_a_hand(tmp_path):
+    fingers = re.sub(
+        r"(?s).*?(  <link name=\"left\">.*)  <link name=\"camera\"/>(.*)  <joint name=\"camera.*", r"\1\2", JAWS
+    )
+    urdf = arm_with(tmp_path, fingers.replace('link="palm"', 'link="link6"').replace('xyz="0 0 0.06"', 'xyz="0 0 0.1"'))
+    assert init(tmp_path / "new", str(urdf), "--gripper", str(urdf)) == 0
+    gripper = one_gripper(tmp_path / "new")
+    assert (gripper["palm"], gripper["pads"]) == ("link6_palm", ["left", "right"])
+    (file,) = (tmp_path / "new" / "scenes" / "robots").glob("*.yaml")
+    robot = yaml.safe_load(file.read_text(encoding="utf-8"))
+    assert robot["without"] == ["link6_palm"]
+    reasons = [one["rationale"] for one in robot["assumptions"] if one["about"] == "description"]
+    assert any(reason.startswith("The fingers move on link6, a link of the arm") for reason in reasons)
+    # The pads are where the URDF has them, 120 mm from the last link, of which the mount is 100 mm away.
+    (path,) = (tmp_path / "new" / "scenes" / "grippers").glob("*.yaml")
+    geometry = load_gripper_file(path, project=tmp_path / "new").geometry
+    assert geometry.base.height_m + geometry.finger.size_m[2] / 2 == pytest.approx(0.02)
+    assert geometry.largest_opening_m == pytest.approx(0.03)
+    assert main(["run", "1", "--project", str(tmp_path / "new")]) == 0
+
+
+def test_what_turns_beside_a_hand_is_left_out(tmp_path, capsys):
+    jaws = re.sub(r"(?s)<robot[^>]*>|</robot>", "", JAWS)
+    added = f"""{jaws}
+  <joint name="palm_joint" type="fixed"><parent link="link6"/><child link="palm"/></joint>
+  <link name="motor"/>
+  <joint name="motor_joint" type="continuous">
+    <parent link="link6"/><child link="motor"/><axis xyz="0 0 1"/><limit effort="1" velocity="1"/>
+  </joint>"""
+    urdf = arm_with(tmp_path, added)
+    assert init(tmp_path / "new", str(urdf), "--gripper", str(urdf)) == 0
+    assert "motor of the URDF, beside the palm, is left out." in capsys.readouterr().err
+    assert one_gripper(tmp_path / "new")["palm"] == "palm"
+    (file,) = (tmp_path / "new" / "scenes" / "robots").glob("*.yaml")
+    assert sorted(yaml.safe_load(file.read_text(encoding="utf-8"))["without"]) == ["motor", "palm"]
 
 
 def turned(text, angles_deg):

@@ -150,7 +150,12 @@ def _face(linkage: Linkage, index: int, azimuth: float) -> LinkagePad:
     width, length = max(across) - min(across), max(along) - min(along)
     if min(width, length) < _LEAST_PAD_M:
         message = f"has no flat face of 4 mm on the pad {link.name!r}: {width * 1e3:.3g} mm x {length * 1e3:.3g} mm"
-        raise PadError(message, ("pads",), "give the collision shape a face that is parallel to the tool axis")
+        raise PadError(
+            message,
+            ("pads",),
+            "give the collision shape a face that is parallel to the tool axis, or state the gripper by its sizes "
+            "(kind: parallel)",
+        )
     aside, height = (max(across) + min(across)) / 2, (max(along) + min(along)) / 2
     place = (inner * x - aside * y, inner * y + aside * x, height)
     frame = pose.inverse() @ Pose.from_roll_pitch_yaw(place, (0.0, 0.0, azimuth))

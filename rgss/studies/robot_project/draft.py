@@ -12,6 +12,7 @@ from rgss.findings import shown
 from rgss.scenes import Pose, Robot, load_robot
 from rgss.studies.robot_project.arm_of_urdf import UrdfArm, arm_of_urdf
 from rgss.studies.robot_project.masses import complete_masses
+from rgss.studies.robot_project.palm_of_fingers import with_palm
 from rgss.studies.robot_project.robot_text import robot_text
 from rgss.studies.robot_project.tool_axis import add_tool_frame, likely_tool_axes
 from rgss.studies.robot_project.urdf_files import copy_named_files
@@ -61,7 +62,8 @@ def drafted_robot(
         DefinitionError: There is no arm in the URDF, a file that it names is missing, or the description is wrong.
     """
     root, notes = read_arm_urdf(urdf)
-    arm = arm_of_urdf(root, flange=flange)
+    arm, added = with_palm(root, arm_of_urdf(root, flange=flange))
+    notes += added
     if len(arm.joints) < _POSE_FREEDOMS:
         notes += snap_right_angles(root)
     likely = likely_tool_axes(root, arm, urdf)

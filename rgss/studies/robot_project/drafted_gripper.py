@@ -58,7 +58,7 @@ def drafted_hand(urdf: Path, project: Path, drafted: DraftedRobot) -> DraftedGri
         child.get("link", ""): joint for joint in root.findall("joint") if (child := joint.find("child")) is not None
     }
     hands = [name for name in drafted.arm.hands if joints[name].get("type") == "fixed"]
-    if len(hands) != 1 or len(drafted.arm.hands) != 1:
+    if len(hands) != 1:
         found = ", ".join(drafted.arm.hands) or "nothing"
         raise DefinitionError(
             f"{urdf.name} has no hand at {drafted.flange}: one link that is fixed to it and carries the fingers is "
@@ -66,10 +66,14 @@ def drafted_hand(urdf: Path, project: Path, drafted: DraftedRobot) -> DraftedGri
             hint="name the link that carries the hand with --flange, or give the URDF of a gripper alone",
         )
     (palm,) = hands
+    notes = []
+    if others := [name for name in drafted.arm.hands if name != palm]:
+        rationale = f"{', '.join(others)} of the URDF, beside the palm, {'are' if len(others) > 1 else 'is'} left out."
+        notes.append(Note(about="description", rationale=rationale))
     mount = Pose() if drafted.arm.flange == drafted.flange else origin_of(joints[drafted.arm.flange])
     pose = origin_of(joints[palm]).relative_to(mount)
     return _drafted(
-        copy, project, id_=identifier_of(palm, prefix="hand"), palm=palm, mounts=[pose], notes=[], shown=urdf.name
+        copy, project, id_=identifier_of(palm, prefix="hand"), palm=palm, mounts=[pose], notes=notes, shown=urdf.name
     )
 
 

@@ -97,12 +97,14 @@ def write_robot_project(
 def _write_files(
     project: Path, urdf: Path, flange: str | None, tool_axis: str | None, mass_kg: float | None, gripper: Path | None
 ) -> tuple[Note, ...]:
-    drafted = drafted_robot(urdf, project, flange=flange, tool_axis=tool_axis or "z", mass_kg=mass_kg)
+    draft = partial(drafted_robot, urdf, project, flange=flange, mass_kg=mass_kg)
+    drafted = draft(tool_axis=tool_axis or "z")
     id_ = drafted.robot.id
-    own = None if gripper is None else _drafted_gripper(gripper, project, urdf, drafted)
     texts = scaffold_texts()
     (old,) = (PurePosixPath(name).stem for name in texts if re.fullmatch(r"scenes/robots/[^/]+\.yaml", name))
-    axes = _axes_down(drafted, tool_axis)
+    axes, own = _axes_down(drafted, tool_axis), None
+    if gripper is not None:
+        axes, own = _axes_of_gripper(gripper, project, urdf, axes, draft=draft)
     reasons: dict[str, str] = {}
     renamed = partial(_renamed, old=old, id_=id_, name=drafted.arm.name)
     if own is not None:
@@ -112,7 +114,7 @@ def _write_files(
         if reasons.get(axis) in (POINTS_INTO_ARM, NEVER_DOWN):
             continue
         _write_texts(project, texts, size, renamed=renamed)
-        drafted = drafted_robot(urdf, project, flange=flange, tool_axis=axis, mass_kg=mass_kg)
+        drafted = draft(tool_axis=axis)
         if own is not None and gripper is not None:
             own = _drafted_gripper(gripper, project, urdf, drafted)
         files = sorted((project / "scenes" / "grippers").glob("*.yaml"))
@@ -128,6 +130,28 @@ def _write_files(
         hint=f"is {drafted.flange} the link that carries the gripper (--flange), and one of these its axis out of "
         "the arm (--tool-axis)? An arm that cannot turn its tool down needs a scene and a task of its own",
     )
+
+
+def _axes_of_gripper(
+    gripper: Path, project: Path, urdf: Path, axes: Sequence[str], *, draft: Callable[..., DraftedRobot]
+) -> tuple[tuple[str, ...], DraftedGripper]:
+    """Axes of the flange along which a gripper can close on an object, and the gripper along the first of them.
+
+    Raises:
+        DefinitionError: There is none; the reason along the most likely one.
+    """
+    tried = [(axis, _tried(gripper, project, urdf, draft(tool_axis=axis))) for axis in axes]
+    found = [(axis, own) for axis, own in tried if isinstance(own, DraftedGripper)]
+    if not found:
+        raise next(problem for _, problem in tried if isinstance(problem, DefinitionError))
+    return tuple(axis for axis, _ in found), found[0][1]
+
+
+def _tried(gripper: Path, project: Path, urdf: Path, drafted: DraftedRobot) -> DraftedGripper | DefinitionError:
+    try:
+        return _drafted_gripper(gripper, project, urdf, drafted)
+    except DefinitionError as error:
+        return error
 
 
 def _drafted_gripper(gripper: Path, project: Path, urdf: Path, drafted: DraftedRobot) -> DraftedGripper:
