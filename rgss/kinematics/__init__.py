@@ -3,6 +3,7 @@
 from rgss.kinematics.arm import Arm
 from rgss.kinematics.branches import choose_branches
 from rgss.kinematics.cartesian import LineBreak, follow_line, straight_line
+from rgss.kinematics.closing_contact import CLOSING_ROOM_M, ClosingLinks
 from rgss.kinematics.collision import CollisionModel, NearestPair
 from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.differential_inverse import DifferentialInverse

@@ -87,7 +87,7 @@ def collision_parts(
             parts.append(held(finger_link(finger), transform(pose), gripper.finger))
     else:
         parts += [
-            Part(name=name, chain=joint, joint=joint, placement=to_joint * transform(pose), shape=_hull(corners))
+            Part(name=name, chain=joint, joint=joint, placement=to_joint * transform(pose), shape=hull_of(corners))
             for name, pose, corners in linkage_hulls(gripper.linkage, situation.opening_m)
         ]
     if gripper.cup is not None:
@@ -152,18 +152,12 @@ def arm_parts(model: Any, robot: Robot) -> list[Part]:
     return primitive + [_convex_part(model, part) for part in convex]
 
 
-def _convex_part(model: Any, part: ConvexPart) -> Part:
-    frame = link_frame(model, part.link)
-    return Part(
-        name=part.link,
-        chain=frame.parentJoint,
-        joint=frame.parentJoint,
-        placement=frame.placement * transform(part.pose),
-        shape=_hull(part.vertices_m),
-    )
+def hull_of(vertices_m: Iterable[tuple[float, float, float]]) -> Any:
+    """Convex hull of some points for the collision engine.
 
-
-def _hull(vertices_m: Iterable[tuple[float, float, float]]) -> Any:
+    Args:
+        vertices_m: The points, in the frame of the solid.
+    """
     import coal
 
     corners = coal.StdVec_Vec3s()
@@ -179,7 +173,7 @@ def object_solids(shape: ObjectShape) -> tuple[tuple[Any, Pose], ...]:
         shape: The object's shape.
     """
     if isinstance(shape, MeshShape):
-        return tuple((_hull(part), Pose()) for part in shape.parts_m)
+        return tuple((hull_of(part), Pose()) for part in shape.parts_m)
     if isinstance(shape, LyingCylinder):
         along_x = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (0.0, math.pi / 2, 0.0))
         return ((solid_of(shape.upright), along_x),)
@@ -216,4 +210,15 @@ def _settle_box_supports() -> None:
         coal.Transform3s(place.rotation, place.translation),
         coal.DistanceRequest(),
         coal.DistanceResult(),
+    )
+
+
+def _convex_part(model: Any, part: ConvexPart) -> Part:
+    frame = link_frame(model, part.link)
+    return Part(
+        name=part.link,
+        chain=frame.parentJoint,
+        joint=frame.parentJoint,
+        placement=frame.placement * transform(part.pose),
+        shape=hull_of(part.vertices_m),
     )

@@ -73,7 +73,7 @@ def mesh_summary(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1
         DefinitionError: The file is not a mesh.
     """
     mesh = read_mesh(path, scale)
-    closed = bool(mesh.is_watertight)
+    closed = _is_closed(mesh)
     x, y, z = (float(value) for value in mesh.extents)
     return MeshSummary(
         is_closed=closed,
@@ -129,7 +129,7 @@ def mesh_mass(path: Path, *, scale: float = 1.0) -> MeshMass:
         DefinitionError: The file is not a mesh, or encloses no volume.
     """
     mesh = read_mesh(path, (scale, scale, scale))
-    if not mesh.is_watertight or not mesh.volume > 0.0:
+    if not _is_closed(mesh) or not mesh.volume > 0.0:
         raise DefinitionError(
             f"{path.name} must be closed for mass properties",
             hint="close the mesh, or give centre_of_mass and inertia",
@@ -182,6 +182,16 @@ def read_mesh(path: Path, scale: tuple[float, float, float]) -> Any:
     mesh.merge_vertices(merge_tex=True, merge_norm=True)
     mesh.apply_scale(scale)
     return mesh
+
+
+def _is_closed(mesh: Any) -> bool:
+    """True if a mesh encloses a volume: each edge is passed as often in one direction as in the other.
+
+    Unlike two faces at each edge, this holds for closed bodies that touch each other along an edge or a face.
+    """
+    edges, corners = np.asarray(mesh.edges, dtype=np.int64), len(mesh.vertices)
+    there, back = np.sort(edges @ (corners, 1)), np.sort(edges @ (1, corners))
+    return bool(mesh.is_watertight) or bool(np.array_equal(there, back))
 
 
 def _parts(bodies: Sequence[Any]) -> list[Array]:

@@ -18,6 +18,8 @@ from rgss.studies.project import Project
 if TYPE_CHECKING:
     from rgss.trials import SceneProblem
 
+_OF_ONE_GRIPPER = "designs with this gripper fail there, and the others do not"
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SceneCheck:
@@ -148,7 +150,7 @@ class _Places:
             hint = _remedy(problem)
             if grippers and self._workpiece in pair:
                 # The object does not fit between its fingers, but does between another's: a result, not a mistake.
-                severity, hint = Severity.INFO, "designs with this gripper fail there, and the others do not"
+                severity, hint = Severity.INFO, _OF_ONE_GRIPPER
         elif problem.kind is SceneProblemKind.NO_GRASP:
             of = f" with {', '.join(grippers)}" if grippers else ""
             location = (*location[:-1], "id")
@@ -156,6 +158,11 @@ class _Places:
             if problem.reason is not None:
                 message += f"; the best one does not serve {problem.waypoint}: {problem.reason}"
             hint = "let the task try more approaches, turn or move the object, or take another gripper"
+            if problem.reason is not None:
+                hint = f"{_remedy(problem)}; or {hint}"
+        elif problem.kind is SceneProblemKind.CLOSING:
+            message, hint = _closing_texts(problem, grippers)
+            severity = Severity.INFO if grippers else Severity.ERROR
         elif problem.kind is SceneProblemKind.HOME_COLLISION:
             message = f"at its home the robot is in collision: {first} with {second}, {millimetres} deep"
             hint = "change 'home' in the robot's file, or move the body or the robot's base"
@@ -234,6 +241,16 @@ class _Places:
             return body
         found = self.document.finding("", "", self.at[body])
         return f"{body} ({found.file}:{found.line}:{found.column})"
+
+
+def _closing_texts(problem: SceneProblem, grippers: Sequence[str]) -> tuple[str, str]:
+    """Message and hint of a link that meets an object before the pads do."""
+    of = f" of {', '.join(grippers)}" if grippers else ""
+    millimetres = f"{abs(problem.distance_m) * 1e3:.3g} mm"
+    how = f"be {millimetres} in it" if problem.distance_m > 0.0 else f"come within {millimetres} of it"
+    hint = "hold it nearer to the ends of the pads ('grasp_from_tip' of the gripper), or choose among candidates"
+    message = f"while the hand{of} closes on {problem.first}, {problem.second} would {how}"
+    return message, _OF_ONE_GRIPPER if grippers else hint
 
 
 def _remedy(problem: SceneProblem) -> str:

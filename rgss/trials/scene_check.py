@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 from rgss.grasping.candidates import FrameRejection
-from rgss.kinematics import Overlap, Solid, overlaps
+from rgss.kinematics import CLOSING_ROOM_M, ClosingLinks, Overlap, Solid, overlaps
 from rgss.scenes import (
     Box,
     Cylinder,
@@ -19,6 +19,7 @@ from rgss.scenes import (
     corners_of,
     half_extents_m,
     initial_placements,
+    misfit,
     scene_about,
 )
 from rgss.tasks import TaskProgram
@@ -50,6 +51,7 @@ class SceneProblemKind(str, Enum):
     HOME_COLLISION = "home_collision"
     UNSERVED = "unserved"
     NO_GRASP = "no_grasp"
+    CLOSING = "closing"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,8 +62,8 @@ class SceneProblem:
         kind: Kind of the problem.
         first: The body, or the robot's link.
         second: The other body; empty if there is none.
-        distance_m: Penetration depth of an overlap, or distance of the object beyond its support's edge; NaN for other
-        problems.
+        distance_m: Penetration depth of an overlap, or of a closing hand (negative if it only comes near it), or
+        distance of the object beyond the edge of its support; NaN for other problems.
         waypoint: The waypoint without a configuration, of the best candidate if no grasp can be carried out; None for
         other problems.
         is_at_place: True if it is a waypoint at the place, of which `second` is the name, if it has one.
@@ -126,6 +128,7 @@ def reach_problems(
         )
     if ungrasped:
         return (*found, *_without_grasp(ungrasped, cell))
+    found += _closing_contacts(scene, geometry)
     found += [
         SceneProblem(
             kind=SceneProblemKind.UNSERVED,
@@ -138,6 +141,19 @@ def reach_problems(
         for stop, reason in infeasible_waypoints(cell).items()
     ]
     return tuple(found)
+
+
+def _closing_contacts(scene: Scene, geometry: GripperGeometry) -> Iterator[SceneProblem]:
+    """Objects that a link of the hand meets before the pads do; a chosen grasp has none."""
+    placements, links = initial_placements(scene), ClosingLinks(geometry)
+    for one in scene.objects:
+        name = one.workpiece.id
+        view = scene_about(scene, name, place="", placements=placements)
+        contact = None if misfit(geometry, view) else links.contact(view, clearance_m=CLOSING_ROOM_M)
+        if contact is not None:
+            yield SceneProblem(
+                kind=SceneProblemKind.CLOSING, first=name, second=contact.link, distance_m=-contact.distance_m
+            )
 
 
 def _without_grasp(searches: Sequence[GraspSearch], cell: Workcell) -> Iterator[SceneProblem]:

@@ -128,3 +128,43 @@ def test_check_names_a_hand_without_a_driven_joint(project, tmp_path, capsys):
 
     assert len([line for line in lines if "has 0 driven joints, a gripper has one" in line]) == 1
     assert lines[0].startswith("scenes/grippers/two_finger.yaml:3:14: error")
+
+
+def test_check_names_a_link_that_meets_the_object_before_the_pads(project, tmp_path, capsys):
+    folder = tmp_path / "project"
+    shutil.copytree(project, folder)
+    edit(
+        folder / "scenes" / "kitchen.yaml",
+        (r"box: \[40 mm, 50 mm, 40 mm\]", "box: [40 mm, 50 mm, 76 mm]"),
+        (r"  grasp: automatic\n", ""),
+    )
+    main(["check", "--json", "--project", str(folder)])
+    found = [one for one in json.loads(capsys.readouterr().out)["findings"] if one["rule"] == "scene.closing"]
+
+    # The other hand, whose fingers slide, has no such link: what fails there is a result.
+    assert [(one["severity"], one["hint"]) for one in found] == [
+        ("info", "designs with this gripper fail there, and the others do not")
+    ]
+    pattern = (
+        r"while the hand of scenes/grippers/two_finger.yaml closes on block, (left|right)_crank would be .* mm in it"
+    )
+    assert re.fullmatch(pattern, found[0]["message"])
+
+
+def test_check_says_what_the_best_grasp_does_not_serve(project, tmp_path, capsys):
+    folder = tmp_path / "project"
+    shutil.copytree(project, folder)
+    edit(
+        folder / "scenes" / "robots" / "panda.yaml",
+        (r"name: panda_joint4, range: \[[^]]*\]", "name: panda_joint4, range: [-0.4 rad, -0.3 rad]"),
+        (r"home: \[(([^,]*,){3})[^,]*,", r"home: [0 deg, 0 deg, 0 deg, -20 deg,"),
+    )
+    assert main(["check", "--json", "--project", str(folder)]) == 1
+    found = [one for one in json.loads(capsys.readouterr().out)["findings"] if one["rule"] == "scene.no-grasp"]
+
+    assert found
+    for one in found:
+        assert "; the best one does not serve grasp_approach: " in one["message"]
+        assert one["hint"].endswith(
+            "; or let the task try more approaches, turn or move the object, or take another gripper"
+        )

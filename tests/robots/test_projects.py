@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import itertools
 import json
+import re
 import shutil
+import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 import pytest
@@ -45,6 +47,20 @@ def test_a_project_of_an_arm_is_checked_swept_and_decided(projects, arm_name, ca
     decision = json.loads(text)
     assert status in (0, 1)
     assert decision["chosen"] is not None
+
+
+def test_the_range_of_the_urdf_stands_beside_a_narrower_one(projects):
+    (file,) = (projects["six"] / "scenes" / "robots").glob("*.yaml")
+    root = ET.parse(urdf_of("six")).getroot()  # noqa: S314 - it comes with the engine
+    limits = {joint.get("name"): joint.find("limit") for joint in root.findall("joint")}
+    beside = re.findall(
+        r"name: (\w+), range: .*}(?: # of (\S+) rad to (\S+) rad)?$", file.read_text("utf-8"), re.MULTILINE
+    )
+    assert len(beside) == 6
+    assert [name for name, lower, _ in beside if lower]
+    for name, *ends in beside:
+        whole = [float(limits[name].get(end)) for end in ("lower", "upper")]
+        assert ends == ["", ""] or [float(end) for end in ends] == pytest.approx(whole, rel=1e-5)
 
 
 def test_a_row_of_joints_has_as_many_entries_as_the_arm_has_joints(projects, tmp_path, capsys):

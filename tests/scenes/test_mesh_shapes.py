@@ -9,7 +9,7 @@ from scipy.spatial import ConvexHull
 
 from rgss.errors import DefinitionError
 from rgss.scenes.document import CollisionShapes
-from rgss.scenes.mesh_shapes import MOST_VERTICES, mesh_summary, shapes_of_mesh
+from rgss.scenes.mesh_shapes import MOST_VERTICES, mesh_mass, mesh_summary, shapes_of_mesh
 
 ONE = (1.0, 1.0, 1.0)
 
@@ -118,3 +118,15 @@ def test_what_is_no_solid_mesh_is_refused(tmp_path, name, content, message):
     with pytest.raises(DefinitionError) as caught:
         shapes(tmp_path / name)
     assert message in caught.value.message
+
+
+def test_bodies_that_touch_along_an_edge_are_closed(saved):
+    """Joined, four faces would meet at the edge."""
+    one = trimesh.creation.box(extents=(0.02, 0.02, 0.02))
+    other = trimesh.creation.box(extents=(0.02, 0.02, 0.02))
+    other.apply_translation((0.02, 0.02, 0.0))
+    both = trimesh.util.concatenate([one, other])
+    path = saved(both).with_suffix(".obj")
+    both.export(path)
+    assert mesh_summary(path).is_closed
+    assert mesh_mass(path).volume_m3 == pytest.approx(2 * 0.02**3)

@@ -28,6 +28,7 @@ class UrdfJoint:
         speed: Greatest speed in rad/s or m/s; 0 where the URDF has none.
         effort: Greatest torque in N·m, or force in N; 0 where the URDF has none.
         is_unbounded: Whether the range is missing for a joint that is not continuous, half a turn either way assumed.
+        whole: Range of the URDF where `lower` and `upper` are those of a part of it; None where they are its own.
     """
 
     name: str
@@ -37,6 +38,7 @@ class UrdfJoint:
     speed: float
     effort: float
     is_unbounded: bool = False
+    whole: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

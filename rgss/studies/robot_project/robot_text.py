@@ -56,7 +56,7 @@ def _assumptions(arm: UrdfArm) -> Sequence[tuple[str, str]]:
         ),
         (
             "joints.range",
-            "The part of the URDF's ranges about the task's configurations; planners search no turns beyond.",
+            "The part of the URDF's ranges about the task's configurations, so that planners search no turns beyond.",
         ),
         ("payload", "What the joints' efforts hold, with the arm as far out as it reaches, rounded down."),
         ("tool_acceleration", "That of a common collaborative arm."),
@@ -85,7 +85,16 @@ def _joint_line(joint: UrdfJoint) -> str:
     return (
         f"  - {{name: {joint.name}, range: [{joint.lower!r} {position}, {joint.upper!r} {position}], "
         f"speed: {speed:g} {position}/s, acceleration: {acceleration:g} {position}/s^2, torque: {effort:g} {force}}}"
+        + _whole_range(joint, position)
     )
+
+
+def _whole_range(joint: UrdfJoint, unit: str) -> str:
+    """Comment with the range of the URDF, to which that of the file may be widened for another task."""
+    if joint.whole in (None, (joint.lower, joint.upper)):
+        return ""
+    lower, upper = (f"{value:.6g} {unit}" for value in joint.whole)
+    return f" # of {lower} to {upper}"
 
 
 def _position(joint: UrdfJoint, value: float) -> str:

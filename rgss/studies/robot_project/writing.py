@@ -183,7 +183,12 @@ def _is_written(project: Path, drafted: DraftedRobot, search: CellSearch) -> boo
 def _write_cell(project: Path, drafted: DraftedRobot, cell: FittedCell) -> None:
     arm, id_ = drafted.arm, drafted.robot.id
     ranges = zip(arm.joints, cell.lower, cell.upper, strict=True)
-    narrowed = replace(arm, joints=tuple(replace(joint, lower=low, upper=high) for joint, low, high in ranges))
+    narrowed = replace(
+        arm,
+        joints=tuple(
+            replace(joint, lower=low, upper=high, whole=(joint.lower, joint.upper)) for joint, low, high in ranges
+        ),
+    )
     payload_kg = payload_at_reach_kg(drafted.robot)
     text = robot_text(narrowed, id_=id_, urdf=f"{id_}.urdf", home=cell.home, payload_kg=payload_kg)
     drafted.file.write_text(text, encoding="utf-8")

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.grasping.candidates import RankedGrasp, RankedGrasps, ranked_grasps, ranked_suction, symmetric_turns
-from rgss.kinematics import Arm, CollisionModel, inverse_kinematics, straight_line
-from rgss.scenes import ChosenGrasp, GraspCandidates, GripperGeometry, Scene
+from rgss.kinematics import CLOSING_ROOM_M, Arm, ClosingLinks, CollisionModel, inverse_kinematics, straight_line
+from rgss.scenes import ChosenGrasp, GraspCandidates, GripperGeometry, Scene, initial_placements, scene_about
 from rgss.tasks import MoveKind, TaskProgram, stages_of
 from rgss.trials.route import Leg, Route, route_of
 
@@ -24,6 +24,7 @@ Vector = NDArray[np.float64]
 class Rejection(str, Enum):
     """Filter that rejected a candidate."""
 
+    CLOSING = "a link of the hand while it closes"
     REACH = "reach"
     COLLISION = "collision or clearance"
     LIFT = "straight lift"
@@ -124,6 +125,7 @@ def _search(
     else:
         ranked = ranked_grasps(workpiece, geometry, options, friction=friction * workpiece.friction)
     turns = symmetric_turns(workpiece.shape, options.yaws)
+    placements, links = initial_placements(scene), ClosingLinks(geometry)
     rejected: Counter[Rejection] = Counter()
     first: Scene | None = None
     arm: Arm | None = None
@@ -133,6 +135,10 @@ def _search(
             taken = _taken(scene, grasp, turn, len(ranked.grasps), number)
             tried = scene.with_grasps({name: taken})
             first = first or tried
+            view = scene_about(tried, name, place="", placements=placements)
+            if links.contact(view, clearance_m=CLOSING_ROOM_M) is not None:
+                why.append(Rejection.CLOSING)
+                break
             # Inverse kinematics is solved before the collision models are built, which takes longer.
             reason = None if arm is None else _unreached(arm, route_of(tried, geometry, task), name)
             if reason is None:
