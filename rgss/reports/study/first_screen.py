@@ -54,6 +54,8 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         "missed": [{"id": one["id"], "text": one["text"]} for one in missed],
         "bullets": bullets,
         "changes": list(_changes(decision)),
+        # A column of equal entries is one number, and -1 is a success.
+        "has_failures": document["trials"]["failure"] != -1,
     }
 
 

@@ -26,6 +26,7 @@ def measure(name, unit, weight, value, low=None, high=None):
 
 DOCUMENT = {
     "variants": {"id": [1, 2]},
+    "trials": {"failure": [-1, 3]},
     "measures": [
         measure("time", "s", 0.4, [30.0, 20.0], [25.0, 18.0], [35.0, 23.0]),
         measure("share", "1", 0.6, [0.5, 0.95], [0.3, 0.88], [0.7, 0.99]),
@@ -70,6 +71,12 @@ def test_what_is_open_comes_first_and_then_what_weighs_most():
     assert [one["requirement"] for one in shown["bullets"]] == ["R2", "R1", "R3"]
     assert shown["open"] == [{"id": "R2", "text": "R2 in words."}, {"id": "R4", "text": "R4 in words."}]
     assert shown["missed"] == []
+
+
+def test_whether_a_trial_failed():
+    assert first_screen_content(DOCUMENT)["has_failures"] is True
+    assert first_screen_content(DOCUMENT | {"trials": {"failure": 3}})["has_failures"] is True
+    assert first_screen_content(DOCUMENT | {"trials": {"failure": -1}})["has_failures"] is False
 
 
 def test_a_chart_is_to_scale():
