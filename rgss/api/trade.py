@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from rgss.api.argument_terms import ErrorsNameArguments
-from rgss.api.html_views import decision_view
 from rgss.api.plots import Plots, require_matplotlib
 from rgss.api.sensitivity_frames import stakeholders_frame, tornado_frame, worth_keeping_frame
 from rgss.api.trade_frames import (
@@ -26,7 +25,7 @@ from rgss.decision.sensitivity import Sensitivity, analyse_sensitivity
 from rgss.decision.what_if import Scenario
 from rgss.reports.decision import decision_to_json
 from rgss.studies import Project
-from rgss.tradeoff import Decision
+from rgss.tradeoff import Decision, decision_view
 from rgss.tradeoff.programs import Enumeration, enumerate_alternatives
 
 if TYPE_CHECKING:
@@ -55,7 +54,7 @@ class Trade:
         return f"Trade({self.project.study.id!r}, {len(self.measured)} variants{supposed})"
 
     def _repr_html_(self) -> str:
-        return decision_view(repr(self), self.decision)
+        return decision_view(self.decision, title=repr(self))
 
     @property
     def plot(self) -> Plots:

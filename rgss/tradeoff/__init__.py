@@ -1,7 +1,14 @@
 """Trade-off: values, weights and thresholds in; a certified and explained decision out."""
 
 from rgss.tradeoff.deciding import best_alternatives, decide
-from rgss.tradeoff.decision import Contribution, Decision, FlatMeasure, InfeasibleAlternative, RankedAlternative
+from rgss.tradeoff.decision import (
+    Contribution,
+    Decision,
+    FlatMeasure,
+    InfeasibleAlternative,
+    RankedAlternative,
+    decision_view,
+)
 from rgss.tradeoff.infeasibility import (
     Conflicts,
     ConflictSurvival,

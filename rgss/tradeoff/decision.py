@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from html import escape
 
+from rgss.html_tables import html_table, html_view
 from rgss.tradeoff.infeasibility import Conflicts, RequirementCount
 from rgss.tradeoff.milp import DecisionStatus
 from rgss.tradeoff.programs import Certificate
 
 LONGEST_LIST = 10_000
 """The longest list of alternatives that a decision holds."""
+
+
+_LONGEST_RANKING = 5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -161,3 +166,34 @@ class Decision:
             f"Decision({self.status.value}: chosen {self.chosen}, runner-up {self.runner_up}, "
             f"{counts.feasible} of {counts.alternatives} alternatives feasible)"
         )
+
+    def _repr_html_(self) -> str:
+        return decision_view(self)
+
+
+def decision_view(decision: Decision, *, title: str = "") -> str:
+    """The decision with the first places of its ranking.
+
+    Args:
+        decision: The decision.
+        title: A heading above its own.
+    """
+    first = decision.ranking[:_LONGEST_RANKING]
+    rows = [
+        (place, one.variant, "–" if one.value is None else f"{one.value:.3f}", _role(decision, one.variant))
+        for place, one in enumerate(first, start=1)
+    ]
+    rest = len(decision.ranking) - len(first)
+    more = f"<p>and {rest} more in <code>ranking</code></p>" if rest else ""
+    table = html_table(("place", "variant", "weighted value", ""), rows) if rows else ""
+    if title:
+        return html_view(title, f"<p>{escape(repr(decision))}</p>{table}{more}")
+    return html_view(repr(decision), f"{table}{more}")
+
+
+def _role(decision: Decision, variant: int) -> str:
+    if variant == decision.chosen:
+        return "chosen"
+    if variant in decision.ties:
+        return "tied"
+    return "runner-up" if variant == decision.runner_up else ""

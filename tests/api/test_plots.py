@@ -10,7 +10,9 @@ import pytest
 import rgss
 from rgss.api import plots
 from rgss.errors import DefinitionError
+from rgss.measures import Direction
 from rgss.reports.decision import ids_text
+from rgss.reports.study_plots.plotted import PlottedMeasure
 
 
 def png(figure) -> bytes:
@@ -186,3 +188,16 @@ def test_without_matplotlib(study, monkeypatch):
     monkeypatch.setattr(plots.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(DefinitionError, match=r"plot needs Matplotlib, which is not installed \(pip install 'rgss\["):
         _ = study.plot
+
+
+@pytest.mark.parametrize(
+    ("id_", "name", "title"),
+    [
+        ("task_time", "Task time", "Task time [s]"),
+        ("t_e", "Execution time", "Execution time t_e [s]"),
+        ("task_time", "Time of the task", "Time of the task task_time [s]"),
+    ],
+)
+def test_an_id_that_is_the_name_is_not_repeated(id_, name, title):
+    measure = PlottedMeasure(id=id_, name=name, unit="s", better=Direction.LOWER, estimates={})
+    assert measure.title == title

@@ -9,7 +9,6 @@ import pytest
 
 import rgss
 from rgss.api.columns import FRAMES
-from rgss.api.html_views import decision_view
 from rgss.evidence import Failure
 
 from .conftest import ASKED
@@ -55,13 +54,15 @@ def test_a_trade_off_shows_the_first_of_its_ranking(study):
     )
     assert [int(row[1]) for row in rows] == [one.variant for one in decision.ranking[:5]]
     assert rows[0][3] == "chosen"
+    assert cells(decision._repr_html_()) == rows
+    assert cells(study.decision._repr_html_()) == rows
 
 
 def test_a_decision_without_a_choice_has_no_table(study):
     decision = replace(study.decision, ranking=(), chosen=None, runner_up=None, ties=())
 
-    assert "<table>" not in decision_view("none", decision)
-    assert "chosen None" in decision_view("none", decision)
+    assert "<table>" not in decision._repr_html_()
+    assert "chosen None" in decision._repr_html_()
 
 
 def test_a_study_is_shown_without_reading_evidence(empty, study):

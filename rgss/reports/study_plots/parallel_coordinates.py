@@ -100,7 +100,7 @@ def _title(measure: PlottedMeasure) -> str:
             lines.append(word)
         else:
             lines[-1] = joined
-    return "\n".join([*lines, f"{measure.id} [{measure.unit}]", f"{measure.better.value} is better"])
+    return "\n".join([*lines, measure.symbol, f"{measure.better.value} is better"])
 
 
 def _draw_axis(figure: StudyFigure, place: int, measure: PlottedMeasure, span: tuple[float, float]) -> None:

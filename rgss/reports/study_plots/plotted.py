@@ -74,7 +74,13 @@ class PlottedMeasure:
     @property
     def title(self) -> str:
         """Name, id and unit, such as ``Total cost estimate C_total [USD]``."""
-        return f"{self.name} {self.id} [{self.unit}]"
+        return f"{self.name} {self.symbol}"
+
+    @property
+    def symbol(self) -> str:
+        """Id and unit; the unit alone if the id is the name, written in another way."""
+        is_name = self.id.replace("_", " ").casefold() == self.name.casefold()
+        return f"[{self.unit}]" if is_name else f"{self.id} [{self.unit}]"
 
     @property
     def sign(self) -> float:
