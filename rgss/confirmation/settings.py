@@ -8,7 +8,14 @@ from enum import Enum
 
 from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity
-from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ, MOST_ITERATIONS, OtherEngineSettings, PhysicsSettings
+from rgss.physics import (
+    LEAST_ITERATIONS_HZ,
+    LEAST_RATE_HZ,
+    MOST_ITERATIONS,
+    OtherEngineSettings,
+    PhysicsSettings,
+    least_iterations,
+)
 from rgss.studies import Project, trial_settings
 from rgss.trials import mujoco_settings
 
@@ -17,6 +24,7 @@ FINER_RATE_HZ = 1000.0
 
 _HIGHEST_RATE_HZ = 20_000.0
 _MORE_ITERATIONS = 4
+_MORE_THAN_GEARS = 2
 
 
 class Engine(str, Enum):
@@ -77,7 +85,8 @@ def confirmation_settings(
         project: The project with its study.
         engines: The engines that confirm.
         rate_hz: Rate of the finer step; `FINER_RATE_HZ` by default.
-        iterations: The greater number of solver iterations; four times the study's by default.
+        iterations: The greater number of solver iterations; by default four times the study's, or twice those that the
+            gears of its hands need, if that is more.
 
     Raises:
         DefinitionError: The study's fidelity is not contact, a number is impossible or equal to that of the study, or
@@ -92,10 +101,10 @@ def confirmation_settings(
     found = [ConfirmationSetting(aspect=Aspect.STUDY, physics=own)]
     if Engine.PYBULLET in engines:
         finer = replace(own, rate_hz=max(FINER_RATE_HZ, 2 * own.rate_hz) if rate_hz is None else rate_hz)
-        more = own.with_iterations(
-            min(MOST_ITERATIONS, _MORE_ITERATIONS * own.solver_iterations) if iterations is None else iterations
-        )
-        _check(own, finer, more)
+        geared = _iterations_of_gears(project)
+        by_default = max(min(MOST_ITERATIONS, _MORE_ITERATIONS * own.solver_iterations), _MORE_THAN_GEARS * geared)
+        more = own.with_iterations(by_default if iterations is None else iterations)
+        _check(own, finer, more, geared=geared)
         found.append(ConfirmationSetting(aspect=Aspect.STEP, physics=finer))
         found.append(ConfirmationSetting(aspect=Aspect.ITERATIONS, physics=more))
     if Engine.MUJOCO in engines:
@@ -103,7 +112,14 @@ def confirmation_settings(
     return tuple(found)
 
 
-def _check(own: PhysicsSettings, finer: PhysicsSettings, more: PhysicsSettings) -> None:
+def _iterations_of_gears(project: Project) -> int:
+    """Solver iterations that every contact trial with a linkage takes at least; 0 without one."""
+    geometries = (one for file in project.grippers.values() for one in file.mountings.values())
+    linkages = (geometry.linkage for geometry in geometries)
+    return max((least_iterations(linkage) for linkage in linkages if linkage is not None), default=0)
+
+
+def _check(own: PhysicsSettings, finer: PhysicsSettings, more: PhysicsSettings, *, geared: int) -> None:
     if finer.rate_hz == own.rate_hz:
         raise DefinitionError(
             f"the finer rate must differ from that of the study, {own.rate_hz:g} Hz", hint="give another rate"
@@ -118,9 +134,13 @@ def _check(own: PhysicsSettings, finer: PhysicsSettings, more: PhysicsSettings) 
             f"the number of solver iterations must differ from that of the study, {own.solver_iterations}",
             hint="give another number",
         )
-    if not 1 <= more.solver_iterations <= MOST_ITERATIONS:
+    most = max(MOST_ITERATIONS, _MORE_THAN_GEARS * geared)
+    if not 1 <= more.solver_iterations <= most:
+        raise DefinitionError(f"the number of solver iterations must be from 1 to {most}, got {more.solver_iterations}")
+    if more.solver_iterations <= geared:
         raise DefinitionError(
-            f"the number of solver iterations must be from 1 to {MOST_ITERATIONS}, got {more.solver_iterations}"
+            f"the number of solver iterations must be above {geared}, which the gears of a hand take anyway, got "
+            f"{more.solver_iterations}"
         )
     for one in (finer, more):
         if one.rate_hz * one.solver_iterations < LEAST_ITERATIONS_HZ:

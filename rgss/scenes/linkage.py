@@ -265,5 +265,16 @@ class LinkageMotion:
         place = min(max((driven - self._driven[0]) / self._step, 0.0), float(_SAMPLES))
         return self._slope(min(int(place), _SAMPLES - 1))
 
+    def axial_slope(self, driven: float) -> float:
+        """Travel of the pads along the tool axis, away from the flange, per travel towards each other.
+
+        Args:
+            driven: Position of the driven joint.
+        """
+        place = min(max((driven - self._driven[0]) / self._step, 0.0), float(_SAMPLES))
+        before, after = self._driven[index := min(int(place), _SAMPLES - 1)], self._driven[index + 1]
+        axial_m = self.linkage.depth_m(after) - self.linkage.depth_m(before)
+        return axial_m / (self._travels_m[index + 1] - self._travels_m[index])
+
     def _slope(self, index: int) -> float:
         return (self._travels_m[index + 1] - self._travels_m[index]) / abs(self._step)

@@ -7,8 +7,11 @@ import pytest
 from rgss.confirmation import Aspect, Engine, confirmation_settings
 from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity
+from rgss.physics import least_iterations
+from rgss.scenes import load_gripper_file
 from rgss.studies import trial_specs
 from rgss.sweep import key_of
+from tests.trials.hands.gripper_files import FILES, TWO_FINGER
 
 
 def test_each_setting_differs_from_the_studys_in_one_thing(shipped):
@@ -62,6 +65,26 @@ def test_what_cannot_confirm_is_refused(shipped, options, message):
     with pytest.raises(DefinitionError) as refused:
         confirmation_settings(shipped, **options)
     assert str(refused.value).startswith(message)
+
+
+@pytest.fixture
+def geared(shipped, tmp_path):
+    """The study with a gripper whose gears take more iterations than four times the study's."""
+    (tmp_path / TWO_FINGER.name).write_bytes(TWO_FINGER.read_bytes())
+    path = tmp_path / "gripper.yaml"
+    path.write_text(FILES["linkage"], encoding="utf-8")
+    return replace(shipped, grippers={**shipped.grippers, "linkage": load_gripper_file(path)})
+
+
+def test_more_iterations_are_more_than_gears_take_anyway(geared):
+    taken = least_iterations(geared.grippers["linkage"].geometry.linkage)
+    (more,) = [one for one in confirmation_settings(geared) if one.aspect is Aspect.ITERATIONS]
+    assert more.physics.solver_iterations == 2 * taken
+    message = (
+        f"the number of solver iterations must be above {taken}, which the gears of a hand take anyway, got {taken}"
+    )
+    with pytest.raises(DefinitionError, match=message):
+        confirmation_settings(geared, iterations=taken)
 
 
 @pytest.mark.parametrize("fidelity", [Fidelity.KINEMATIC, Fidelity.DYNAMIC])

@@ -20,6 +20,7 @@ from rgss.scenes import (
     ChosenGrasp,
     Cylinder,
     Joint,
+    LinkageMotion,
     PlaceRegion,
     Pose,
     Robot,
@@ -27,6 +28,7 @@ from rgss.scenes import (
     SceneBody,
     Task,
     Workpiece,
+    grasp_opening_m,
     half_extents_m,
 )
 from rgss.trials.monitors import ForceSensor
@@ -160,7 +162,7 @@ class PayloadRig:
         """Close until every finger has pressed firmly for long enough."""
         spec, settings, gripper = self._spec, self._spec.settings, self._spec.gripper
         step_s = spec.physics.step_s
-        firm_n = settings.firm_share * gripper.finger_force_n
+        firm_n = settings.firm_share * self._least_force_n()
         longest_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s + settings.grasp_timeout_s
         self._world.drive_fingers(gripper.finger_velocity_m_s, gripper.finger_force_n)
         firm_s, steps = 0.0, 0
@@ -191,6 +193,20 @@ class PayloadRig:
             self.slip_m = math.dist(self._object_in_hand().position_m, self._held_at.position_m)
             if self.slip_m > self._spec.settings.largest_slip_m:
                 self._stop(PayloadLimit.SLIP)
+
+    def _least_force_n(self) -> float:
+        """Force of a finger on an object whose friction opposes the travel of its pad along the tool axis.
+
+        A pad of a linkage that moves by s along the axis per travel inwards presses with F / (1 + mu s) while it slides
+        on the object, by virtual work: F is the force without friction.
+        """
+        spec, geometry = self._spec, self._spec.gripper.geometry
+        if geometry.linkage is None:
+            return spec.gripper.finger_force_n
+        motion = LinkageMotion(geometry.linkage)
+        opening_m = grasp_opening_m(self._world.scene, geometry)
+        slope = motion.axial_slope(motion.driven_at(motion.largest_opening_m - opening_m))
+        return spec.gripper.finger_force_n / (1.0 + spec.friction * abs(slope))
 
     def _step(self, acceleration_m_s2: float) -> Contacts:
         step_s = self._spec.physics.step_s

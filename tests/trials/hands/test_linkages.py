@@ -13,7 +13,7 @@ from rgss.physics import PhysicsSettings, open_world
 from rgss.physics.linkage_drive import least_iterations
 from rgss.scenes import LinkageMotion, at_opening, load_gripper_file
 from rgss.trials.payload_bench.of_trial import payload_bench
-from rgss.trials.payload_bench.rig import PayloadRig
+from rgss.trials.payload_bench.rig import PayloadRig, probe
 from rgss.trials.second_engine import mujoco_settings
 from tests.trials.hands.gripper_files import FILES, HELD, gripper_of, with_thin_pads
 
@@ -89,6 +89,24 @@ def test_pads_press_with_what_virtual_work_gives(bench, force_n):
     assert sum(sums_n) / len(sums_n) == pytest.approx(expected_n, rel=0.005)
     # The share of the weights is no noise.
     assert abs(expected_n - 2 * force_n) > 0.2
+
+
+@pytest.mark.parametrize("radius_m", [0.015, 0.035])
+def test_a_wide_object_is_held_although_friction_takes_a_part_of_the_force(bench, radius_m):
+    """Pads that slide along the object while they close press with F / (1 + mu s) at least, and with F at most."""
+    spec = bench(240.0, 12.0)
+    geometry = at_opening(spec.gripper.geometry, radius_m)
+    wide = replace(spec, shape=replace(HELD, radius_m=radius_m), gripper=replace(spec.gripper, geometry=geometry))
+    sine = (radius_m - 0.012) / math.hypot(0.0325, 0.0463)
+    slope = sine / math.sqrt(1.0 - sine**2)
+    motion = LinkageMotion(geometry.linkage)
+    assert motion.axial_slope(motion.driven_at(motion.largest_opening_m - radius_m)) == pytest.approx(slope, rel=0.02)
+    with PayloadRig(wide, MASS_KG) as rig:
+        rig.grasp()
+        forces_n = rig.contacts().finger_forces_n
+    assert rig.stopped_by is None
+    assert 12.0 / (1.0 + wide.friction * slope) * 0.95 < sum(forces_n) / 2 < 12.0 * 1.05
+    assert probe(wide, MASS_KG).held
 
 
 def test_the_effort_of_the_joint_limits_the_force(bench):
