@@ -13,6 +13,7 @@ from rgss.errors import DefinitionError
 from rgss.kinematics import Arm, ArmDynamics, Load
 from rgss.scenes import Pose, link_solid
 from rgss.studies.robot_project import robot_summary, write_robot_project
+from rgss.studies.robot_project.arm_of_urdf import arm_of_urdf
 from rgss.studies.robot_project.draft import drafted_robot
 from tests.fixtures.serial_arms import SIX_WITHOUT_DECOMPOSITION as SIX
 from tests.fixtures.serial_arms import serial_urdf
@@ -369,3 +370,24 @@ def test_an_arm_ends_where_fingers_begin_however_many_joints_they_have(draft):
 def test_two_ways_of_like_length_end_the_arm(draft):
     drafted = draft(CLEAN.replace("</robot>", f"{branch('link_3', 2, 'other')}</robot>"))
     assert [joint.name for joint in drafted.robot.joints] == ["joint_1", "joint_2", "joint_3"]
+
+
+@pytest.mark.parametrize(("name", "is_noted"), [("gripper", True), ("moving_Jaw_joint", True), ("joint_6", False)])
+def test_a_last_joint_named_for_a_jaw_is_noted(name, is_noted):
+    joints = ["joint_1", "joint_2", name]
+    links = "".join(f'<link name="link_{place}"/>' for place in range(4))
+    chain = "".join(
+        f'<joint name="{joint}" type="revolute"><parent link="link_{place}"/><child link="link_{place + 1}"/>'
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+        for place, joint in enumerate(joints)
+    )
+    root = parsed(f'<robot name="arm">{links}{chain}</robot>')
+    found, stated = arm_of_urdf(root), arm_of_urdf(root, flange="link_2")
+    assert (found.flange, len(found.joints)) == ("link_3", 3)
+    reasons = [note.rationale for note in found.notes]
+    expected = (
+        f"The joint {name} counts as the arm's last, although by its name it may drive a jaw: with --flange link_2 the "
+        "arm ends before it."
+    )
+    assert reasons == ([expected] if is_noted else [])
+    assert (stated.flange, stated.hands, stated.notes) == ("link_2", ("link_3",), ())

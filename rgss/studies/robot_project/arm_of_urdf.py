@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from rgss.errors import DefinitionError
@@ -13,6 +13,7 @@ from rgss.studies.robot_project.urdf_reading import Note
 
 _LONGER_BY = 3
 """Joints by which the arm is longer than what else turns on one of its links; fingers of a hand differ by fewer."""
+_GRIPPING = ("gripper", "jaw", "finger", "claw")
 _DEFAULT_RANGE = (-3.141592653589793, 3.141592653589793)
 
 
@@ -78,8 +79,7 @@ def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
     if flange is not None and flange not in links:
         raise DefinitionError(f"the URDF has no link {flange}", hint=f"its links are {', '.join(links)}")
     found = flange if flange is not None else _last_link(root, below)
-    chain = chain_to(root, found)
-    moving = chain.movable
+    moving = chain_to(root, found).movable
     if not 1 <= len(moving) <= MOST_JOINTS:
         raise DefinitionError(
             f"the arm has {len(moving)} movable joints from its base to {found}, and 1 to {MOST_JOINTS} are expected",
@@ -101,7 +101,19 @@ def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
         flange=found,
         joints=tuple(_joint(joint) for joint in moving),
         hands=tuple(hands),
+        notes=tuple(_notes_of_jaw(moving[-1])) if flange is None and len(moving) > 1 else (),
     )
+
+
+def _notes_of_jaw(last: ET.Element) -> Iterator[Note]:
+    """A last joint that is named for what grips may be that of a jaw."""
+    name = last.get("name", "")
+    if any(word in name.casefold() for word in _GRIPPING):
+        rationale = (
+            f"The joint {name} counts as the arm's last, although by its name it may drive a jaw: with "
+            f"--flange {_end(last, 'parent')} the arm ends before it."
+        )
+        yield Note(about="flange", rationale=rationale)
 
 
 def _check_tree(root: ET.Element, links: list[str]) -> None:

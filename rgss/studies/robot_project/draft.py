@@ -63,7 +63,7 @@ def drafted_robot(
     """
     root, notes = read_arm_urdf(urdf)
     arm, added = with_palm(root, arm_of_urdf(root, flange=flange))
-    notes += added
+    notes += [*arm.notes, *added]
     if len(arm.joints) < _POSE_FREEDOMS:
         notes += snap_right_angles(root)
     likely = likely_tool_axes(root, arm, urdf)
