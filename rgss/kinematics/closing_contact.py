@@ -9,7 +9,7 @@ import numpy as np
 
 from rgss.kinematics.description import transform
 from rgss.kinematics.geometry import hull_of, object_solids
-from rgss.scenes import GripperGeometry, Linkage, LinkageMotion, Pose, Scene, grasp_opening_m, object_in_hand
+from rgss.scenes import GripperGeometry, Linkage, Pose, Scene, grasp_opening_m, motion_of, object_in_hand
 
 _SAMPLES = 9
 
@@ -55,7 +55,7 @@ class ClosingLinks:
         geometry, linkage = self._geometry, self._geometry.linkage
         if linkage is None or not self._solids:
             return None
-        motion = LinkageMotion(linkage)
+        motion = motion_of(linkage)
         held = geometry.grasp_centre @ (object_in_hand(scene, geometry) or Pose())
         objects = [(solid, held @ at) for solid, at in object_solids(scene.workpiece.shape)]
         end = motion.driven_at(motion.largest_opening_m - grasp_opening_m(scene, geometry))

@@ -13,11 +13,11 @@ from rgss.scenes import (
     Cylinder,
     Gripper,
     Linkage,
-    LinkageMotion,
     Pose,
     Robot,
     Workpiece,
     linkage_masses_kg,
+    motion_of,
     principal_frame,
     quaternion_of,
     solid_moments,
@@ -76,7 +76,7 @@ def gripper_loads(gripper: Gripper, opening_m: float) -> tuple[Load, ...]:
 
 def _linkage_loads(gripper: Gripper, linkage: Linkage, opening_m: float) -> tuple[Load, ...]:
     """Links of a gripper as loads of the flange, with the inertias of the URDF."""
-    motion = LinkageMotion(linkage)
+    motion = motion_of(linkage)
     poses = linkage.link_poses(motion.driven_at(motion.largest_opening_m - opening_m))
     loads = []
     for link, pose, mass_kg in zip(linkage.links, poses, linkage_masses_kg(gripper, linkage), strict=True):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rgss.scenes import GripperGeometry, LinkageMotion, finger_joint, link_names_of
+from rgss.scenes import GripperGeometry, finger_joint, link_names_of, motion_of
 
 
 def finger_joint_names(geometry: GripperGeometry) -> list[str]:
@@ -30,6 +30,6 @@ def finger_joint_positions(geometry: GripperGeometry, travel_m: Sequence[float])
     linkage = geometry.linkage
     if linkage is None:
         return travel_m
-    driven = LinkageMotion(linkage).driven_at(travel_m[0])
+    driven = motion_of(linkage).driven_at(travel_m[0])
     moved = (index for index, link in enumerate(linkage.links) if link.kind is not None)
     return [linkage.joint_position(index, driven) for index in moved]

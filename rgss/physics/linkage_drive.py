@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from rgss.scenes import Linkage, LinkageMotion, link_names_of
+from rgss.scenes import Linkage, link_names_of, motion_of
 
 _LEAST_ITERATIONS, _ITERATIONS_A_FOLLOWER = 600, 400
 _GEAR_FORCE = 1.0e4
@@ -49,7 +49,7 @@ class LinkageDrive:
         """
         self._engine, self._client, self._robot = engine, client, robot
         self._step_s = step_s
-        self._linkage, self._motion = linkage, LinkageMotion(linkage)
+        self._linkage, self._motion = linkage, motion_of(linkage)
         names = link_names_of(linkage)
         self._joints = {
             index: joints[f"{names[index]}_joint"] for index, link in enumerate(linkage.links) if link.kind is not None

@@ -51,7 +51,7 @@ from rgss.scenes.hands import (
     tool_with_pads_at,
 )
 from rgss.scenes.link_solids import LinkSolid, link_solid
-from rgss.scenes.linkage import Linkage, LinkageMotion
+from rgss.scenes.linkage import Linkage, LinkageMotion, motion_of
 from rgss.scenes.linkage_assembly import linkage_masses_kg
 from rgss.scenes.looks import DrawnMesh, drawn_mesh
 from rgss.scenes.mass_properties import (

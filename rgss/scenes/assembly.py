@@ -9,7 +9,7 @@ from functools import lru_cache
 
 from rgss.scenes.grasps import PadLayout
 from rgss.scenes.gripper import Gripper, GripperGeometry
-from rgss.scenes.linkage import Linkage, LinkageMotion, Triple
+from rgss.scenes.linkage import Linkage, Triple, motion_of
 from rgss.scenes.linkage_assembly import add_linkage, linkage_link_names
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
@@ -45,7 +45,7 @@ def linkage_hulls(linkage: Linkage, opening_m: float) -> Iterator[tuple[str, Pos
         linkage: The mechanism.
         opening_m: Distance of its pads from its axis.
     """
-    motion = LinkageMotion(linkage)
+    motion = motion_of(linkage)
     poses = linkage.link_poses(motion.driven_at(motion.largest_opening_m - opening_m))
     for name, link, pose in zip(link_names_of(linkage), linkage.links, poses, strict=True):
         for corners in link.hulls_m:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import JointKind, LinkLook
@@ -278,3 +279,13 @@ class LinkageMotion:
 
     def _slope(self, index: int) -> float:
         return (self._travels_m[index + 1] - self._travels_m[index]) / abs(self._step)
+
+
+@lru_cache(maxsize=16)
+def motion_of(linkage: Linkage) -> LinkageMotion:
+    """Tabulated motion of a linkage, cached in the process.
+
+    Args:
+        linkage: The mechanism.
+    """
+    return LinkageMotion(linkage)

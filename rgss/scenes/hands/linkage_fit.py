@@ -5,7 +5,7 @@ from __future__ import annotations
 from rgss.scenes.gripper import GripperGeometry
 from rgss.scenes.hands.linkage_gripper import linkage_geometry
 from rgss.scenes.hands.vacuum_gripper import at_top
-from rgss.scenes.linkage import LinkageMotion
+from rgss.scenes.linkage import motion_of
 from rgss.scenes.objects import grasp_opening_m
 from rgss.scenes.scene import Scene
 from rgss.scenes.shapes import half_extents_m
@@ -43,5 +43,5 @@ def at_opening(geometry: GripperGeometry, opening_m: float) -> GripperGeometry:
     """
     if geometry.linkage is None:
         return geometry
-    motion = LinkageMotion(geometry.linkage)
+    motion = motion_of(geometry.linkage)
     return linkage_geometry(geometry, geometry.linkage, motion.driven_at(motion.largest_opening_m - opening_m))

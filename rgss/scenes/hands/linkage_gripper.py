@@ -16,7 +16,7 @@ from rgss.scenes.gripper import GripperDrive, GripperFile, GripperGeometry
 from rgss.scenes.hands.linkage_document import LinkageGripperDocument
 from rgss.scenes.hands.linkage_pads import DrivenRange, PadError, linkage_of
 from rgss.scenes.hands.linkage_urdf import driven_joints, links_of, mechanism_problems, palm_of, prune
-from rgss.scenes.linkage import Linkage, LinkageLink, LinkageMotion
+from rgss.scenes.linkage import Linkage, LinkageLink, LinkageMotion, motion_of
 from rgss.scenes.looks import looks_of
 from rgss.scenes.pose import Pose
 from rgss.scenes.shapes import Box, Cylinder
@@ -51,7 +51,7 @@ class LinkageGripper:
         if findings:
             raise DocumentError(sorted(findings))
         linkage = _read_linkage(entry, document, path=path, project=project)
-        motion = LinkageMotion(linkage)
+        motion = motion_of(linkage)
         file = _gripper_file(entry, motion)
         findings = list(_limit_findings(entry, document, motion))
         if findings:

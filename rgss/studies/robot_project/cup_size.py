@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.scenes import GripperGeometry, Linkage, LinkageMotion, Pose, at_opening
+from rgss.scenes import GripperGeometry, Linkage, Pose, at_opening, motion_of
 from rgss.studies.robot_project.layout import Cup
 
 Array = NDArray[np.float64]
@@ -70,7 +70,7 @@ def _fingers_end_m(geometry: GripperGeometry, radius_m: float) -> float:
     linkage = geometry.linkage
     if linkage is None:
         return geometry.base.height_m + geometry.finger.size_m[2]
-    motion = LinkageMotion(linkage)
+    motion = motion_of(linkage)
     poses = linkage.link_poses(motion.driven_at(motion.largest_opening_m - radius_m))
     ends = (
         poses[index].position_m[2] + poses[index].rotate(corner)[2]
@@ -87,7 +87,7 @@ def _reach_above_m(geometry: GripperGeometry, radius_m: float) -> float:
     linkage = geometry.linkage
     if linkage is None:
         return geometry.base.height_m
-    motion = LinkageMotion(linkage)
+    motion = motion_of(linkage)
     pads = {pad.link for pad in linkage.pads}
     fingers = {index for parts in linkage.finger_parts for index in parts}
     deepest_m = 0.0

@@ -20,7 +20,6 @@ from rgss.scenes import (
     ChosenGrasp,
     Cylinder,
     Joint,
-    LinkageMotion,
     PlaceRegion,
     Pose,
     Robot,
@@ -30,6 +29,7 @@ from rgss.scenes import (
     Workpiece,
     grasp_opening_m,
     half_extents_m,
+    motion_of,
 )
 from rgss.trials.monitors import ForceSensor
 from rgss.trials.payload_bench.spec import BenchSpec
@@ -203,7 +203,7 @@ class PayloadRig:
         spec, geometry = self._spec, self._spec.gripper.geometry
         if geometry.linkage is None:
             return spec.gripper.finger_force_n
-        motion = LinkageMotion(geometry.linkage)
+        motion = motion_of(geometry.linkage)
         opening_m = grasp_opening_m(self._world.scene, geometry)
         slope = motion.axial_slope(motion.driven_at(motion.largest_opening_m - opening_m))
         return spec.gripper.finger_force_n / (1.0 + spec.friction * abs(slope))
