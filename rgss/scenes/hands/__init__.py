@@ -9,8 +9,9 @@ if TYPE_CHECKING:
     from rgss.scenes.hands.height_fit import palm_fit
     from rgss.scenes.hands.kinds import kind_of_gripper
     from rgss.scenes.hands.linkage_document import LinkageGripperDocument
-    from rgss.scenes.hands.linkage_fit import at_object, at_opening
+    from rgss.scenes.hands.linkage_fit import at_object
     from rgss.scenes.hands.linkage_gripper import LinkageGripper
+    from rgss.scenes.hands.linkage_shape import at_opening
     from rgss.scenes.hands.pad_search import find_pads
     from rgss.scenes.hands.parallel_gripper import ParallelGripperDocument
     from rgss.scenes.hands.tool_at_object import object_in_hand, tool_with_pads_at

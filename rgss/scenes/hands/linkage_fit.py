@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from rgss.scenes.gripper import GripperGeometry
-from rgss.scenes.hands.linkage_gripper import linkage_geometry
+from rgss.scenes.hands.linkage_shape import at_opening
 from rgss.scenes.hands.vacuum_gripper import at_top
-from rgss.scenes.linkage import motion_of
 from rgss.scenes.objects import grasp_opening_m
 from rgss.scenes.scene import Scene
 from rgss.scenes.shapes import half_extents_m
@@ -32,16 +31,3 @@ def at_object(geometry: GripperGeometry, scene: Scene) -> GripperGeometry:
             opening_m = grasp_opening_m(scene, geometry)
         geometry = at_opening(geometry, opening_m)
     return geometry
-
-
-def at_opening(geometry: GripperGeometry, opening_m: float) -> GripperGeometry:
-    """Gripper with its grasp centre at the pads' position at an opening; sliding fingers unchanged.
-
-    Args:
-        geometry: The gripper's shape.
-        opening_m: Distance of the pads from the tool axis.
-    """
-    if geometry.linkage is None:
-        return geometry
-    motion = motion_of(geometry.linkage)
-    return linkage_geometry(geometry, geometry.linkage, motion.driven_at(motion.largest_opening_m - opening_m))

@@ -15,6 +15,7 @@ from rgss.scenes.findings import Location, named_file_findings, not_positive, to
 from rgss.scenes.gripper import GripperDrive, GripperFile, GripperGeometry
 from rgss.scenes.hands.linkage_document import LinkageGripperDocument
 from rgss.scenes.hands.linkage_pads import DrivenRange, PadError, linkage_of
+from rgss.scenes.hands.linkage_shape import linkage_geometry
 from rgss.scenes.hands.linkage_urdf import driven_joints, links_of, mechanism_problems, palm_of, prune
 from rgss.scenes.linkage import Linkage, LinkageLink, LinkageMotion, motion_of
 from rgss.scenes.looks import looks_of
@@ -57,28 +58,6 @@ class LinkageGripper:
         if findings:
             raise DocumentError(sorted(findings))
         return file
-
-
-def linkage_geometry(geometry: GripperGeometry, linkage: Linkage, driven: float) -> GripperGeometry:
-    """Shape of a gripper with its pads at a position of the driven joint.
-
-    Args:
-        geometry: The gripper's shape at any position.
-        linkage: Its mechanism.
-        driven: Position of the driven joint.
-    """
-    depth_m, half_m = linkage.depth_m(driven), geometry.finger.size_m[2] / 2
-    beyond_m = geometry.grasp_depth_m - geometry.base.height_m - half_m
-    return GripperGeometry(
-        id=geometry.id,
-        azimuths_rad=geometry.azimuths_rad,
-        base=Cylinder(radius_m=geometry.base.radius_m, height_m=depth_m - half_m),
-        finger=geometry.finger,
-        largest_opening_m=geometry.largest_opening_m,
-        stroke_m=geometry.stroke_m,
-        grasp_depth_m=depth_m + beyond_m,
-        linkage=linkage,
-    )
 
 
 def _own_findings(entry: LinkageGripperDocument, document: Document) -> Iterable[Finding]:

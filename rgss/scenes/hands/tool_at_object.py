@@ -11,7 +11,7 @@ import math
 from functools import lru_cache
 
 from rgss.scenes.gripper import GripperGeometry
-from rgss.scenes.hands.linkage_fit import at_opening
+from rgss.scenes.hands.linkage_shape import at_opening
 from rgss.scenes.objects import grasp_opening_m
 from rgss.scenes.pose import Pose
 from rgss.scenes.scene import Scene
