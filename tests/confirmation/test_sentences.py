@@ -94,6 +94,18 @@ def test_outcomes_that_differ_are_told_with_their_numbers_and_fail_nothing(confi
     assert found.extreme("slip_m", 1) == (1e-5, 0.0201)
 
 
+def test_of_several_trials_that_end_otherwise_each_has_a_line(confirmation, record, dropped):
+    rows = [[record(seed=seed, slip_m=1e-5), dropped, dropped] for seed in (1, 2)] + [[record(seed=3)] * 3]
+    found = confirmation(rankings=[(28,)] * 3, records=rows)
+    count, *trials = first_lines(found, 5)[2:]
+    assert count == "2 of 3 trials end otherwise:"
+    expected = (
+        "success in the study, object_dropped at lift under PyBullet 1000 Hz, 20 iterations (the object slipped 20.1 "
+        "mm) and object_dropped at lift under MuJoCo 3.9, 2000 Hz (the object slipped 20.1 mm)."
+    )
+    assert trials == [f"  variant 28, seed {seed}: {expected}" for seed in (1, 2)]
+
+
 def test_the_same_failure_elsewhere_is_another_outcome(confirmation, record):
     rows = [[record(failure=Failure.OBJECT_DROPPED, phase=phase) for phase in (Phase.LIFT, Phase.MOVE_TO_PLACE)]]
     assert [trial.differing for trial in confirmation(rankings=[(28,)] * 2, records=rows).differing_trials] == [(1,)]

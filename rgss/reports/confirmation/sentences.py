@@ -16,10 +16,18 @@ _NUMBERS = ("no", "one", "two", "three", "four")
 
 
 def summary_sentences(confirmation: Confirmation) -> Iterator[str]:
-    """The decision, the verdicts and the outcomes in a sentence each, and what was not confirmed."""
+    """The decision, the verdicts and the outcomes in a sentence each, and what was not confirmed.
+
+    Of several trials with another outcome each has a line of its own.
+    """
     yield decision_sentence(confirmation)
     yield verdict_sentence(confirmation)
-    yield outcome_sentence(confirmation)
+    differing = confirmation.differing_trials
+    if len(differing) > 1:
+        yield f"{len(differing)} of {len(confirmation.trials)} trials end otherwise:"
+        yield from (f"  {trial_sentence(confirmation, trial)}." for trial in differing)
+    else:
+        yield outcome_sentence(confirmation)
     selection = confirmation.selection
     if selection.without_engine:
         yield f"Not confirmed in another engine: {selection.without_engine}."
