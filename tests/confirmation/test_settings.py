@@ -8,10 +8,9 @@ from rgss.confirmation import Aspect, Engine, confirmation_settings
 from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity
 from rgss.physics import least_iterations
-from rgss.scenes import load_gripper_file
 from rgss.studies import trial_specs
 from rgss.sweep import key_of
-from tests.trials.hands.gripper_files import FILES, TWO_FINGER
+from tests.trials.hands.gripper_files import linkage_file
 
 
 def test_each_setting_differs_from_the_studys_in_one_thing(shipped):
@@ -70,10 +69,7 @@ def test_what_cannot_confirm_is_refused(shipped, options, message):
 @pytest.fixture
 def geared(shipped, tmp_path):
     """The study with a gripper whose gears take more iterations than four times the study's."""
-    (tmp_path / TWO_FINGER.name).write_bytes(TWO_FINGER.read_bytes())
-    path = tmp_path / "gripper.yaml"
-    path.write_text(FILES["linkage"], encoding="utf-8")
-    return replace(shipped, grippers={**shipped.grippers, "linkage": load_gripper_file(path)})
+    return replace(shipped, grippers={**shipped.grippers, "linkage": linkage_file(tmp_path)})
 
 
 def test_more_iterations_are_more_than_gears_take_anyway(geared):

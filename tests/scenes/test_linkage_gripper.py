@@ -13,7 +13,7 @@ from rgss.errors import DocumentError
 from rgss.scenes import LinkageMotion, Pose, at_opening, load_gripper_file
 from tests.robots.conftest import urdf_of
 from tests.scenes.linkage_texts import FILE, JAWS
-from tests.trials.hands.gripper_files import FILES, TWO_FINGER
+from tests.trials.hands.gripper_files import TWO_FINGER, linkage_file
 
 PANDA = """\
 gripper: panda-hand
@@ -40,10 +40,7 @@ def jaws(tmp_path):
 
 @pytest.fixture
 def two_finger(tmp_path):
-    (tmp_path / TWO_FINGER.name).write_bytes(TWO_FINGER.read_bytes())
-    path = tmp_path / "gripper.yaml"
-    path.write_text(FILES["linkage"], encoding="utf-8")
-    return load_gripper_file(path)
+    return linkage_file(tmp_path)
 
 
 def test_jaws_close_where_they_meet_and_the_effort_is_shared(jaws):

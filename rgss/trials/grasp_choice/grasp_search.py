@@ -135,8 +135,8 @@ def _search(
             taken = _taken(scene, grasp, turn, len(ranked.grasps), number)
             tried = scene.with_grasps({name: taken})
             first = first or tried
-            view = scene_about(tried, name, place="", placements=placements)
-            if links.contact(view, clearance_m=CLOSING_ROOM_M) is not None:
+            # The rotation at the place does not change the object's pose in the hand.
+            if not why and _is_met(links, scene_about(tried, name, place="", placements=placements)):
                 why.append(Rejection.CLOSING)
                 break
             # Inverse kinematics is solved before the collision models are built, which takes longer.
@@ -152,6 +152,11 @@ def _search(
                 break
         rejected[_last(why)] += 1
     return GraspSearch(object=name, scene=first or scene, taken=None, ranked=ranked, rejected=dict(rejected))
+
+
+def _is_met(links: ClosingLinks, view: Scene) -> bool:
+    """True if a link of the hand comes to the object before the pads do."""
+    return links.contact(view, clearance_m=CLOSING_ROOM_M) is not None
 
 
 _STAGES = tuple(Rejection)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rgss.scenes import Cylinder, Gripper, at_opening, at_top, load_gripper_file
+from rgss.scenes import Cylinder, Gripper, GripperFile, at_opening, at_top, load_gripper_file
 
 FILES = {
     "fingers": """\
@@ -63,6 +63,14 @@ TWO_FINGER = Path(__file__).with_name("two_finger.urdf")
 
 HELD = Cylinder(radius_m=0.015, height_m=0.04)
 """An object that each of them can hold."""
+
+
+def linkage_file(folder: Path) -> GripperFile:
+    """The gripper of cranks, read from a folder."""
+    (folder / TWO_FINGER.name).write_bytes(TWO_FINGER.read_bytes())
+    path = folder / "gripper.yaml"
+    path.write_text(FILES["linkage"], encoding="utf-8")
+    return load_gripper_file(path)
 
 
 def with_thin_pads(urdf: str) -> str:

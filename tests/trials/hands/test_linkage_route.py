@@ -7,11 +7,11 @@ import shutil
 
 import pytest
 
-from rgss.scenes import at_object, initial_placements, load_gripper_file, load_scene, object_in_hand, scene_about
+from rgss.scenes import at_object, initial_placements, load_scene, object_in_hand, scene_about
 from rgss.studies.project import load_project
 from rgss.trials.route import route_of
 from tests.fixtures.shipped_project import REPOSITORY
-from tests.trials.hands.gripper_files import FILES, TWO_FINGER
+from tests.trials.hands.gripper_files import linkage_file
 
 FORMS = {
     "wider": ("    box: [70 mm, 30 mm, 30 mm]", 0.035),
@@ -34,10 +34,7 @@ def scene(request, tmp_path):
 
 @pytest.fixture
 def two_finger(tmp_path):
-    (tmp_path / TWO_FINGER.name).write_bytes(TWO_FINGER.read_bytes())
-    path = tmp_path / "gripper.yaml"
-    path.write_text(FILES["linkage"], encoding="utf-8")
-    return load_gripper_file(path)
+    return linkage_file(tmp_path)
 
 
 def depth_of_pads_m(half_width_m):
