@@ -158,6 +158,12 @@ def hull_of(vertices_m: Iterable[tuple[float, float, float]]) -> Any:
     Args:
         vertices_m: The points, in the frame of the solid.
     """
+    return _hull(tuple(vertices_m))
+
+
+@lru_cache(maxsize=512)
+def _hull(vertices_m: tuple[tuple[float, float, float], ...]) -> Any:
+    """Convex hull of some points, made once: a trial builds a dozen collision models of the same links."""
     import coal
 
     corners = coal.StdVec_Vec3s()

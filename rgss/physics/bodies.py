@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 from rgss.errors import SimulationError
-from rgss.physics.engine import load_urdf_text
 from rgss.scenes import (
     Box,
     Cylinder,
@@ -15,7 +14,6 @@ from rgss.scenes import (
     Pose,
     Shape,
     Workpiece,
-    convex_link_urdf,
     principal_frame,
 )
 
@@ -82,15 +80,7 @@ def add_object(engine: Any, client: int, workpiece: Workpiece) -> tuple[int, Pos
         return body, Pose(position_m=at_m)
     frame, moments = principal_frame(workpiece)
     if isinstance(shape, MeshShape):
-        body = load_urdf_text(
-            client,
-            convex_link_urdf(workpiece.id, shape.parts_m, mass_kg=mass_kg, moments_kg_m2=moments, principal=frame),
-            position=pose.position_m,
-            orientation=pose.quaternion_xyzw,
-            flags=engine.URDF_USE_INERTIA_FROM_FILE,
-            is_fixed=False,
-        )
-        engine.changeDynamics(body, -1, collisionMargin=_MARGIN_M, physicsClientId=client)
+        body = _add_mesh(engine, client, shape, pose @ frame, frame, mass_kg)
     else:
         solid = _lying(engine, client, shape) if isinstance(shape, LyingCylinder) else _shape(engine, client, shape)
         body = int(
@@ -109,6 +99,59 @@ def add_object(engine: Any, client: int, workpiece: Workpiece) -> tuple[int, Pos
         raise SimulationError("the physics engine rejected the object", hint="check its sizes")
     engine.changeDynamics(body, -1, localInertiaDiagonal=moments, physicsClientId=client)
     return body, frame
+
+
+def _add_mesh(engine: Any, client: int, shape: MeshShape, placed: Pose, principal: Pose, mass_kg: float) -> int:
+    """Add a body whose frame is its principal frame, with a fixed link for each part after the first.
+
+    A body of the engine has the margin of its own shape, which is set for a shape that is neither displaced nor one of
+    several of a link: others keep 1 mm, by which the object would be too large on all sides.
+    """
+    to_principal = principal.inverse()
+    shapes = []
+    for part in shape.parts_m:
+        corners = part
+        if principal != Pose():
+            corners = tuple((to_principal @ Pose(position_m=at)).position_m for at in part)
+        number = engine.createCollisionShape(engine.GEOM_MESH, vertices=corners, physicsClientId=client)
+        # The margin is that of the shape, and is set by a body that has it; other bodies share the shape.
+        setter = engine.createMultiBody(1.0, number, physicsClientId=client)
+        engine.changeDynamics(setter, -1, collisionMargin=_MARGIN_M, physicsClientId=client)
+        engine.removeBody(setter, physicsClientId=client)
+        shapes.append(number)
+    others = len(shapes) - 1
+    nowhere, unturned = [(0.0, 0.0, 0.0)] * others, [(0.0, 0.0, 0.0, 1.0)] * others
+    return int(
+        engine.createMultiBody(
+            mass_kg,
+            shapes[0],
+            -1,
+            placed.position_m,
+            placed.quaternion_xyzw,
+            linkMasses=[0.0] * others,
+            linkCollisionShapeIndices=shapes[1:],
+            linkVisualShapeIndices=[-1] * others,
+            linkPositions=nowhere,
+            linkOrientations=unturned,
+            linkInertialFramePositions=nowhere,
+            linkInertialFrameOrientations=unturned,
+            linkParentIndices=[0] * others,
+            linkJointTypes=[engine.JOINT_FIXED] * others,
+            linkJointAxis=[(0.0, 0.0, 1.0)] * others,
+            physicsClientId=client,
+        )
+    )
+
+
+def links_of(engine: Any, client: int, body: int) -> range:
+    """Links of a body: its base, and one for each further shape of a mesh.
+
+    Args:
+        engine: The engine's module.
+        client: The physics client.
+        body: Its id in the engine.
+    """
+    return range(-1, engine.getNumJoints(body, physicsClientId=client))
 
 
 def _lying(engine: Any, client: int, shape: LyingCylinder) -> int:

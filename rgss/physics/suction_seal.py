@@ -15,6 +15,7 @@ import math
 from collections import deque
 from typing import Any
 
+from rgss.physics.bodies import links_of
 from rgss.scenes import Gripper, Pose, Suction, SuctionPoint
 
 _BOND_SHARE = 2.0
@@ -71,13 +72,14 @@ class SuctionSeal:
         self._bond: int | None = None
         self._on_s: float | None = None
         self._off_s = math.inf
-        engine.changeDynamics(
-            body,
-            -1,
-            contactStiffness=_SUPPORT_STIFFNESS_N_M,
-            contactDamping=_SUPPORT_DAMPING_N_S_M,
-            physicsClientId=client,
-        )
+        for number in links_of(engine, client, body):
+            engine.changeDynamics(
+                body,
+                number,
+                contactStiffness=_SUPPORT_STIFFNESS_N_M,
+                contactDamping=_SUPPORT_DAMPING_N_S_M,
+                physicsClientId=client,
+            )
 
     @property
     def is_sealed(self) -> bool:
@@ -166,7 +168,15 @@ class SuctionSeal:
             physicsClientId=client,
         )
         engine.changeConstraint(self._bond, maxForce=_BOND_SHARE * self._gripper.finger_force_n, physicsClientId=client)
-        engine.setCollisionFilterPair(self._robot, self._body, self._link, -1, 0, physicsClientId=client)
+        self._let_touch(touching=False)
+
+    def _let_touch(self, *, touching: bool) -> None:
+        """Let cup and object collide, or not: a bond and a contact of the same two would oppose each other."""
+        engine, client = self._engine, self._client
+        for number in links_of(engine, client, self._body):
+            engine.setCollisionFilterPair(
+                self._robot, self._body, self._link, number, int(touching), physicsClientId=client
+            )
 
     def _check(self, lip: Pose, tight: float) -> None:
         """Break the bond if its load exceeds the holding force of the vacuum."""
@@ -218,7 +228,7 @@ class SuctionSeal:
         if self._bond is None:
             return
         self._engine.removeConstraint(self._bond, physicsClientId=self._client)
-        self._engine.setCollisionFilterPair(self._robot, self._body, self._link, -1, 1, physicsClientId=self._client)
+        self._let_touch(touching=True)
         self._bond = None
         self._loads.clear()
         if math.isinf(self._off_s):

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from rgss.errors import SimulationError
+from rgss.physics.bodies import links_of
 from rgss.physics.contact_reader import ContactReader
 from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.engine import ClientOwner
@@ -201,7 +202,8 @@ class World(ClientOwner):
         object rotates they become wrong: forces change that should not, and an opening finger drags the object along.
         Each renewal loses the elastic deflection of the friction, some hundredths of a millimetre.
         """
-        self._rediscover(self._workpiece, -1)
+        for link in links_of(self._engine, self._client, self._workpiece):
+            self._rediscover(self._workpiece, link)
 
     def set_workpiece(self, scene: Scene) -> None:
         """Make another object the workpiece, or change the place where it is released.

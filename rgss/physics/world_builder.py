@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rgss.errors import SimulationError
-from rgss.physics.bodies import add_body, add_object
+from rgss.physics.bodies import add_body, add_object, links_of
 from rgss.physics.engine import load_urdf_text
 from rgss.physics.linkage_drive import LinkageDrive, least_iterations
 from rgss.physics.settings import PhysicsSettings
@@ -125,25 +125,24 @@ class WorldBuilder:
                 hint="give a mass greater than zero",
             )
         body, principal = add_object(self.engine, self.client, workpiece)
-        self.engine.changeDynamics(
-            body,
-            -1,
-            lateralFriction=workpiece.friction,
-            linearDamping=0.0,
-            angularDamping=0.0,
-            frictionAnchor=1,
-            activationState=self.engine.ACTIVATION_STATE_DISABLE_SLEEPING,
-            physicsClientId=self.client,
-        )
+        links = links_of(self.engine, self.client, body)
+        for link in links:
+            self.engine.changeDynamics(
+                body,
+                link,
+                lateralFriction=workpiece.friction,
+                linearDamping=0.0,
+                angularDamping=0.0,
+                frictionAnchor=1,
+                activationState=self.engine.ACTIVATION_STATE_DISABLE_SLEEPING,
+                physicsClientId=self.client,
+            )
         if workpiece.rolling_resistance_m:
             # The engine multiplies the length by the friction of the other body.
             beneath = next(body.friction for body in self.scene.bodies if body.id == one.support)
-            self.engine.changeDynamics(
-                body,
-                -1,
-                rollingFriction=workpiece.rolling_resistance_m / max(beneath, _LEAST_FRICTION),
-                physicsClientId=self.client,
-            )
+            length_m = workpiece.rolling_resistance_m / max(beneath, _LEAST_FRICTION)
+            for link in links:
+                self.engine.changeDynamics(body, link, rollingFriction=length_m, physicsClientId=self.client)
         return body, principal
 
     @property

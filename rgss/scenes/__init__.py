@@ -11,7 +11,6 @@ from rgss.scenes.assembly import (
 )
 from rgss.scenes.convex_shapes import (
     ConvexPart,
-    convex_link_urdf,
     convex_parts,
     origin_of,
     vertices_of,
@@ -62,7 +61,7 @@ from rgss.scenes.mass_properties import (
     quaternion_of,
     solid_moments,
 )
-from rgss.scenes.mesh_shapes import mesh_summary
+from rgss.scenes.mesh_shapes import is_empty_mesh, mesh_summary
 from rgss.scenes.objects import ObjectPlacement, finger_pads, grasp_opening_m, initial_placements, scene_about
 from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import RIBS

@@ -105,38 +105,6 @@ def with_mesh_files(urdf: str, write: Callable[[int, tuple[Point, ...]], str]) -
     return ET.tostring(root, encoding="unicode")
 
 
-def convex_link_urdf(
-    name: str,
-    parts_m: tuple[tuple[Point, ...], ...],
-    *,
-    mass_kg: float,
-    moments_kg_m2: Point,
-    principal: Pose,
-) -> str:
-    """URDF of one link of convex shapes.
-
-    Args:
-        name: Name of the robot and its link.
-        parts_m: Corners of each shape, in the link's frame.
-        mass_kg: Its mass.
-        moments_kg_m2: Its principal moments of inertia.
-        principal: Transform of the principal axes to the link's frame.
-    """
-    angles = principal.roll_pitch_yaw_rad()
-    root = ET.Element("robot", {"name": name})
-    link = ET.SubElement(root, "link", {"name": name})
-    inertial = ET.SubElement(link, "inertial")
-    xyz, rpy = (" ".join(repr(float(value)) for value in values) for values in (principal.position_m, angles))
-    ET.SubElement(inertial, "origin", {"xyz": xyz, "rpy": rpy})
-    ET.SubElement(inertial, "mass", {"value": repr(mass_kg)})
-    xx, yy, zz = (repr(value) for value in moments_kg_m2)
-    ET.SubElement(inertial, "inertia", {"ixx": xx, "iyy": yy, "izz": zz, "ixy": "0", "ixz": "0", "iyz": "0"})
-    for corners in parts_m:
-        geometry = ET.SubElement(ET.SubElement(link, "collision"), "geometry")
-        geometry.append(convex_element(corners))
-    return ET.tostring(root, encoding="unicode")
-
-
 def origin_of(element: ET.Element) -> Pose:
     """Pose of an element's ``<origin>``.
 

@@ -61,6 +61,11 @@ class GripperGeometry:
         return self.base.height_m if self.linkage is None else min(self.base.height_m, self.linkage.palm_height_m)
 
     @property
+    def tip_height_m(self) -> float:
+        """Distance along z from the flange to the ends of the fingers in m."""
+        return self.base.height_m + self.finger.size_m[2] if self.linkage is None else self.linkage.tip_height_m
+
+    @property
     def base_pose(self) -> Pose:
         """Transform of the base's shape to the flange."""
         return Pose(position_m=(0.0, 0.0, self.base.height_m / 2))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
 
@@ -118,10 +119,17 @@ class Linkage:
     @property
     def palm_height_m(self) -> float:
         """Distance along z from the flange to the end of the palm in m; 0 without a collision shape."""
-        poses = self.link_poses(self.opened)
-        corners = (
-            (index, corner) for index in self.palm_links for hull in self.links[index].hulls_m for corner in hull
-        )
+        return self._height_m(self.palm_links, self.opened)
+
+    @property
+    def tip_height_m(self) -> float:
+        """Distance along z from the flange to the farthest link in m, with the gripper open or closed."""
+        every = range(len(self.links))
+        return max(self._height_m(every, self.opened), self._height_m(every, self.closed))
+
+    def _height_m(self, links: Iterable[int], driven: float) -> float:
+        poses = self.link_poses(driven)
+        corners = ((index, corner) for index in links for hull in self.links[index].hulls_m for corner in hull)
         heights = [poses[index].position_m[2] + poses[index].rotate(corner)[2] for index, corner in corners]
         return max(heights, default=0.0)
 

@@ -164,6 +164,28 @@ def read_mesh(path: Path, scale: tuple[float, float, float]) -> Any:
     Raises:
         DefinitionError: The file is not a mesh.
     """
+    mesh = _loaded(path)
+    if len(mesh.vertices) < 4 or not np.all(np.isfinite(mesh.vertices)):
+        raise DefinitionError(f"{path.name} is not a mesh with a volume", hint="use STL, OBJ or PLY")
+    # Corners that differ only in normal or texture are merged; otherwise no mesh with sharp edges would be closed.
+    mesh.merge_vertices(merge_tex=True, merge_norm=True)
+    mesh.apply_scale(scale)
+    return mesh
+
+
+def is_empty_mesh(path: Path) -> bool:
+    """True if a mesh file has no corners, as exporters write it for a frame.
+
+    Args:
+        path: The file.
+
+    Raises:
+        DefinitionError: The file is not a mesh.
+    """
+    return len(_loaded(path).vertices) == 0
+
+
+def _loaded(path: Path) -> Any:
     import trimesh
 
     if path.suffix.lower() not in _SUFFIXES:
@@ -176,11 +198,6 @@ def read_mesh(path: Path, scale: tuple[float, float, float]) -> Any:
         raise DefinitionError(f"{path.name} needs a reader that is not installed", hint="use STL, OBJ or PLY") from None
     except (ValueError, KeyError, IndexError, TypeError, AttributeError, OSError) as error:
         raise DefinitionError(f"{path.name} cannot be read as a mesh: {error}", hint="use STL, OBJ or PLY") from error
-    if len(mesh.vertices) < 4 or not np.all(np.isfinite(mesh.vertices)):
-        raise DefinitionError(f"{path.name} is not a mesh with a volume", hint="use STL, OBJ or PLY")
-    # Corners that differ only in normal or texture are merged; otherwise no mesh with sharp edges would be closed.
-    mesh.merge_vertices(merge_tex=True, merge_norm=True)
-    mesh.apply_scale(scale)
     return mesh
 
 

@@ -112,6 +112,7 @@ def grasp_searches_of(
         geometry,
         scene.task.candidates,
         friction=friction,
+        clearance_m=clearance_m,
         task=task,
         build=lambda tried: Workcell(tried, geometry, clearance_m=clearance_m, task=task),
     )

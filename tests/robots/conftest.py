@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from rgss.studies.robot_project import write_robot_project
+from rgss.studies.robot_project.draft import drafted_robot
 
 URDFS = {
     "seven": "kuka_iiwa/model.urdf",
@@ -37,3 +38,16 @@ def projects(tmp_path_factory):
 @pytest.fixture(params=list(URDFS))
 def arm_name(request):
     return request.param
+
+
+@pytest.fixture
+def draft(tmp_path):
+    """The robot that is drafted from a text."""
+
+    def drafted(text, **options):
+        folder = tmp_path / "package"
+        folder.mkdir(exist_ok=True)
+        (folder / "arm.urdf").write_text(text, encoding="utf-8")
+        return drafted_robot(folder / "arm.urdf", tmp_path / "project", **options)
+
+    return drafted

@@ -14,7 +14,6 @@ from rgss.kinematics import Arm, ArmDynamics, Load
 from rgss.scenes import Pose, link_solid
 from rgss.studies.robot_project import robot_summary, write_robot_project
 from rgss.studies.robot_project.arm_of_urdf import arm_of_urdf
-from rgss.studies.robot_project.draft import drafted_robot
 from tests.fixtures.serial_arms import SIX_WITHOUT_DECOMPOSITION as SIX
 from tests.fixtures.serial_arms import serial_urdf
 from tests.robots.test_arm_sizes import FOUR
@@ -28,19 +27,6 @@ def parsed(text):
 
 def written(root):
     return ET.tostring(root, encoding="unicode")
-
-
-@pytest.fixture
-def draft(tmp_path):
-    """The robot that is drafted from a text."""
-
-    def drafted(text, **options):
-        folder = tmp_path / "package"
-        folder.mkdir(exist_ok=True)
-        (folder / "arm.urdf").write_text(text, encoding="utf-8")
-        return drafted_robot(folder / "arm.urdf", tmp_path / "project", **options)
-
-    return drafted
 
 
 def rationales(drafted):
@@ -77,6 +63,17 @@ def test_shapes_without_an_extent_are_left_out(draft):
     empty = '<collision><geometry><box size="0 0 0"/></geometry></collision></link>'
     drafted = draft(CLEAN.replace("</link>", empty, 1))
     assert "Collision shapes of zero size are left out" in rationales(drafted)
+
+
+def test_mesh_files_without_a_face_are_left_out(tmp_path, draft):
+    (package := tmp_path / "package").mkdir()
+    (package / "frame.stl").write_bytes(bytes(80))
+    (package / "frame.obj").write_bytes(b"# a frame\n")
+    frames = [f'<geometry><mesh filename="{name}"/></geometry>' for name in ("frame.stl", "frame.obj")]
+    empty = "".join(f"<{kind}>{frame}</{kind}>" for kind in ("visual", "collision") for frame in frames)
+    drafted = draft(CLEAN.replace("</link>", empty + "</link>", 1))
+    assert "Meshes without a single face are left out, of link_1." in rationales(drafted)
+    assert "frame" not in next((tmp_path / "project").rglob("*.urdf")).read_text(encoding="utf-8")
 
 
 def test_prefixes_of_old_simulators_do_no_harm(draft):

@@ -57,12 +57,11 @@ def project(projects, tmp_path_factory):
     (grippers / "two_finger.yaml").write_text(CRANKS, encoding="utf-8")
     shutil.copy(TWO_FINGER, grippers)
     edit(folder / "designs" / "catalogue.yaml", (r"  - id: kg-2\n(?s:.*?)(?=  - id: ka-58)", COMPONENTS))
-    edit(folder / "designs" / "catalogue.yaml", (r"\{planner: RRT\}", "{planner: RRTConnect}"))
     edit(
         folder / "designs" / "design_space.yaml",
         (r"  - id: (finger_mass|base_mass|finger_speed)\n(?:    .*\n)+", ""),
         (r"  (finger_mass|base_mass|finger_speed): .*\n", ""),
-        (r"planner: RRT\n", "planner: RRTConnect\n  fingers: 2\n  friction: 0.8\n"),
+        (r"planner: RRTConnect\n", "planner: RRTConnect\n  fingers: 2\n  friction: 0.8\n"),
         (r"sets: \{fingers: 2, friction: 0.7\}", "sets: {hand: panda-hand}"),
         (r"sets: \{fingers: 3, friction: 0.7\}", "sets: {hand: two-finger}"),
         (

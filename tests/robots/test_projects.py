@@ -49,18 +49,27 @@ def test_a_project_of_an_arm_is_checked_swept_and_decided(projects, arm_name, ca
     assert decision["chosen"] is not None
 
 
-def test_the_range_of_the_urdf_stands_beside_a_narrower_one(projects):
-    (file,) = (projects["six"] / "scenes" / "robots").glob("*.yaml")
-    root = ET.parse(urdf_of("six")).getroot()  # noqa: S314 - it comes with the engine
+@pytest.mark.parametrize("name", ["six", "seven"])
+def test_a_joint_has_the_range_of_the_urdf_or_one_turn_of_it(projects, name):
+    """Other tasks of the user's reach as far as the arm does; the whole range stands beside the turn."""
+    (file,) = (projects[name] / "scenes" / "robots").glob("*.yaml")
+    root = ET.parse(urdf_of(name)).getroot()  # noqa: S314 - it comes with the engine
     limits = {joint.get("name"): joint.find("limit") for joint in root.findall("joint")}
-    beside = re.findall(
-        r"name: (\w+), range: .*}(?: # of (\S+) rad to (\S+) rad)?$", file.read_text("utf-8"), re.MULTILINE
+    lines = re.findall(
+        r"name: (\w+), range: \[(\S+) rad, (\S+) rad\].*}(?: # of (\S+) rad to (\S+) rad)?$",
+        file.read_text("utf-8"),
+        re.MULTILINE,
     )
-    assert len(beside) == 6
-    assert [name for name, lower, _ in beside if lower]
-    for name, *ends in beside:
-        whole = [float(limits[name].get(end)) for end in ("lower", "upper")]
-        assert ends == ["", ""] or [float(end) for end in ends] == pytest.approx(whole, rel=1e-5)
+    assert len(lines) == {"six": 6, "seven": 7}[name]
+    for joint, *written in lines:
+        lower, upper, *beside = (float(one) if one else None for one in written)
+        whole = [float(limits[joint].get(end)) for end in ("lower", "upper")]
+        if whole[1] - whole[0] > 6.29:
+            assert upper - lower == pytest.approx(6.29, abs=1e-3)
+            assert whole[0] - 1e-6 <= lower < upper <= whole[1] + 1e-6
+            assert beside == pytest.approx(whole, rel=1e-5)
+        else:
+            assert ([lower, upper], beside) == (pytest.approx(whole), [None, None])
 
 
 def test_a_row_of_joints_has_as_many_entries_as_the_arm_has_joints(projects, tmp_path, capsys):

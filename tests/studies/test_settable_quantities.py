@@ -30,7 +30,12 @@ def small(tmp_path):
         _edit(folder, f"scenes/grippers/kg-{fingers}.yaml", "length: 90 mm", given)
     _edit(folder, "scenes/robots/ur10.yaml", "payload: 10 kg", "payload: 10 kg\ntool_speed: 0.7 m/s")
     _edit(folder, STUDY, "  clearance: 8 mm", "  clearance: 8 mm\n  planner: TRRT\n  time_limit: 5 s")
-    _edit(folder, CATALOGUE, "    matches: {planner: RRT} # TRRT and STRIDE are there too\n", "")
+    _edit(
+        folder,
+        CATALOGUE,
+        "    matches: {planner: RRTConnect} # any geometric planner of the library, by its name\n",
+        "",
+    )
     for name, value, unit in (("finger_force", "9 N", "N"), ("friction", "0.6", "1")):
         text = (folder / MEASURES).read_text(encoding="utf-8")
         (line,) = [line for line in text.splitlines() if f"source: design.{name}," in line]

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
 from rgss.grasping.candidates.boxes import box_frames
 from rgss.grasping.candidates.cylinders import cylinder_frames
+from rgss.grasping.candidates.fingertips import off_support
 from rgss.grasping.candidates.frames import ToolFrame, approach_of
 from rgss.grasping.candidates.meshes import antipodal_frames
 from rgss.grasping.candidates.scoring import com_distance_m, contact_points, quality_1
@@ -91,7 +93,12 @@ class _Rejected:
 
 
 def ranked_grasps(
-    workpiece: Workpiece, geometry: GripperGeometry, options: GraspCandidates, *, friction: float
+    workpiece: Workpiece,
+    geometry: GripperGeometry,
+    options: GraspCandidates,
+    *,
+    friction: float,
+    clearance_m: float | None = None,
 ) -> RankedGrasps:
     """Grasp candidates of an object, ordered by quality, then distance of the centre of mass, then approach.
 
@@ -100,11 +107,14 @@ def ranked_grasps(
         geometry: The gripper's shape.
         options: Which grasps to try.
         friction: Coefficient of the contact.
+        clearance_m: Distance that the fingers keep from the object's support; None where it stands on none.
     """
     found: list[RankedGrasp] = []
     rejected_frames: Counter[FrameRejection] = Counter()
     openings_m: dict[FrameRejection, list[float]] = {}
-    for frame in _frames(workpiece, geometry, options, friction):
+    given = (ToolFrame(id=one.id, tool_in_object=one.tool_in_object) for one in workpiece.grasps)
+    generated = _frames(workpiece, geometry, options, friction)
+    for frame in itertools.chain(given, _off_support(generated, workpiece, geometry, clearance_m)):
         one = _ranked(frame, workpiece, geometry, options, friction)
         if isinstance(one, _Rejected):
             rejected_frames[one.reason] += 1
@@ -127,11 +137,26 @@ def ranked_grasps(
     )
 
 
+def _off_support(
+    frames: Iterable[ToolFrame], workpiece: Workpiece, geometry: GripperGeometry, clearance_m: float | None
+) -> Iterator[ToolFrame]:
+    """Frames whose fingers are clear of the support where they can be; of those that become equal the first."""
+    if clearance_m is None:
+        yield from frames
+        return
+    raised: set[Pose] = set()
+    half_m = workpiece.shape.half_height_m
+    for frame in frames:
+        kept = off_support(frame, half_height_m=half_m, clearance_m=clearance_m, geometry=geometry)
+        if kept is not frame and kept.tool_in_object in raised:
+            continue
+        raised.add(kept.tool_in_object)
+        yield kept
+
+
 def _frames(
     workpiece: Workpiece, geometry: GripperGeometry, options: GraspCandidates, friction: float
 ) -> Iterator[ToolFrame]:
-    for given in workpiece.grasps:
-        yield ToolFrame(id=given.id, tool_in_object=given.tool_in_object)
     shape, centre = workpiece.shape, centre_of_mass(workpiece)
     if isinstance(shape, Box):
         yield from box_frames(shape, centre, options.heights, geometry)

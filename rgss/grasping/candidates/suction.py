@@ -14,12 +14,15 @@ _COS_SQUARE = float(np.cos(np.radians(5.0)))
 _RIM_POINTS = 32
 _ABOVE_M = 5e-4
 _MARGIN_M = 2e-3
+_RESERVES_M = (2e-3, 1e-3, 5e-4, 0.0)
+"""Distances of the lip from the edge of its face to try: a cup at the edge itself has no room for any error."""
+
 _GRID_SHARE = 0.25
 _GRID_STEPS = 24
 
 
 def suction_points(shape: ObjectShape, cup_radius_m: float, centre_of_mass_m: Vector3) -> tuple[SuctionPoint, ...]:
-    """Suction points of an object, one on each flat face that supports the lip.
+    """Suction points of an object, one on each flat face that supports the lip, 2 mm from its edges where it can be.
 
     Ordered by the distance of the cup's axis from the centre of mass, the lever arm of the bending moment, then by the
     normal from the top down. A face that another part of the object covers under the lip has no suction point.
@@ -33,14 +36,24 @@ def suction_points(shape: ObjectShape, cup_radius_m: float, centre_of_mass_m: Ve
     parts = _half_spaces(shape)
     for normal, edges in _faces(shape):
         centre = np.array(centre_of_mass_m)
-        place = _place(normal, edges, centre, cup_radius_m)
-        if place is not None and _is_covered(place[0], normal, cup_radius_m, parts):
-            place = _uncovered(normal, edges, place[0], cup_radius_m, parts)
+        tried = (_free_place(normal, edges, centre, cup_radius_m, reserve_m, parts) for reserve_m in _RESERVES_M)
+        place = next((one for one in tried if one is not None), None)
         if place is not None:
             point, room = place
             arm = float(np.linalg.norm(np.cross(point - centre, normal)))
             found.append((round(arm, 9), tuple(np.round(-normal[::-1], 9)), _point(point, normal, room)))
     return tuple(one for _, _, one in sorted(found, key=lambda row: row[:2]))
+
+
+def _free_place(
+    normal: Array, rows: Array, centre: Array, radius_m: float, reserve_m: float, parts: list[Array]
+) -> tuple[Array, float] | None:
+    """Point of a face with room for the cup and a reserve that no other part covers, and the room in m."""
+    needed_m = radius_m + reserve_m
+    place = _place(normal, rows, centre, needed_m)
+    if place is None or not _is_covered(place[0], normal, radius_m, parts):
+        return place
+    return _uncovered(normal, rows, place[0], radius_m, needed_m, parts)
 
 
 def given_suction_point(shape: ObjectShape, cup_radius_m: float, tool_in_object: Pose) -> SuctionPoint | None:
@@ -84,16 +97,16 @@ def _is_covered(point: Array, normal: Array, radius_m: float, parts: list[Array]
 
 
 def _uncovered(
-    normal: Array, rows: Array, point: Array, radius_m: float, parts: list[Array]
+    normal: Array, rows: Array, point: Array, radius_m: float, needed_m: float, parts: list[Array]
 ) -> tuple[Array, float] | None:
-    """Grid point of a face, nearest to a covered point, at which the cup has room and is not covered."""
+    """Grid point of a face with the room that is needed, nearest to a covered point, where no part covers the cup."""
     first, second = _tangents(normal)
     steps = range(-_GRID_STEPS, _GRID_STEPS + 1)
     offsets = sorted((u * u + v * v, u, v) for u in steps for v in steps)
     for _, u, v in offsets:
         tried = point + radius_m * _GRID_SHARE * (u * first + v * second)
         room = -float(np.max(rows[:-1, :3] @ tried + rows[:-1, 3]))
-        if room >= radius_m and not _is_covered(tried, normal, radius_m, parts):
+        if room >= needed_m and not _is_covered(tried, normal, radius_m, parts):
             return tried, room
     return None
 

@@ -150,7 +150,8 @@ def _round_patch(shape: ObjectShape, to_pad: Pose, geometry: GripperGeometry) ->
 
 def _flat_patch(shape: ObjectShape, to_pad: Pose, geometry: GripperGeometry) -> PadPatch | None:
     window = _window(geometry)
-    pieces = []
+    pieces: list[tuple[Array, float]] = []
+    opening_m = -math.inf
     for part in surface_of(shape):
         corners = (part.reshape(-1, 3) @ rotation_of(to_pad).T + np.array(to_pad.position_m)).reshape(-1, 3, 3)
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -159,13 +160,17 @@ def _flat_patch(shape: ObjectShape, to_pad: Pose, geometry: GripperGeometry) -> 
         facing = normals[:, 0] > 1e-9 * sizes
         facing &= (low[:, 1] <= window[1]) & (high[:, 1] >= window[0])
         facing &= (low[:, 2] <= window[3]) & (high[:, 2] >= window[2])
-        for index in np.flatnonzero(facing).tolist():
+        indices = np.flatnonzero(facing)
+        # The farthest triangles first: those that do not reach as far as what is found touch no pad.
+        for index in indices[np.argsort(-high[indices, 0], kind="stable")].tolist():
+            if high[index, 0] < opening_m - _FLAT_M:
+                break
             kept = _clipped(corners[index], window)
             if len(kept):
                 pieces.append((kept, float(normals[index, 0] / sizes[index])))
+                opening_m = max(opening_m, float(np.max(kept[:, 0])))
     if not pieces:
         return None
-    opening_m = max(float(np.max(kept[:, 0])) for kept, _ in pieces)
     touching = [(kept[kept[:, 0] >= opening_m - _FLAT_M], slope) for kept, slope in pieces]
     points = np.vstack([kept for kept, _ in touching])
     slope = max(slope for kept, slope in touching if len(kept))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -31,7 +32,8 @@ _PEDESTAL, _PEDESTAL_GAP_M = "pedestal", 0.15
 _LEAST_REACH_M = 0.2
 _POSE_FREEDOMS = 6
 _CARRY_STATES = 64
-_ROOM = {JointKind.REVOLUTE: 0.6, JointKind.PRISMATIC: 0.15}
+_TURN_RAD = 6.29
+"""One turn, rounded up so that written ranges are short."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -183,11 +185,15 @@ def _overhead(robot: Robot, geometries: Sequence[GripperGeometry], size: HandSiz
 
 
 def _ranges(robot: Robot, configurations: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Ranges that hold configurations with some room, within the arm's own."""
-    room = np.array([_ROOM[joint.kind] for joint in robot.joints])
+    """The joints' ranges, of more than one turn the turn about the middle of some configurations."""
     own = np.array([(joint.lower_rad, joint.upper_rad) for joint in robot.joints]).T
-    lower = np.maximum(np.round(np.min(configurations, axis=0) - room, 2), own[0])
-    upper = np.minimum(np.round(np.max(configurations, axis=0) + room, 2), own[1])
+    turns = np.array([joint.kind is JointKind.REVOLUTE for joint in robot.joints]) & (own[1] - own[0] > _TURN_RAD)
+    middle = (np.min(configurations, axis=0) + np.max(configurations, axis=0)) / 2
+    lowest = np.clip(np.round(middle - math.pi, 2), own[0], own[1] - _TURN_RAD)
+    lower, upper = (
+        np.where(turns, lowest, own[0]),
+        np.where(turns, np.minimum(np.round(lowest + _TURN_RAD, 4), own[1]), own[1]),
+    )
     return tuple(lower.tolist()), tuple(upper.tolist())
 
 

@@ -54,10 +54,6 @@ def _assumptions(arm: UrdfArm) -> Sequence[tuple[str, str]]:
             "joints.acceleration",
             f"A URDF has none; each joint reaches its speed in {_ACCELERATION_TIME_S:g} s, {most:g} rad/s^2 at most.",
         ),
-        (
-            "joints.range",
-            "The part of the URDF's ranges about the task's configurations, so that planners search no turns beyond.",
-        ),
         ("payload", "What the joints' efforts hold, with the arm as far out as it reaches, rounded down."),
         ("tool_acceleration", "That of a common collaborative arm."),
         ("home", "A configuration above the object's place, free of collisions."),
@@ -65,6 +61,10 @@ def _assumptions(arm: UrdfArm) -> Sequence[tuple[str, str]]:
     slow = [joint.name for joint in arm.joints if joint.speed <= 0.0]
     weak = [joint.name for joint in arm.joints if joint.effort <= 0.0]
     unbounded = [joint.name for joint in arm.joints if joint.is_unbounded]
+    narrowed = [joint.name for joint in arm.joints if joint.whole not in (None, (joint.lower, joint.upper))]
+    if narrowed:
+        turn = "the turn about the task's configurations, so that planners search no others"
+        found.append(("joints.range", f"Of {', '.join(narrowed)}, which turn further, {turn}."))
     if unbounded:
         found.append(("joints.range", f"The URDF has no range of {', '.join(unbounded)}: half a turn either way."))
     if slow:

@@ -10,12 +10,14 @@ from pathlib import Path, PurePosixPath
 
 from rgss.documents import content_digest
 from rgss.errors import DefinitionError
+from rgss.scenes import is_empty_mesh
 from rgss.studies.robot_project.urdf_reading import Note
 
 _SCHEME = re.compile(r"^(package|model|file)://")
 _LARGEST_MESH_BYTES = 256 * 1024 * 1024
 _PACKAGE_FILE = "package.xml"
 _FOLDERS_UP = 4
+_LARGEST_EMPTY_MESH_BYTES = 4096
 
 
 def copy_named_files(root: ET.Element, urdf: Path, robots: Path) -> list[Note]:
@@ -34,7 +36,7 @@ def copy_named_files(root: ET.Element, urdf: Path, robots: Path) -> list[Note]:
     Raises:
         DefinitionError: A collision mesh is missing or too large.
     """
-    notes = list(_leave_out_missing_looks(root, urdf))
+    notes = [*_leave_out_missing_looks(root, urdf), *_leave_out_empty_meshes(root, urdf)]
     _drop_undefined_materials(root)
     for element in (one for tag in ("mesh", "texture") for one in root.iter(tag)):
         name = element.get("filename", "").strip()
@@ -127,6 +129,29 @@ def _leave_out_missing_looks(root: ET.Element, urdf: Path) -> Iterator[Note]:
             rationale=f"{len(gone)} visual meshes and textures are not there and left out, {gone[0] or 'nameless'} the"
             " first; they take part in no simulation.",
         )
+
+
+def _leave_out_empty_meshes(root: ET.Element, urdf: Path) -> Iterator[Note]:
+    empty = []
+    for link in root.findall("link"):
+        for shape in link.findall("visual") + link.findall("collision"):
+            mesh = shape.find("geometry/mesh")
+            source = None if mesh is None else find_named_file(mesh.get("filename", ""), urdf)
+            if source is not None and _is_empty(source):
+                link.remove(shape)
+                empty.append(link.get("name", ""))
+    if empty:
+        names = ", ".join(dict.fromkeys(empty))
+        yield Note(about="description", rationale=f"Meshes without a single face are left out, of {names}.")
+
+
+def _is_empty(mesh: Path) -> bool:
+    if mesh.stat().st_size > _LARGEST_EMPTY_MESH_BYTES:
+        return False
+    try:
+        return is_empty_mesh(mesh)
+    except DefinitionError:
+        return False
 
 
 def _drop_undefined_materials(root: ET.Element) -> None:

@@ -82,6 +82,7 @@ def search_grasps(
     options: GraspCandidates,
     *,
     friction: float,
+    clearance_m: float,
     task: TaskProgram,
     build: Callable[[Scene], Cell],
 ) -> tuple[GraspSearch, ...]:
@@ -96,12 +97,15 @@ def search_grasps(
         options: Specification of the candidates.
         friction: Coefficient of the pads; the contact's is the product with the object's. For a cup, its greatest
             tangential divided by its greatest normal force.
+        clearance_m: Clearance of planned paths.
         task: The task.
         build: Factory of arm and collision models of a scene.
     """
     found: list[GraspSearch] = []
     for name in dict.fromkeys(stage.object for stage in stages_of(task, scene.workpiece.id)):
-        found.append(_search(scene, name, geometry, options, friction=friction, task=task, build=build))
+        found.append(
+            _search(scene, name, geometry, options, friction=friction, clearance_m=clearance_m, task=task, build=build)
+        )
         scene = found[-1].scene
     return tuple(found)
 
@@ -113,6 +117,7 @@ def _search(
     options: GraspCandidates,
     *,
     friction: float,
+    clearance_m: float,
     task: TaskProgram,
     build: Callable[[Scene], Cell],
 ) -> GraspSearch:
@@ -123,7 +128,8 @@ def _search(
         depth_m = scene.workpiece.shape.half_height_m
         ranked = ranked_suction(workpiece, geometry, options, tangential_1=friction, depth_m=depth_m)
     else:
-        ranked = ranked_grasps(workpiece, geometry, options, friction=friction * workpiece.friction)
+        contact = friction * workpiece.friction
+        ranked = ranked_grasps(workpiece, geometry, options, friction=contact, clearance_m=clearance_m)
     turns = symmetric_turns(workpiece.shape, options.yaws)
     placements, links = initial_placements(scene), ClosingLinks(geometry)
     rejected: Counter[Rejection] = Counter()

@@ -173,11 +173,9 @@ class PhaseMonitor:
                 self.fail(Failure.OBJECT_COLLISION, f"the object touched {body}")
         if not is_whole:
             window_ms = self._world.scene.workpiece.force_window_s * 1e3
-            self.fail(
-                Failure.OBJECT_DAMAGED,
-                f"a finger pressed with {sensor.peak_n:.2f} N over {window_ms:g} ms, "
-                f"above its limit of {self._limit_n:g} N",
-            )
+            presses = "the cup" if self._has_cup else "a finger"
+            force = f"{sensor.peak_n:.2f} N over {window_ms:g} ms, above its limit of {self._limit_n:g} N"
+            self.fail(Failure.OBJECT_DAMAGED, f"{presses} pressed with {force}")
 
     def _check_grip(self, forces_n: tuple[float, ...], load_m_s2: float) -> None:
         margin = self._world.seal_margin if self._has_cup else self._friction_margin(forces_n, load_m_s2)

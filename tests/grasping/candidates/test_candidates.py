@@ -157,3 +157,50 @@ def test_a_symmetric_turn_leaves_the_shape_where_it_was(shape, count):
             turned = corners @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T
             distances = np.linalg.norm(turned[:, None] - corners[None], axis=2)
             assert np.max(np.min(distances, axis=1)) < 1e-12
+
+
+@pytest.mark.parametrize("fingers", [2, 3])
+@pytest.mark.parametrize("name", ["box", "cylinder", "mesh"])
+@pytest.mark.parametrize("height_m", [0.02, 0.04, 0.06])
+def test_low_objects_are_held_with_the_ends_of_the_fingers(name, fingers, height_m):
+    """The fingers end 30 mm below the grasp centre: from there down they would be in the table."""
+    geometry, clearance_m = hand(fingers), 0.008
+    flat = Box(size_m=(0.06, 0.056, height_m))
+    shape = {
+        "box": flat,
+        "cylinder": Cylinder(radius_m=0.03, height_m=height_m),
+        "mesh": MeshShape(parts_m=corners_of(flat), sha256="flat"),
+    }[name]
+    options = GraspCandidates(approaches=(Approach.ABOVE,), heights=3, yaws=4, samples=24)
+    found = ranked_grasps(piece(shape), geometry, options, friction=0.7, clearance_m=clearance_m).grasps
+    assert found
+    for grasp in found:
+        tool = grasp.tool_in_object
+        tips = [
+            (tool @ Pose(position_m=(x, y, geometry.base.height_m + 0.09 - geometry.grasp_depth_m))).position_m[2]
+            for x in (-0.07, 0.07)
+            for y in (-0.07, 0.07)
+        ]
+        assert min(tips) + height_m / 2 >= clearance_m
+        held_m = height_m - (min(tips) + height_m / 2)
+        assert held_m > 0.004
+        for patch in pad_patches(shape, tool, geometry):
+            assert patch.along_m[1] - patch.along_m[0] == pytest.approx(min(held_m, height_m), abs=5e-3)
+
+
+def test_an_object_too_low_for_the_ends_of_the_fingers_keeps_its_grasps():
+    """12 mm less 9 mm of clearance leave less than 5 mm to hold; the check then names the table."""
+    low, options = piece(Box(size_m=(0.06, 0.056, 0.012))), GraspCandidates(approaches=(Approach.ABOVE,))
+    kept = ranked_grasps(low, hand(2), options, friction=0.7, clearance_m=0.008)
+    assert kept == ranked_grasps(low, hand(2), options, friction=0.7)
+
+
+def test_a_given_grasp_is_not_raised():
+    given = GivenGrasp(
+        id="mine", tool_in_object=Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (math.pi, 0.0, 0.0)), width_m=0.056
+    )
+    low = piece(Box(size_m=(0.06, 0.056, 0.03)), grasps=(given,))
+    found = ranked_grasps(low, hand(2), GraspCandidates(approaches=(Approach.ABOVE,)), friction=0.7, clearance_m=0.008)
+    (mine,) = (grasp for grasp in found.grasps if grasp.id == "mine")
+    assert mine.tool_in_object.position_m[2] == pytest.approx(0.0, abs=1e-9)
+    assert all(grasp.id.endswith(":tips") for grasp in found.grasps if grasp.id != "mine")

@@ -79,7 +79,19 @@ def test_suction_points_are_on_the_faces_that_bear_the_cup():
 def test_a_suction_point_is_as_near_to_the_centre_of_mass_as_the_edge_allows():
     best = suction_points(Box(size_m=(0.1, 0.1, 0.05)), RADIUS_M, (0.04, 0.0, 0.0))
     on_top = next(point for point in best if point.normal[2] > 0.99)
-    assert on_top.position_m == pytest.approx((0.03, 0.0, 0.025), abs=1e-6)
+    # The lip keeps 2 mm from the edge.
+    assert on_top.position_m == pytest.approx((0.028, 0.0, 0.025), abs=1e-6)
+    assert on_top.room_m == pytest.approx(RADIUS_M + 2e-3, abs=1e-6)
+
+
+def test_on_a_narrow_face_the_lip_keeps_the_reserve_that_there_is():
+    """An oracle of its own: on a strip the cup is in the middle, or away from the edge that it is nearer to."""
+    for width_m in (0.0401, 0.0408, 0.0417, 0.0435, 0.06):
+        most_m = width_m / 2 - RADIUS_M
+        reserve_m = max(one for one in (2e-3, 1e-3, 5e-4, 0.0) if one <= most_m)
+        points = suction_points(Box(size_m=(0.1, width_m, 0.05)), RADIUS_M, (0.0, 0.45 * width_m, 0.0))
+        on_top = next(point for point in points if point.normal[2] > 0.99)
+        assert on_top.position_m == pytest.approx((0.0, most_m - reserve_m, 0.025), abs=1e-6), width_m
 
 
 def test_the_wall_of_a_cylinder_bears_no_cup():

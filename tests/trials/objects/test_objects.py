@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -26,13 +27,34 @@ HEXAGON = MeshShape(
     ),
     sha256="hexagon",
 )
+BRACKET = MeshShape(
+    parts_m=tuple(
+        tuple(itertools.product(*zip(low, high, strict=True)))
+        for low, high in (
+            ((-0.035, -0.035, -0.02), (0.035, -0.01, 0.02)),
+            ((-0.035, -0.01, -0.02), (-0.01, 0.035, 0.02)),
+        )
+    ),
+    sha256="bracket",
+)
 POLAR = 5.0 * SIDE_M**2 / 12.0
 OBJECTS = {
     "box": (Box(size_m=(0.06, 0.05, 0.08)), {}),
     "lying cylinder": (LyingCylinder(radius_m=0.03, length_m=0.09), {"rolling_resistance_m": 5e-4}),
     "mesh": (HEXAGON, {"gyration_m2": (POLAR / 2 + HALF_M**2 / 3, POLAR / 2 + HALF_M**2 / 3, POLAR, 0.0, 0.0, 0.0)}),
+    "low box": (Box(size_m=(0.06, 0.05, 0.024)), {}),
+    "two parts": (
+        BRACKET,
+        {
+            "gyration_m2": (7e-4, 7e-4, 1.2e-3, 2e-4, 0.0, 0.0),
+            "centre_of_mass_across_m": (-0.009, -0.009),
+        },
+    ),
 }
-TRIED = [("box", 65), ("box", 5), ("lying cylinder", 65), ("mesh", 65), ("mesh", 5)]
+TRIED = [
+    *(("box", 65), ("box", 5), ("lying cylinder", 65), ("mesh", 65), ("mesh", 5)),
+    *(("low box", 65), ("low box", 5), ("two parts", 65)),
+]
 CANDIDATES = GraspCandidates(approaches=tuple(Approach), heights=3, yaws=8, samples=24)
 
 
