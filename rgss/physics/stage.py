@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import product
 from typing import Any
 
@@ -27,6 +27,7 @@ from rgss.scenes import (
     Pose,
     Scene,
     Shape,
+    Workpiece,
     assembled_urdf,
     convex_parts,
     drawn_mesh,
@@ -71,11 +72,13 @@ class Posture:
         joints_rad: Joint positions of the arm.
         finger_travel_m: Travel of each finger from open.
         workpiece: Transform of the workpiece to the world.
+        others: Those of the other objects, by name.
     """
 
     joints_rad: Sequence[float]
     finger_travel_m: Sequence[float]
     workpiece: Pose
+    others: Mapping[str, Pose] = field(default_factory=dict)
 
 
 class Stage:
@@ -83,7 +86,7 @@ class Stage:
 
     Attributes:
         still: Client of the scene's bodies and of a mat that marks the place.
-        moving: Client of the arm, the gripper and the workpiece.
+        moving: Client of the arm, the gripper and the objects.
     """
 
     def __init__(self, scene: Scene, gripper: Gripper) -> None:
@@ -105,17 +108,15 @@ class Stage:
             self.still, self.moving, self._machine = self._open(), self._open(), self._open()
             for body in scene.bodies:
                 self._add(self.still, shape_surface(body.primitive), body.pose, body.colour)
-            mat = Cylinder(radius_m=scene.place.radius_m, height_m=_MAT_THICKNESS_M)
-            centre = Pose(position_m=scene.place.centre_m).raised(_MAT_THICKNESS_M / 2)
-            self._add(self.still, cylinder_surface(mat), centre, PLACE_COLOUR)
-            workpiece = scene.workpiece
+            if scene.place.offset_m is None:
+                mat = Cylinder(radius_m=scene.place.radius_m, height_m=_MAT_THICKNESS_M)
+                centre = Pose(position_m=scene.place.centre_m).raised(_MAT_THICKNESS_M / 2)
+                self._add(self.still, cylinder_surface(mat), centre, PLACE_COLOUR)
             self._half_sizes: dict[int, tuple[float, float, float]] = {}
             self._poses: dict[int, Pose] = {}
-            self._workpiece = []
-            for surface, at, half in object_surfaces(workpiece.shape):
-                part = self._add(self.moving, surface, workpiece.pose @ at, workpiece.colour)
-                self._workpiece.append((part, at))
-                self._half_sizes[part] = half
+            self._objects: list[tuple[int, str, Pose]] = []
+            for one in scene.objects:
+                self._add_object(one.workpiece)
             self._add_robot()
         except BaseException:
             self.close()
@@ -133,8 +134,10 @@ class Stage:
         fingers = finger_joint_positions(self._gripper.geometry, posture.finger_travel_m)
         for joint, position in zip(joints, (*posture.joints_rad, *fingers), strict=True):
             engine.resetJointState(self._robot, joint, position, physicsClientId=self._machine)
-        for part, at in self._workpiece:
-            self._place(part, posture.workpiece @ at)
+        poses = {**posture.others, self._scene.workpiece.id: posture.workpiece}
+        for part, name, at in self._objects:
+            if name in poses:
+                self._place(part, poses[name] @ at)
         for part, link, pose in self._parts:
             self._place(part, self._link_pose(link) @ pose)
 
@@ -162,6 +165,12 @@ class Stage:
                 x, y, z = (sign * size for sign, size in zip(signs, half, strict=True))
                 corners.append((self._poses[body] @ Pose(position_m=(x, y, z))).position_m)
         return corners
+
+    def _add_object(self, workpiece: Workpiece) -> None:
+        for surface, at, half in object_surfaces(workpiece.shape):
+            part = self._add(self.moving, surface, workpiece.pose @ at, workpiece.colour)
+            self._objects.append((part, workpiece.id, at))
+            self._half_sizes[part] = half
 
     def _open(self) -> int:
         client = open_client()

@@ -116,6 +116,12 @@ class WorldBuilder:
         """Add the workpiece and the other objects; returns the id of each and the transform of its principal axes."""
         return {one.workpiece.id: self._add_object(one) for one in self.scene.objects}
 
+    def _friction_of(self, support: str) -> float:
+        """Friction coefficient of a body or an object."""
+        frictions = {body.id: body.friction for body in self.scene.bodies}
+        frictions |= {one.workpiece.id: one.workpiece.friction for one in self.scene.objects}
+        return frictions[support]
+
     def _add_object(self, one: SceneObject) -> tuple[int, Pose]:
         workpiece = one.workpiece
         if not 0.0 < workpiece.mass_kg < math.inf:
@@ -139,7 +145,7 @@ class WorldBuilder:
             )
         if workpiece.rolling_resistance_m:
             # The engine multiplies the length by the friction of the other body.
-            beneath = next(body.friction for body in self.scene.bodies if body.id == one.support)
+            beneath = self._friction_of(one.support)
             length_m = workpiece.rolling_resistance_m / max(beneath, _LEAST_FRICTION)
             for link in links:
                 self.engine.changeDynamics(body, link, rollingFriction=length_m, physicsClientId=self.client)

@@ -62,7 +62,14 @@ from rgss.scenes.mass_properties import (
     solid_moments,
 )
 from rgss.scenes.mesh_shapes import is_empty_mesh, mesh_summary
-from rgss.scenes.objects import ObjectPlacement, finger_pads, grasp_opening_m, initial_placements, scene_about
+from rgss.scenes.objects import (
+    ObjectPlacement,
+    finger_pads,
+    grasp_opening_m,
+    initial_placements,
+    scene_about,
+    with_raised_stack,
+)
 from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import RIBS
 from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, LinkLook, Robot

@@ -95,13 +95,14 @@ class PlaceRegion:
     """Place region of the workpiece at the end of the task.
 
     Attributes:
-        centre_m: Centre of the region on the supporting surface, in the world.
+        centre_m: Centre of the region on the supporting surface, in the world; on an object where it stands at first.
         radius_m: Greatest distance of the workpiece's axis from the centre.
         largest_tilt_rad: Greatest tilt of the workpiece from upright.
         largest_drop_m: Greatest height above the surface at which the workpiece may be released; from a greater height
         it counts as dropped. From the default of 10 mm it lands with 0.44 m/s.
         largest_drag_m: Greatest displacement of the workpiece by the robot after its release. The default of 1 mm is
         ten times the motion of a carried object in the hand.
+        offset_m: Position of the centre on a supporting object, from its middle, in its frame; None on a fixed body.
     """
 
     centre_m: tuple[float, float, float]
@@ -109,6 +110,18 @@ class PlaceRegion:
     largest_tilt_rad: float
     largest_drop_m: float = LARGEST_DROP_M
     largest_drag_m: float = LARGEST_DRAG_M
+    offset_m: tuple[float, float] | None = None
+
+    def on(self, pose: Pose, half_height_m: float) -> PlaceRegion:
+        """The region on its supporting object where that stands now; itself on a fixed body.
+
+        Args:
+            pose: Transform of the supporting object to the world.
+            half_height_m: Half of its height.
+        """
+        if self.offset_m is None:
+            return self
+        return replace(self, centre_m=(pose @ Pose(position_m=(*self.offset_m, half_height_m))).position_m)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,9 +130,9 @@ class SceneObject:
 
     Attributes:
         workpiece: The object.
-        support: Id of its supporting body at the start.
+        support: Id of the body or object on which it stands at the start.
         place: Its place region.
-        place_support: Id of the body of its place region.
+        place_support: Id of the body or object of its place region.
         grasp: The grasp chosen for it; None before the choice.
     """
 
@@ -137,7 +150,7 @@ class NamedPlace:
     Attributes:
         id: Its name.
         region: The region.
-        support: Id of its supporting body.
+        support: Id of its supporting body or object.
     """
 
     id: str

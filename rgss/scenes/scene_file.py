@@ -21,7 +21,8 @@ from rgss.scenes.objects import (
     other_objects,
     other_solids,
     positive_values,
-    region_of,
+    support_findings,
+    supports_of,
     workpiece_of,
 )
 from rgss.scenes.pose import Pose
@@ -51,6 +52,7 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         *_drop_findings(entry, document),
         *_free_yaw_findings(entry, document),
         *name_findings(entry, document),
+        *support_findings(entry, document),
         *not_positive(document, (*_positive_values(entry), *positive_values(entry))),
         *negative(document, _values_from_zero(entry)),
     ]
@@ -63,7 +65,9 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
     others = other_solids(path, entry, document, findings, top)
     if findings or robot is None or solid is None:
         raise DocumentError(sorted(findings))
-    tops = {body.id: _top(body) for body in entry.bodies}
+    solids = zip((entry.workpiece, *entry.workpieces), (solid, *others), strict=True)
+    half_heights_m = {one.id: found.shape.half_height_m for one, found in solids}
+    supports = supports_of(entry, {body.id: _top(body) for body in entry.bodies}, half_heights_m)
     workpiece, place = entry.workpiece, entry.place_region
     return Scene(
         id=entry.scene,
@@ -72,10 +76,10 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         bodies=tuple(_body(body) for body in entry.bodies),
         support=workpiece.stands_on,
         place_support=place.stands_on,
-        workpiece=workpiece_of(workpiece, solid, top_m=tops[workpiece.stands_on], colour=colour_of(workpiece.colour)),
-        place=region_of(place, tops),
-        others=other_objects(entry, others, tops),
-        places=named_places(entry, tops),
+        workpiece=workpiece_of(workpiece, solid, pose=supports.poses[workpiece.id], colour=colour_of(workpiece.colour)),
+        place=supports.region(place),
+        others=other_objects(entry, others, supports),
+        places=named_places(entry, supports),
         task=Task(
             approach_height_m=entry.task.approach_height,
             lift_height_m=entry.task.lift_height,
@@ -132,14 +136,6 @@ def _workpiece_findings(entry: SceneDocument, document: Document) -> Iterable[Fi
         yield document.finding(
             "scene.duplicate-id", f"id {entry.workpiece.id!r} is taken by a body", ("workpiece", "id")
         )
-    for key, name in (("workpiece", entry.workpiece.stands_on), ("place_region", entry.place_region.stands_on)):
-        if name not in bodies:
-            yield document.finding(
-                "scene.unknown-body",
-                f"there is no body {name!r}",
-                (key, "stands_on"),
-                hint=f"known bodies: {', '.join(bodies)}",
-            )
 
 
 def _drop_findings(entry: SceneDocument, document: Document) -> Iterable[Finding]:

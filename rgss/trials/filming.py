@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from contextlib import ExitStack
 from dataclasses import dataclass
 from types import TracebackType
@@ -66,6 +67,7 @@ class Film:
         self._rate_hz = rate_hz
         self._inset: Camera | None = None
         scene = conditions_of(spec).true_scene
+        self._first = scene.workpiece.id
         if scene.task.candidates is not None:
             scene = with_grasp_of(scene, cell_of(spec))
         with ExitStack() as cameras:  # closes the first camera if the second fails
@@ -102,17 +104,23 @@ class Film:
 
     def _frame(self, sample: int) -> Frame:
         trace = self._trace
-        px, py, pz = trace.workpiece_position_m[sample].tolist()
-        qx, qy, qz, qw = trace.workpiece_quaternion_xyzw[sample].tolist()
+        present = _pose([*trace.workpiece_position_m[sample], *trace.workpiece_quaternion_xyzw[sample]])
+        objects = {name: _pose(rows[sample]) for name, rows in trace.objects.items()}
         posture = Posture(
             joints_rad=trace.joint_positions_rad[sample].tolist(),
             finger_travel_m=trace.finger_travel_m[sample].tolist(),
-            workpiece=Pose(position_m=(px, py, pz), quaternion_xyzw=(qx, qy, qz, qw)),
+            workpiece=objects.pop(self._first, present),
+            others=objects,
         )
         picture = self._camera.picture(posture)
         if self._inset is not None:
             _set_into(picture, self._inset.picture(posture))
         return Frame(picture=picture, time_s=float(trace.time_s[sample]), span=trace.span_at(sample))
+
+
+def _pose(values: Iterable[float]) -> Pose:
+    x, y, z, qx, qy, qz, qw = (float(value) for value in values)
+    return Pose(position_m=(x, y, z), quaternion_xyzw=(qx, qy, qz, qw))
 
 
 def _set_into(picture: Picture, inset: Picture) -> None:

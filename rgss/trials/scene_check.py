@@ -200,7 +200,12 @@ def _objects(scene: Scene) -> Iterator[SceneProblem]:
     standing: list[Solid] = []
     for one in scene.objects:
         name = one.workpiece.id
-        yield from _object(scene_about(scene, name, place="", placements=placements), bodies)
+        around = [
+            Solid(name=other.workpiece.id, shape=other.workpiece.shape, pose=other.workpiece.pose)
+            for other in scene.objects
+            if other.workpiece.id != name
+        ]
+        yield from _object(scene_about(scene, name, place="", placements=placements), bodies, [*bodies, *around])
         solid = Solid(name=name, shape=one.workpiece.shape, pose=one.workpiece.pose)
         for other in standing:
             for found in overlaps((solid, other), deeper_than_m=OBJECT_TOUCHING_M):
@@ -208,8 +213,11 @@ def _objects(scene: Scene) -> Iterator[SceneProblem]:
         standing.append(solid)
 
 
-def _object(scene: Scene, bodies: Sequence[Solid]) -> Iterator[SceneProblem]:
-    """Problems of the workpiece of a scene with fixed bodies, at the start and in its place."""
+def _object(scene: Scene, bodies: Sequence[Solid], supports: Sequence[Solid]) -> Iterator[SceneProblem]:
+    """Problems of the workpiece of a scene with fixed bodies, at the start and in its place.
+
+    A place on another object is where that object is when the task comes to it: plans check it against the bodies.
+    """
     workpiece = scene.workpiece
     x, y, z = scene.place.centre_m
     placed = scene.placed_object
@@ -226,10 +234,11 @@ def _object(scene: Scene, bodies: Sequence[Solid]) -> Iterator[SceneProblem]:
     )
     for pose, support, overlap, unsupported in ends:
         solid = Solid(name=workpiece.id, shape=workpiece.shape, pose=pose)
-        for body in bodies:
+        is_stacked = overlap is SceneProblemKind.PLACE_OVERLAP and scene.place.offset_m is not None
+        for body in () if is_stacked else bodies:
             for one in overlaps((solid, body), deeper_than_m=OBJECT_TOUCHING_M):
                 yield _of(overlap, one)
-        bearing = next(body for body in bodies if body.name == support)
+        bearing = next(one for one in supports if one.name == support)
         beyond = _beyond_edge(bearing, pose)
         if beyond > 0.0:
             yield SceneProblem(kind=unsupported, first=workpiece.id, second=support, distance_m=beyond)
@@ -242,10 +251,10 @@ def _of(kind: SceneProblemKind, one: Overlap) -> SceneProblem:
 def _beyond_edge(support: Solid, pose: Pose) -> float:
     """Distance of an object's centre outside the top face of its support; 0 where it is above the face."""
     x, y, _ = (support.pose.inverse() @ pose).position_m
-    if isinstance(support.shape, Box):
-        beyond = (abs(x) - support.shape.size_m[0] / 2, abs(y) - support.shape.size_m[1] / 2)
-        return math.hypot(max(0.0, beyond[0]), max(0.0, beyond[1]))
-    return max(0.0, math.hypot(x, y) - half_extents_m(support.shape)[0])
+    half_x_m, half_y_m, _ = half_extents_m(support.shape)
+    if isinstance(support.shape, Cylinder):
+        return max(0.0, math.hypot(x, y) - half_x_m)
+    return math.hypot(max(0.0, abs(x) - half_x_m), max(0.0, abs(y) - half_y_m))
 
 
 def _least_extent(shape: ObjectShape) -> float:

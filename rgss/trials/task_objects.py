@@ -29,8 +29,9 @@ class TaskObjects:
         self._scene = world.scene
         self.first = self._scene.workpiece.id
         self._stages = {stage.step.name: stage for stage in stages_of(task, self.first)}
-        # The scene of the world is about the first object and its own place.
-        self._about = (self.first, 1, "")
+        # The scene of the world is about the first object and its own place, unless that is on another object.
+        is_own = self._scene.place.offset_m is None
+        self._about = (self.first, 1, "") if is_own else None
         self._supports = {name: one.support for name, one in initial_placements(self._scene).items()}
         self._around: dict[str, Pose] = {}
 

@@ -58,6 +58,10 @@ class TraceRecorder:
         self._joints: list[tuple[tuple[float, ...], tuple[float, ...]]] = []
         self._travel_m: list[tuple[float, ...]] = []
         self._workpiece: list[tuple[float, ...]] = []
+        others = spec.scene.others
+        self._objects: dict[str, list[tuple[float, ...]]] = (
+            {one.workpiece.id: [] for one in spec.scene.objects} if others else {}
+        )
         self._forces_n: list[tuple[float, ...]] = []
         self._margins: list[float] = []
         self._commanded_n: list[float] = []
@@ -114,6 +118,7 @@ class TraceRecorder:
             finger_forces_n=np.array(self._forces_n[:count]),
             commanded_force_n=np.array(self._commanded_n[:count]),
             grip_margin=np.array(self._margins[:count]),
+            objects={name: np.array(poses[:count]) for name, poses in self._objects.items()},
         )
 
     def _sample(self, world: ContactWorld, contacts: Contacts, margin: float) -> None:
@@ -123,5 +128,8 @@ class TraceRecorder:
         self._joints.append((positions, velocities))
         self._travel_m.append(world.finger_travel_m())
         self._workpiece.append((*pose.position_m, *pose.quaternion_xyzw))
+        for name, poses in self._objects.items():
+            at = world.object_pose(name)
+            poses.append((*at.position_m, *at.quaternion_xyzw))
         self._forces_n.append(contacts.finger_forces_n)
         self._margins.append(margin)

@@ -13,6 +13,7 @@ from rgss.evidence import Fidelity, PhaseOutcome, record_digest
 from rgss.kinematics import Arm
 from rgss.physics import camera
 from rgss.physics.camera import VIEWS, Camera
+from rgss.scenes import Box, SceneObject
 from rgss.trials.filming import Film
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.tracing import run_traced_trial
@@ -209,3 +210,28 @@ def test_a_film_closes_its_first_camera_if_the_second_cannot_be(spec, trace, mon
         film(spec, trace, inset=VIEWS["hand"])
     assert len(closed) == 1
     assert camera.Camera is Camera
+
+
+def test_every_object_of_a_scene_is_seen_where_it_is(spec_of):
+    """A green block that nobody carries stays in the picture, and is where the trace has it."""
+    spec = replace(spec_of(65), fidelity=Fidelity.CONTACT)
+    scene = spec.scene
+    x, y, z = scene.workpiece.pose.position_m
+    shape = Box(size_m=(0.1, 0.1, 0.2))
+    at = replace(scene.workpiece.pose, position_m=(x - 0.2, y, z - scene.workpiece.shape.half_height_m + 0.1))
+    block = replace(scene.workpiece, id="block", shape=shape, pose=at, colour=(0.0, 1.0, 0.0, 1.0))
+    other = SceneObject(workpiece=block, support=scene.support, place=scene.place, place_support=scene.place_support)
+    spec = replace(spec, scene=replace(scene, others=(other,)))
+    _, trace = run_traced_trial(spec, rate_hz=30.0)
+
+    def seen(trace, number):
+        with film(spec, trace, width=320, height=240) as shown:
+            red, green, blue = np.moveaxis(shown.frame(number).picture.astype(int), 2, 0)
+        return np.argwhere((green > 60) & (green > 2 * red) & (green > 2 * blue))
+
+    first, last = seen(trace, 0), seen(trace, 10**6)
+    assert min(len(first), len(last)) > 20
+    assert np.linalg.norm(first.mean(axis=0) - last.mean(axis=0)) < 5
+    raised = {name: rows + np.array([0.0, 0.0, 0.2, 0.0, 0.0, 0.0, 0.0]) for name, rows in trace.objects.items()}
+    higher = seen(replace(trace, objects=raised), 0)
+    assert higher.mean(axis=0)[0] < first.mean(axis=0)[0] - 10

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +48,7 @@ class TrialTrace:
         finger_forces_n: Normal force (n, fingers) of each finger on the workpiece.
         commanded_force_n: Commanded force (n,) of each finger; NaN if there is none.
         grip_margin: Friction available over friction needed (n,); NaN while nothing is carried.
+        objects: Position and orientation (n, 7) of each object of a scene of several in the world, by its name.
     """
 
     spans: tuple[PhaseSpan, ...]
@@ -61,6 +63,7 @@ class TrialTrace:
     finger_forces_n: Series
     commanded_force_n: Series
     grip_margin: Series
+    objects: Mapping[str, Series] = field(default_factory=dict)
 
     @property
     def duration_s(self) -> float:

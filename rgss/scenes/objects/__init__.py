@@ -12,12 +12,17 @@ if TYPE_CHECKING:
         other_objects,
         other_solids,
         positive_values,
-        region_of,
     )
     from rgss.scenes.objects.object_entry import candidates_of, object_lengths
     from rgss.scenes.objects.object_file import object_solid, workpiece_of
     from rgss.scenes.objects.opening import grasp_opening_m
     from rgss.scenes.objects.pads import finger_pads
-    from rgss.scenes.objects.several_objects import ObjectPlacement, initial_placements, scene_about
+    from rgss.scenes.objects.several_objects import (
+        ObjectPlacement,
+        initial_placements,
+        scene_about,
+        with_raised_stack,
+    )
+    from rgss.scenes.objects.supports import support_findings, supports_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

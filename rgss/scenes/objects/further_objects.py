@@ -2,32 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from rgss.documents import Document
 from rgss.findings import Finding
-from rgss.scenes.document import PlaceRegionEntry, SceneDocument
+from rgss.scenes.document import SceneDocument
 from rgss.scenes.findings import Location
 from rgss.scenes.objects.object_entry import object_lengths
 from rgss.scenes.objects.object_file import ObjectSolid, object_solid, workpiece_of
-from rgss.scenes.scene import ColourRgba, NamedPlace, PlaceRegion, SceneObject
-
-
-def region_of(entry: PlaceRegionEntry, tops_m: Mapping[str, float]) -> PlaceRegion:
-    """Place region of an entry.
-
-    Args:
-        entry: The entry.
-        tops_m: Height of the top of each body.
-    """
-    return PlaceRegion(
-        centre_m=(*entry.at, tops_m[entry.stands_on]),
-        radius_m=entry.radius,
-        largest_tilt_rad=entry.largest_tilt,
-        largest_drop_m=entry.largest_drop,
-        largest_drag_m=entry.largest_drag,
-    )
+from rgss.scenes.objects.supports import Supports
+from rgss.scenes.scene import ColourRgba, NamedPlace, SceneObject
 
 
 def other_solids(
@@ -49,39 +34,37 @@ def other_solids(
     return tuple(solid for solid in solids if solid is not None)
 
 
-def other_objects(
-    entry: SceneDocument, solids: Sequence[ObjectSolid], tops_m: Mapping[str, float]
-) -> tuple[SceneObject, ...]:
+def other_objects(entry: SceneDocument, solids: Sequence[ObjectSolid], supports: Supports) -> tuple[SceneObject, ...]:
     """The further objects of a scene.
 
     Args:
         entry: The scene file.
         solids: The solid of each.
-        tops_m: Height of the top of each body.
+        supports: What they stand on.
     """
     return tuple(
         SceneObject(
-            workpiece=workpiece_of(one, solid, top_m=tops_m[one.stands_on], colour=colour_of(one.colour)),
+            workpiece=workpiece_of(one, solid, pose=supports.poses[one.id], colour=colour_of(one.colour)),
             support=one.stands_on,
-            place=region_of(one.place_region, tops_m),
+            place=supports.region(one.place_region),
             place_support=one.place_region.stands_on,
         )
         for one, solid in zip(entry.workpieces, solids, strict=True)
     )
 
 
-def named_places(entry: SceneDocument, tops_m: Mapping[str, float]) -> tuple[NamedPlace, ...]:
+def named_places(entry: SceneDocument, supports: Supports) -> tuple[NamedPlace, ...]:
     """The places without an object.
 
     Args:
         entry: The scene file.
-        tops_m: Height of the top of each body.
+        supports: What they are on.
     """
-    return tuple(NamedPlace(id=one.id, region=region_of(one, tops_m), support=one.stands_on) for one in entry.places)
+    return tuple(NamedPlace(id=one.id, region=supports.region(one), support=one.stands_on) for one in entry.places)
 
 
 def name_findings(entry: SceneDocument, document: Document) -> Iterator[Finding]:
-    """Findings about duplicate names and unknown bodies.
+    """Findings about duplicate names.
 
     Args:
         entry: The scene file.
@@ -100,10 +83,6 @@ def name_findings(entry: SceneDocument, document: Document) -> Iterator[Finding]
             message = f"id {place.id!r} is taken by an earlier place"
             yield document.finding("scene.duplicate-id", message, ("places", index, "id"))
         known.add(place.id)
-    for at, name in _supports(entry):
-        if name not in bodies:
-            hint = f"known bodies: {', '.join(body.id for body in entry.bodies)}"
-            yield document.finding("scene.unknown-body", f"there is no body {name!r}", at, hint=hint)
 
 
 def positive_values(entry: SceneDocument) -> Iterator[tuple[Location, float]]:
@@ -131,11 +110,3 @@ def colour_of(text: str) -> ColourRgba:
     """
     red, green, blue = (int(text[start : start + 2], 16) / 255 for start in (1, 3, 5))
     return (red, green, blue, 1.0)
-
-
-def _supports(entry: SceneDocument) -> Iterator[tuple[Location, str]]:
-    for index, one in enumerate(entry.workpieces):
-        yield ("workpieces", index, "stands_on"), one.stands_on
-        yield ("workpieces", index, "place_region", "stands_on"), one.place_region.stands_on
-    for index, place in enumerate(entry.places):
-        yield ("places", index, "stands_on"), place.stands_on

@@ -97,19 +97,15 @@ def object_solid(
     return solid
 
 
-def workpiece_of(entry: WorkpieceEntry, solid: ObjectSolid, *, top_m: float, colour: ColourRgba) -> Workpiece:
+def workpiece_of(entry: WorkpieceEntry, solid: ObjectSolid, *, pose: Pose, colour: ColourRgba) -> Workpiece:
     """Object at its start pose.
 
     Args:
         entry: The object's entry.
         solid: Its solid.
-        top_m: Height of the surface on which it rests.
+        pose: That pose.
         colour: Its colour.
     """
-    at_m = (*entry.at, top_m + solid.shape.half_height_m)
-    pose = Pose(position_m=at_m)
-    if entry.yaw:
-        pose = Pose.from_roll_pitch_yaw(at_m, (0.0, 0.0, entry.yaw))
     x, y, z = solid.centre_m
     return Workpiece(
         id=entry.id,

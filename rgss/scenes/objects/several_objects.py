@@ -15,7 +15,7 @@ class ObjectPlacement:
 
     Attributes:
         pose: Transform of its shape's frame to the world.
-        support: Id of its supporting body.
+        support: Id of its supporting body or object.
     """
 
     pose: Pose
@@ -45,6 +45,9 @@ def scene_about(scene: Scene, name: str, *, place: str, placements: Mapping[str,
     if place:
         named = next(one for one in scene.places if one.id == place)
         region, bearing = named.region, named.support
+    beneath = next((one.workpiece for one in scene.objects if one.workpiece.id == bearing), None)
+    if beneath is not None:
+        region = region.on(placements[bearing].pose, beneath.shape.half_height_m)
     own = placements[name]
     around = tuple(
         SceneBody(
@@ -68,3 +71,25 @@ def scene_about(scene: Scene, name: str, *, place: str, placements: Mapping[str,
         task=scene.task if about.grasp == scene.task.grasp else replace(scene.task, grasp=about.grasp),
         others=tuple(one for one in scene.objects if one.workpiece.id != name),
     )
+
+
+def with_raised_stack(scene: Scene, name: str, rise_m: float) -> Scene:
+    """Scene in which the objects are raised that stand on one, and those on them.
+
+    Args:
+        scene: The scene.
+        name: The lowest object, which stays.
+        rise_m: Distance along the vertical.
+    """
+    above = {name}
+    for _ in scene.others:
+        above |= {one.workpiece.id for one in scene.others if one.support in above}
+    if not rise_m or len(above) == 1:
+        return scene
+    others = tuple(
+        replace(one, workpiece=replace(one.workpiece, pose=one.workpiece.pose.raised(rise_m)))
+        if one.workpiece.id in above
+        else one
+        for one in scene.others
+    )
+    return replace(scene, others=others)

@@ -12,7 +12,7 @@ from functools import lru_cache
 from types import MappingProxyType
 
 from rgss.errors import DefinitionError
-from rgss.scenes import Cylinder, Gripper, Scene, Workpiece
+from rgss.scenes import Cylinder, Gripper, Scene, Workpiece, with_raised_stack
 from rgss.scenes.uncertainty import Application, Case, UncertainQuantity, draws_of, in_order, quantity_of
 from rgss.trials.conditions.object_conditions import (
     ObjectConditions,
@@ -285,7 +285,7 @@ def _scene_of(scene: Scene, case: Case | None) -> Scene:
         friction=own.friction if case.friction is None else case.friction,
         pose=moved(own.pose, (0.0, 0.0, rise_m)),
     )
-    return _with_workpiece(scene, workpiece)
+    return with_raised_stack(_with_workpiece(scene, workpiece), own.id, 2.0 * rise_m)
 
 
 def _with_workpiece(scene: Scene, workpiece: Workpiece) -> Scene:

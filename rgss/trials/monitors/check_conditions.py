@@ -6,7 +6,7 @@ import math
 
 from rgss.grasping import configuration_distance_m
 from rgss.physics import ContactWorld
-from rgss.scenes import Pose
+from rgss.scenes import PlaceRegion, Pose
 from rgss.tasks import CheckStep, Nearness
 from rgss.trials.plants import ControlSettings
 
@@ -26,7 +26,7 @@ def violated_condition(world: ContactWorld, control: ControlSettings, step: Chec
     name = step.object or scene.workpiece.id
     about, pose = next(one for one in scene.objects if one.workpiece.id == name), world.object_pose(name)
     if step.at:
-        region = next(one.region for one in scene.places if one.id == step.at)
+        region = _region_now(world, step.at)
         error_m = math.dist(pose.position_m[:2], region.centre_m[:2])
         if error_m > region.radius_m:
             return f"{name} is {error_m * 1e3:.1f} mm from {step.at}, at most {region.radius_m * 1e3:g} mm are allowed"
@@ -52,11 +52,20 @@ def violated_condition(world: ContactWorld, control: ControlSettings, step: Chec
     return ""
 
 
+def _region_now(world: ContactWorld, place: str) -> PlaceRegion:
+    """Region of a named place, on an object where that stands now."""
+    named = next(one for one in world.scene.places if one.id == place)
+    if named.region.offset_m is None:
+        return named.region
+    beneath = next(one.workpiece for one in world.scene.objects if one.workpiece.id == named.support)
+    return named.region.on(world.object_pose(named.support), beneath.shape.half_height_m)
+
+
 def _point(world: ContactWorld, near: Nearness, half_height_m: float) -> tuple[Point, str]:
     """Reference point of a nearness condition in the world, and its name."""
     if near.point_m is not None:
         return near.point_m, "the point"
     if near.object:
         return world.object_pose(near.object).position_m, f"that of {near.object}"
-    x, y, z = next(one.region for one in world.scene.places if one.id == near.place).centre_m
+    x, y, z = _region_now(world, near.place).centre_m
     return (x, y, z + half_height_m), f"its position at {near.place}"

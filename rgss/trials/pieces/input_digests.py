@@ -283,7 +283,7 @@ def _geometry_digest(scene: Scene) -> str:
             "pose": to_plain(scene.workpiece.pose),
         },
         "supports": [scene.support, scene.place_support],
-        "place": to_plain(scene.place.centre_m),
+        "place": to_plain(scene.place.offset_m or scene.place.centre_m),
         "task": _waypoints(scene),
         **({"others": [_object_inputs(one) for one in scene.others]} if scene.others else {}),
         **({"places": [to_plain(place) for place in scene.places]} if scene.places else {}),

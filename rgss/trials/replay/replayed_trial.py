@@ -131,8 +131,8 @@ def _machine_nodes(
                 poses.setdefault(link, []).append(pose)
     finally:
         stage.close()
-    # The mat that marks the place comes after the bodies of the scene.
-    names = [*(body.id for body in scene.bodies), "place"]
+    # The mat that marks a place on a fixed body comes after the bodies of the scene.
+    names = [body.id for body in scene.bodies] + ["place"] * (scene.place.offset_m is None)
     fixed = [solid for solid in solids if not solid.link]
     nodes = [_node(name, NodeKind.BODY, (solid,), [Pose()]) for name, solid in zip(names, fixed, strict=True)]
     for link, track in poses.items():

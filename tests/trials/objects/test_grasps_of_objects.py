@@ -284,3 +284,56 @@ def test_another_object_that_topples_is_not_said_to_be_touched(with_two):
     assert record.failure is Failure.NOT_UPRIGHT
     assert record.failed_phase == f"{spec.scene.workpiece.id}.move_to_grasp_approach"
     assert record.failure_detail.startswith("tin toppled by itself: it is tilted by ")
+
+
+def on_top(scene, *, of):
+    """The scene with the tin's place on the carton, at an offset in its frame."""
+    (tin,) = scene.others
+    place = replace(tin.place, offset_m=(0.004, -0.002)).on(scene.workpiece.pose, CARTON.size_m[2] / 2)
+    return replace(scene, others=(replace(tin, place=place, place_support=of),))
+
+
+@pytest.mark.parametrize("variant", [65, 5])
+def test_an_object_is_stacked_on_one_that_was_carried_before(with_two, variant):
+    """The oracle is the carton's place and height: there the tin has to stand, in every fidelity."""
+    spec = with_two(variant)
+    first = spec.scene.workpiece.id
+    spec = replace(spec, scene=on_top(spec.scene, of=first))
+    for fidelity in Fidelity:
+        record = Pieces().record(replace(spec, fidelity=fidelity))
+        assert record.success, (fidelity, record.failed_phase, record.failure_detail)
+    released = {phase.phase: phase.metrics for phase in record.phases}["tin.release"]
+    assert released["place_error_m"] < 1e-3
+    x, y, z = spec.scene.place.centre_m
+    height_m = CARTON.size_m[2] + TIN.half_height_m
+    found = np.array(released["workpiece_position_m"]) - (x, y, z)
+    assert found[2] == pytest.approx(height_m, abs=5e-4)
+    assert np.hypot(*found[:2]) == pytest.approx(np.hypot(0.004, 0.002), abs=1e-3)
+
+
+def test_an_object_is_put_on_one_that_stays_where_it_was_perceived(with_two):
+    """The carton stands 6 mm beside where the files say, as the robot sees: the tin comes on it, not on its place."""
+    spec = with_two(order="tin")
+    first = spec.scene.workpiece.id
+    shifted = Uncertainty(values=(UncertainValue(quantity="workpiece.x", distribution=Constant(value=0.006)),))
+    spec = replace(spec, scene=on_top(spec.scene, of=first), uncertainty=shifted, fidelity=Fidelity.CONTACT)
+    record = Pieces().record(spec)
+    assert record.success, (record.failed_phase, record.failure_detail)
+    released = {phase.phase: phase.metrics for phase in record.phases}["tin.release"]
+    x, y, _ = spec.scene.workpiece.pose.position_m
+    assert released["workpiece_position_m"][:2] == pytest.approx((x + 0.006 + 0.004, y - 0.002), abs=1e-3)
+
+
+def test_a_stack_is_taken_down_from_the_top(with_two):
+    spec = with_two(order="tin, cup")
+    scene = spec.scene
+    (tin,) = scene.others
+    top = scene.workpiece.pose.raised(CARTON.size_m[2] / 2 + TIN.half_height_m)
+    stacked = replace(tin, support=scene.workpiece.id, workpiece=replace(tin.workpiece, pose=top))
+    spec = replace(spec, scene=replace(scene, others=(stacked,)))
+    for fidelity in Fidelity:
+        record = Pieces().record(replace(spec, fidelity=fidelity))
+        assert record.success, (fidelity, record.failed_phase, record.failure_detail)
+    below = with_two(order="cup, tin")
+    below = replace(below, scene=replace(below.scene, others=(stacked,)), fidelity=Fidelity.CONTACT)
+    assert not Pieces().record(below).success

@@ -269,7 +269,7 @@ def test_a_trial_of_one_sample_has_no_speeds():
     series = {
         name: getattr(trace, name)[:1]
         for name in type(trace).__slots__
-        if name not in ("spans", "tool_speed_limit_m_s")
+        if name not in ("spans", "tool_speed_limit_m_s", "objects")
     }
     short = replace(
         scene,
