@@ -21,13 +21,14 @@ DISTRIBUTIONS: Mapping[str, str] = MappingProxyType(
         "toppra": "toppra",
         "PIL": "pillow",
         "matplotlib": "matplotlib",
+        "fast_simplification": "fast-simplification",
         "pygltflib": "pygltflib",
         "av": "av",
     }
 )
 """Distribution of each module of the extra ``sim``; pin includes coal."""
 
-_PICTURES = ("PIL", "matplotlib", "pygltflib", "av")
+_PICTURES = ("PIL", "matplotlib", "fast_simplification", "pygltflib", "av")
 
 
 def missing_engines(*, pictures: bool = False) -> tuple[str, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -75,6 +76,34 @@ def test_a_mesh_of_many_triangles_is_drawn_with_few_and_stays_where_it_is(look):
     assert distances_m == pytest.approx(0.1, abs=0.003)
     # Smooth all round: the normal of a ball is its radius.
     assert np.einsum("ij,ij->i", drawn.normals, drawn.vertices_m / distances_m[:, np.newaxis]).min() > 0.9
+
+
+def test_a_hollow_part_has_no_holes(look):
+    """Each edge of a closed surface has a triangle on either side: both shells of a thin wall stay closed."""
+    outer, inner = (trimesh.creation.icosphere(subdivisions=5, radius=radius) for radius in (0.1, 0.097))
+    inner.invert()
+    drawn = drawn_mesh(look(trimesh.util.concatenate([outer, inner])))
+    assert len(drawn.triangles) <= MOST_TRIANGLES
+    corners = np.unique(np.round(drawn.vertices_m, 7), axis=0, return_inverse=True)[1].reshape(-1)[drawn.triangles]
+    edges = np.sort(np.vstack([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
+    assert set(np.unique(edges, axis=0, return_counts=True)[1].tolist()) == {2}
+    distances_m = np.linalg.norm(drawn.vertices_m, axis=1)
+    assert distances_m.min() > 0.094
+    assert distances_m.max() < 0.103
+
+
+def test_parts_that_do_not_quite_meet_are_drawn_with_few_triangles_too(look):
+    """Strips of a tube that are 1 µm apart: every second edge is one of a border, which an edge collapse keeps."""
+    turns, lifts = np.linspace(0.0, 2.0 * np.pi, 1501), (0.0, 0.3)
+    strips = []
+    for number, (one, two) in enumerate(pairwise(turns)):
+        shift = 1e-6 * (number % 2)
+        ring = [(0.1 * np.cos(turn) + shift, 0.1 * np.sin(turn), z) for z in lifts for turn in (one, two)]
+        strips.append(trimesh.Trimesh(vertices=ring, faces=[(0, 1, 3), (0, 3, 2)], process=False))
+    tube = trimesh.util.concatenate(strips)
+    drawn = drawn_mesh(look(tube))
+    assert 100 < len(drawn.triangles) <= MOST_TRIANGLES
+    assert np.ptp(drawn.vertices_m, axis=0) == pytest.approx([0.2, 0.2, 0.3], rel=0.02)
 
 
 def test_the_scale_applies(look):
