@@ -89,10 +89,10 @@ def cautions(made: StudyDecision) -> Iterator[str]:
         yield f"{shared.first} and {shared.second} both depend on {', '.join(shared.parts)}."
     if made.sensitivity is not None:
         yield from flat_sentences(made.sensitivity.flat)
-        return
-    for flat in made.decision.flat_measures:
-        among = "feasible variants" if flat.among_feasible else "variants"
-        yield f"{flat.measure} is the same for all {among}, so its weight of {flat.weight:g} has no effect."
+    else:
+        for flat in made.decision.flat_measures:
+            among = "feasible variants" if flat.among_feasible else "variants"
+            yield f"{flat.measure} is worth the same for all {among}, so its weight of {flat.weight:g} has no effect."
     for gap in made.gaps:
         yield f"{gap_sentence(gap)}."
 

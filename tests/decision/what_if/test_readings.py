@@ -6,6 +6,7 @@ import pytest
 
 from rgss.assessment.measuring import measure_variants
 from rgss.decision.choosing import choose
+from rgss.decision.robustness import robustness
 from rgss.decision.study_decision import decide_study
 from rgss.decision.study_decision.readings import reading_outcomes
 from rgss.decision.what_if import measured_in, readings_of, suppose
@@ -89,8 +90,12 @@ def test_the_page_lists_every_reading_with_the_choice_that_it_leads_to(shipped, 
     assert trade_document(shown)["what_if"]["readings"] == [{"measure": "t_e", "alternative": "simulated"}]
 
 
-def test_an_equation_that_the_simulation_contradicts_is_a_caution_with_both_figures(shipped, measured):
-    made = decide_study(shipped, measured, evidence="evidence.sqlite", analysed=False)
+@pytest.mark.parametrize("analysed", [False, True])
+def test_an_equation_that_the_simulation_contradicts_is_a_caution_with_both_figures(
+    shipped, measured, monkeypatch, analysed
+):
+    monkeypatch.setattr(robustness, "ITERATIONS", 200)
+    made = decide_study(shipped, measured, evidence="evidence.sqlite", analysed=analysed)
     gaps = {gap.measure: gap for gap in made.gaps}
 
     (entry,) = (one for one in measured if one.variant.id == made.decision.chosen)
