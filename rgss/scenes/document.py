@@ -67,7 +67,7 @@ class BodyEntry(DocumentModel):
     foot: Point
     yaw: Radians = 0.0
     friction: Dimensionless
-    colour: Colour
+    colour: Colour | None = None
 
 
 class CollisionShapes(str, Enum):
@@ -121,7 +121,7 @@ class WorkpieceEntry(DocumentModel):
     landing_limit: MetresPerSecond = LANDING_LIMIT_M_S
     stands_on: Identifier
     at: PointOnTop
-    colour: Colour
+    colour: Colour | None = None
 
 
 class PlaceRegionEntry(DocumentModel):

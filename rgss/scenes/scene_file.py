@@ -16,6 +16,7 @@ from rgss.scenes.objects import (
     colour_of,
     name_findings,
     named_places,
+    object_colour,
     object_lengths,
     object_solid,
     other_objects,
@@ -76,7 +77,9 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         bodies=tuple(_body(body) for body in entry.bodies),
         support=workpiece.stands_on,
         place_support=place.stands_on,
-        workpiece=workpiece_of(workpiece, solid, pose=supports.poses[workpiece.id], colour=colour_of(workpiece.colour)),
+        workpiece=workpiece_of(
+            workpiece, solid, pose=supports.poses[workpiece.id], colour=object_colour(workpiece.colour, 0)
+        ),
         place=supports.region(place),
         others=other_objects(entry, others, supports),
         places=named_places(entry, supports),

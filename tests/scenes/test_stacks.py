@@ -112,3 +112,14 @@ def test_a_taller_object_of_the_workload_raises_what_stands_on_it(stacked):
         x, y, z = one.workpiece.pose.position_m
         assert other.workpiece.pose.position_m == pytest.approx((x, y, z + 0.03))
     assert with_raised_stack(scene, "nut", 0.03) == scene
+
+
+def test_colours_need_not_be_stated(kitchen):
+    text = PLATE.format(plate="mug", nut="plate", region="nut", place="plate")
+    kitchen.change("kitchen.yaml", "place_region:\n", text.replace('    colour: "#FFFFFF"\n', ""))
+    kitchen.change("kitchen.yaml", '  colour: "#FFFFFF"\n', "")
+    kitchen.change("kitchen.yaml", '    colour: "#000000"\n', "")
+    scene = kitchen.scene()
+    objects = [one.workpiece.colour for one in scene.objects]
+    assert len(set(objects)) == 3
+    assert scene.bodies[1].colour not in objects

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
         colour_of,
         name_findings,
         named_places,
+        object_colour,
         other_objects,
         other_solids,
         positive_values,

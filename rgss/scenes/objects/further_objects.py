@@ -14,6 +14,9 @@ from rgss.scenes.objects.object_file import ObjectSolid, object_solid, workpiece
 from rgss.scenes.objects.supports import Supports
 from rgss.scenes.scene import ColourRgba, NamedPlace, SceneObject
 
+_GREY = "#9b958c"
+_COLOURS = ("#d55e00", "#0072b2", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#f0e442")
+
 
 def other_solids(
     path: Path, entry: SceneDocument, document: Document, findings: list[Finding], project: Path
@@ -44,12 +47,12 @@ def other_objects(entry: SceneDocument, solids: Sequence[ObjectSolid], supports:
     """
     return tuple(
         SceneObject(
-            workpiece=workpiece_of(one, solid, pose=supports.poses[one.id], colour=colour_of(one.colour)),
+            workpiece=workpiece_of(one, solid, pose=supports.poses[one.id], colour=object_colour(one.colour, number)),
             support=one.stands_on,
             place=supports.region(one.place_region),
             place_support=one.place_region.stands_on,
         )
-        for one, solid in zip(entry.workpieces, solids, strict=True)
+        for number, (one, solid) in enumerate(zip(entry.workpieces, solids, strict=True), start=1)
     )
 
 
@@ -102,11 +105,22 @@ def positive_values(entry: SceneDocument) -> Iterator[tuple[Location, float]]:
             yield ("places", index, key), getattr(place, key)
 
 
-def colour_of(text: str) -> ColourRgba:
-    """Colour from its text ``#rrggbb``.
+def object_colour(text: str | None, number: int) -> ColourRgba:
+    """Colour of an object; one of a palette that is told apart with any colour vision (Okabe and Ito, 2008) if none.
+
+    Args:
+        text: The text ``#rrggbb``; None if the file states none.
+        number: Number of the object, the first is 0.
+    """
+    return colour_of(text or _COLOURS[number % len(_COLOURS)])
+
+
+def colour_of(text: str | None) -> ColourRgba:
+    """Colour from its text ``#rrggbb``; grey if there is none.
 
     Args:
         text: The text.
     """
+    text = text or _GREY
     red, green, blue = (int(text[start : start + 2], 16) / 255 for start in (1, 3, 5))
     return (red, green, blue, 1.0)
