@@ -106,6 +106,17 @@ def test_parts_that_do_not_quite_meet_are_drawn_with_few_triangles_too(look):
     assert np.ptp(drawn.vertices_m, axis=0) == pytest.approx([0.2, 0.2, 0.3], rel=0.02)
 
 
+def test_a_stray_corner_far_away_does_not_hide_the_part(look):
+    """One sliver of a triangle makes the part smaller than a cell of the finest weld."""
+    ball = trimesh.creation.icosphere(subdivisions=5, radius=0.1)
+    vertices = np.vstack([ball.vertices, [(0.1, 0.0, 0.0), (500.0, 0.0, 0.0), (500.0, 1e-3, 0.0)]])
+    sliver = [len(ball.vertices), len(ball.vertices) + 1, len(ball.vertices) + 2]
+    drawn = drawn_mesh(look(trimesh.Trimesh(vertices, np.vstack([ball.faces, sliver]), process=False)))
+    assert drawn is not None
+    near = np.linalg.norm(drawn.vertices_m, axis=1) < 0.2
+    assert np.count_nonzero(near) > 200
+
+
 def test_the_scale_applies(look):
     one = look(trimesh.creation.box((100.0, 200.0, 300.0)))
     drawn = drawn_mesh(replace(one, scale=(0.001, 0.001, 0.001)))

@@ -113,11 +113,12 @@ def _simplified(mesh: Any) -> Any:
     import fast_simplification
     import trimesh
 
-    found, bounds_m = mesh, _welded(mesh, _CELLS[0]).bounds
+    found, fine = mesh, _welded(mesh, _CELLS[0])
+    bounds_m = fine.bounds if len(fine.faces) else mesh.bounds
     for cells, haste in ((0, _CAREFUL), (0, _HASTY), *((cells, _HASTY) for cells in _CELLS)):
         welded = _welded(mesh, cells) if cells else mesh
         if len(welded.faces) <= MOST_TRIANGLES:
-            return welded
+            return welded if len(welded.faces) else found
         vertices, faces = fast_simplification.simplify(
             np.asarray(welded.vertices, dtype=np.float32),
             np.asarray(welded.faces, dtype=np.int32),
