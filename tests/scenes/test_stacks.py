@@ -90,10 +90,10 @@ def test_a_region_on_a_body_does_not_move(stacked):
         ({"plate": "desk"}, "there is no body or object 'desk'", "known bodies: table, pole; objects: mug, nut"),
         ({"region": "tree"}, "there is no body or object 'tree'", "known bodies: table, pole; objects: mug, nut"),
         ({"place": "shelf"}, "there is no body or object 'shelf'", "bodies: table, pole; objects: mug, plate, nut"),
-        ({"plate": "plate"}, "'plate' cannot stand on itself", "name another support"),
-        ({"region": "plate"}, "'plate' cannot stand on itself", "name another support"),
-        ({"plate": "nut"}, "plate, nut stand on each other", "let the lowest stand on a body"),
-        ({"mug": "nut"}, "mug, nut, plate stand on each other", "let the lowest stand on a body"),
+        ({"plate": "plate"}, "'plate' cannot be its own support", "name another support"),
+        ({"region": "plate"}, "'plate' cannot be its own support", "name another support"),
+        ({"plate": "nut"}, "plate, nut support each other in a cycle", "name a body as the support of the lowest"),
+        ({"mug": "nut"}, "mug, nut, plate support each other in a cycle", "name a body as the support of the lowest"),
     ],
 )
 def test_a_support_that_is_none_is_one_finding(stacked, changes, message, hint):

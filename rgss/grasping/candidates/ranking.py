@@ -107,7 +107,7 @@ def ranked_grasps(
         geometry: The gripper's shape.
         options: Which grasps to try.
         friction: Coefficient of the contact.
-        clearance_m: Distance that the fingers keep from the object's support; None where it stands on none.
+        clearance_m: Clearance of the fingers from the object's support; None without a support.
     """
     found: list[RankedGrasp] = []
     rejected_frames: Counter[FrameRejection] = Counter()
@@ -144,13 +144,13 @@ def _off_support(
     if clearance_m is None:
         yield from frames
         return
-    raised: set[Pose] = set()
+    seen: set[Pose] = set()
     half_m = workpiece.shape.half_height_m
     for frame in frames:
         kept = off_support(frame, half_height_m=half_m, clearance_m=clearance_m, geometry=geometry)
-        if kept is not frame and kept.tool_in_object in raised:
+        if kept is not frame and kept.tool_in_object in seen:
             continue
-        raised.add(kept.tool_in_object)
+        seen.add(kept.tool_in_object)
         yield kept
 
 

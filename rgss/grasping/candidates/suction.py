@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,11 +23,13 @@ _GRID_SHARE = 0.25
 _GRID_STEPS = 24
 
 
+@lru_cache(maxsize=64)
 def suction_points(shape: ObjectShape, cup_radius_m: float, centre_of_mass_m: Vector3) -> tuple[SuctionPoint, ...]:
     """Suction points of an object, one on each flat face that supports the lip, 2 mm from its edges where it can be.
 
     Ordered by the distance of the cup's axis from the centre of mass, the lever arm of the bending moment, then by the
-    normal from the top down. A face that another part of the object covers under the lip has no suction point.
+    normal from the top down. A face that another part of the object covers under the lip has no suction point. They are
+    computed once in a process: they depend neither on the object's pose nor on a seed.
 
     Args:
         shape: The object's shape; the wall of a cylinder has no suction point.

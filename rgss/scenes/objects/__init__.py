@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from rgss.scenes.objects.several_objects import (
         ObjectPlacement,
         initial_placements,
+        region_now,
         scene_about,
         with_raised_stack,
     )

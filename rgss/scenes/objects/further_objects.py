@@ -43,7 +43,7 @@ def other_objects(entry: SceneDocument, solids: Sequence[ObjectSolid], supports:
     Args:
         entry: The scene file.
         solids: The solid of each.
-        supports: What they stand on.
+        supports: Their supports.
     """
     return tuple(
         SceneObject(
@@ -61,7 +61,7 @@ def named_places(entry: SceneDocument, supports: Supports) -> tuple[NamedPlace, 
 
     Args:
         entry: The scene file.
-        supports: What they are on.
+        supports: Their supports.
     """
     return tuple(NamedPlace(id=one.id, region=supports.region(one), support=one.stands_on) for one in entry.places)
 
@@ -106,7 +106,7 @@ def positive_values(entry: SceneDocument) -> Iterator[tuple[Location, float]]:
 
 
 def object_colour(text: str | None, number: int) -> ColourRgba:
-    """Colour of an object; one of a palette that is told apart with any colour vision (Okabe and Ito, 2008) if none.
+    """Colour of an object; by default one of a palette for any colour vision (Okabe and Ito, 2008).
 
     Args:
         text: The text ``#rrggbb``; None if the file states none.

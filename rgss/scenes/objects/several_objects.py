@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from rgss.scenes.pose import Pose
-from rgss.scenes.scene import Scene, SceneBody
+from rgss.scenes.scene import PlaceRegion, Scene, SceneBody
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,9 +45,7 @@ def scene_about(scene: Scene, name: str, *, place: str, placements: Mapping[str,
     if place:
         named = next(one for one in scene.places if one.id == place)
         region, bearing = named.region, named.support
-    beneath = next((one.workpiece for one in scene.objects if one.workpiece.id == bearing), None)
-    if beneath is not None:
-        region = region.on(placements[bearing].pose, beneath.shape.half_height_m)
+    region = region_now(scene, region, bearing, lambda support: placements[support].pose)
     own = placements[name]
     around = tuple(
         SceneBody(
@@ -73,8 +71,23 @@ def scene_about(scene: Scene, name: str, *, place: str, placements: Mapping[str,
     )
 
 
+def region_now(scene: Scene, region: PlaceRegion, support: str, pose_of: Callable[[str], Pose]) -> PlaceRegion:
+    """Place region where its support is now: that of a body does not move.
+
+    Args:
+        scene: The scene.
+        region: The region.
+        support: Id of its supporting body or object.
+        pose_of: Present transform of an object to the world.
+    """
+    if region.offset_m is None:
+        return region
+    beneath = next(one.workpiece for one in scene.objects if one.workpiece.id == support)
+    return region.on(pose_of(support), beneath.shape.half_height_m)
+
+
 def with_raised_stack(scene: Scene, name: str, rise_m: float) -> Scene:
-    """Scene in which the objects are raised that stand on one, and those on them.
+    """Scene in which the objects above one in its stack are raised.
 
     Args:
         scene: The scene.

@@ -15,7 +15,7 @@ from rgss.scenes.scene import PlaceRegion
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Supports:
-    """What objects and places of a scene stand on.
+    """Supports of the objects and places of a scene.
 
     Attributes:
         tops_m: Height of the top of each body.
@@ -49,7 +49,7 @@ def supports_of(entry: SceneDocument, tops_m: Mapping[str, float], half_heights_
     """Poses of the objects at the start, of a stack from the bottom up.
 
     Args:
-        entry: The scene file, in which no object stands on itself.
+        entry: The scene file, whose supports have no cycle.
         tops_m: Height of the top of each body.
         half_heights_m: Half of the height of each object.
     """
@@ -69,7 +69,7 @@ def supports_of(entry: SceneDocument, tops_m: Mapping[str, float], half_heights_
 
 
 def support_findings(entry: SceneDocument, document: Document) -> Iterator[Finding]:
-    """Findings about unknown supports, and about objects that stand on each other.
+    """Findings about unknown supports, and about cycles of supports.
 
     Args:
         entry: The scene file.
@@ -82,7 +82,7 @@ def support_findings(entry: SceneDocument, document: Document) -> Iterator[Findi
         if name in bodies or name in others:
             continue
         if name == own:
-            yield document.finding("scene.stack", f"{own!r} cannot stand on itself", at, hint="name another support")
+            yield document.finding("scene.stack", f"{own!r} cannot be its own support", at, hint="name another support")
             continue
         kind, hint = "body", f"known bodies: {', '.join(bodies)}"
         if others:
@@ -95,8 +95,8 @@ def support_findings(entry: SceneDocument, document: Document) -> Iterator[Findi
             below.append(beneath[below[-1]])
         if beneath.get(below[-1]) == name and len(below) > 1:
             at = ("workpieces", index - 1, "stands_on") if index else ("workpiece", "stands_on")
-            message = f"{', '.join(below)} stand on each other"
-            yield document.finding("scene.stack", message, at, hint="let the lowest stand on a body")
+            message = f"{', '.join(below)} support each other in a cycle"
+            yield document.finding("scene.stack", message, at, hint="name a body as the support of the lowest")
             return
 
 
@@ -106,7 +106,7 @@ def _on_body(entry: WorkpieceEntry, height_m: float) -> Pose:
 
 
 def _supports(entry: SceneDocument) -> Iterator[tuple[Location, str, str]]:
-    """Location and name of each support, and the object that would stand on it; empty for a place without one."""
+    """Location and name of each support, and the supported object; empty for a place without one."""
     own = entry.workpiece
     yield ("workpiece", "stands_on"), own.stands_on, own.id
     yield ("place_region", "stands_on"), entry.place_region.stands_on, own.id

@@ -43,7 +43,7 @@ class FittedCell:
     Attributes:
         layout: Positions of the tables.
         home: Joint positions above the object, in rad or m.
-        lower: Lower ends of ranges about the configurations at all waypoints.
+        lower: Lower ends of the joints' ranges, of more than one turn that of the turn about the task.
         upper: Their upper ends.
     """
 
@@ -190,10 +190,8 @@ def _ranges(robot: Robot, configurations: Array) -> tuple[tuple[float, ...], tup
     turns = np.array([joint.kind is JointKind.REVOLUTE for joint in robot.joints]) & (own[1] - own[0] > _TURN_RAD)
     middle = (np.min(configurations, axis=0) + np.max(configurations, axis=0)) / 2
     lowest = np.clip(np.round(middle - math.pi, 2), own[0], own[1] - _TURN_RAD)
-    lower, upper = (
-        np.where(turns, lowest, own[0]),
-        np.where(turns, np.minimum(np.round(lowest + _TURN_RAD, 4), own[1]), own[1]),
-    )
+    lower = np.where(turns, lowest, own[0])
+    upper = np.where(turns, np.minimum(np.round(lowest + _TURN_RAD, 4), own[1]), own[1])
     return tuple(lower.tolist()), tuple(upper.tolist())
 
 

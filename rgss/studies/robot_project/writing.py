@@ -164,8 +164,8 @@ def _drafted_gripper(gripper: Path, project: Path, urdf: Path, drafted: DraftedR
 def _is_written(project: Path, drafted: DraftedRobot, search: CellSearch) -> bool:
     """Write the first cell in which the task succeeds, else the first without errors; False if there is none.
 
-    The robot file has narrower ranges and another home than the draft, so that other pairs of links may be found to
-    touch each other for good: what the search took for valid may be an error in the project.
+    The robot file may have narrower ranges, and has another home than the draft, so that other pairs of links may be
+    found to touch each other for good: what the search took for valid may be an error in the project.
     """
     first = None
     for cell in itertools.islice(search.cells(), _MOST_CELLS):

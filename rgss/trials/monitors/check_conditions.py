@@ -6,7 +6,7 @@ import math
 
 from rgss.grasping import configuration_distance_m
 from rgss.physics import ContactWorld
-from rgss.scenes import PlaceRegion, Pose
+from rgss.scenes import PlaceRegion, Pose, region_now
 from rgss.tasks import CheckStep, Nearness
 from rgss.trials.plants import ControlSettings
 
@@ -55,10 +55,7 @@ def violated_condition(world: ContactWorld, control: ControlSettings, step: Chec
 def _region_now(world: ContactWorld, place: str) -> PlaceRegion:
     """Region of a named place, on an object where that stands now."""
     named = next(one for one in world.scene.places if one.id == place)
-    if named.region.offset_m is None:
-        return named.region
-    beneath = next(one.workpiece for one in world.scene.objects if one.workpiece.id == named.support)
-    return named.region.on(world.object_pose(named.support), beneath.shape.half_height_m)
+    return region_now(world.scene, named.region, named.support, world.object_pose)
 
 
 def _point(world: ContactWorld, near: Nearness, half_height_m: float) -> tuple[Point, str]:
