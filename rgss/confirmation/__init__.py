@@ -15,6 +15,5 @@ if TYPE_CHECKING:
         Engine,
         confirmation_settings,
     )
-    from rgss.confirmation.supported import supported_settings
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

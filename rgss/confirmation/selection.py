@@ -39,8 +39,6 @@ class Selection:
         sample: Variant and seed of each failure that is run again.
         physical_failures: Number of trials of the study that failed in physics, from which the sample is taken.
         planned_failures: Number that failed before physics; they are the same in every engine.
-        without_engine: Reason why the designs are not confirmed in another engine; empty if they are, or if it was not
-            requested.
     """
 
     variants: tuple[DesignVariant, ...]
@@ -49,7 +47,6 @@ class Selection:
     sample: tuple[tuple[int, int], ...] = ()
     physical_failures: int = 0
     planned_failures: int = 0
-    without_engine: str = ""
 
 
 def select(project: Project, decision: Decision, measured: Sequence[VariantMeasures], *, failures: int) -> Selection:

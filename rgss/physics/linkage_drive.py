@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from rgss.physics.linkage_motor import motor_command
 from rgss.scenes import Linkage, link_names_of, motion_of
 
 _LEAST_ITERATIONS, _ITERATIONS_A_FOLLOWER = 600, 400
@@ -55,7 +56,6 @@ class LinkageDrive:
             index: joints[f"{names[index]}_joint"] for index, link in enumerate(linkage.links) if link.kind is not None
         }
         self._driven = self._joints[linkage.driven]
-        self._towards = 1.0 if linkage.closed > linkage.opened else -1.0
         self._command: tuple[float, float] | None = None
         for joint in self._joints.values():
             # The engine's default motors would brake the joints.
@@ -115,22 +115,23 @@ class LinkageDrive:
         self.before_step()
 
     def before_step(self) -> None:
-        """Set the motor by the Jacobian J at the present position: torque 2 J F, speed v / J."""
+        """Set the motor for the present position."""
         if self._command is None:
             return
         velocity_m_s, force_n = self._command
-        linkage, driven = self._linkage, self._position(self._driven)
-        transmission = self._motion.transmission(driven)
-        end = linkage.closed if velocity_m_s >= 0.0 else linkage.opened
-        # The engine's own joint limit yields to the motor by a tenth of a millimetre and more.
-        left = abs(end - driven) / self._step_s if (end - driven) * self._towards * velocity_m_s > 0.0 else 0.0
-        speed = min(abs(velocity_m_s) / transmission, linkage.speed, left)
+        velocity, effort = motor_command(
+            self._linkage,
+            self._position(self._driven),
+            velocity_m_s=velocity_m_s,
+            force_n=force_n,
+            step_s=self._step_s,
+        )
         self._engine.setJointMotorControl2(
             self._robot,
             self._driven,
             self._engine.VELOCITY_CONTROL,
-            targetVelocity=self._towards * (speed if velocity_m_s >= 0.0 else -speed),
-            force=min(len(linkage.pads) * transmission * force_n, linkage.effort),
+            targetVelocity=velocity,
+            force=effort,
             physicsClientId=self._client,
         )
 

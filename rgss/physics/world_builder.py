@@ -17,6 +17,7 @@ from rgss.physics.bodies import add_body, add_object, links_of
 from rgss.physics.engine import load_urdf_text
 from rgss.physics.linkage_drive import LinkageDrive, least_iterations
 from rgss.physics.settings import PhysicsSettings
+from rgss.physics.suction_bond import PyBulletBond
 from rgss.physics.suction_seal import SuctionSeal
 from rgss.scenes import (
     CUP_LINK,
@@ -256,17 +257,16 @@ class WorldBuilder:
         suction = self.gripper.suction
         if suction is None or index.cup is None:
             return None
-        return SuctionSeal(
+        bond = PyBulletBond(
             self.engine,
             self.client,
             robot=robot,
             cup_link=index.cup,
             body=body,
-            point=suction_point_of(scene),
-            gripper=self.gripper,
-            suction=suction,
-            step_s=self.settings.step_s,
+            greatest_force_n=self.gripper.finger_force_n,
         )
+        point, step_s = suction_point_of(scene), self.settings.step_s
+        return SuctionSeal(bond, point=point, gripper=self.gripper, suction=suction, step_s=step_s)
 
     def _couple_fingers(self, robot: int, one: int, other: int) -> None:
         """Gear two opposed fingers together; ungeared they do not resist a force along their common axis."""

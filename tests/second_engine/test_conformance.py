@@ -189,9 +189,9 @@ def test_a_robot_that_the_engine_refuses_is_told_in_one_line(scene, gripper_with
 
 
 def test_a_shape_that_the_second_engine_is_not_given_is_named(scene, gripper_with):
-    odd = scene.robot.urdf.replace("<cylinder ", "<capsule ")
+    odd = scene.robot.urdf.replace("<cylinder ", "<ellipsoid ")
     with pytest.raises(
-        SimulationError, match=r"the second engine does not support the robot.s collision shape <capsule>"
+        SimulationError, match=r"the second engine does not support the robot.s collision shape <ellipsoid>"
     ):
         open_world(replace(scene, robot=replace(scene.robot, urdf=odd)), gripper_with(2), mujoco_settings())
 

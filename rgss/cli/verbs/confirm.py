@@ -100,7 +100,7 @@ def _confirm(
     """The confirmation; the exit status if trials could not be run."""
     from rgss.cli.main import RUN_FAILED
     from rgss.cli.sweep import SweepRunner, execution_backend, report_lost
-    from rgss.confirmation import confirm, supported_settings
+    from rgss.confirmation import confirm
     from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore
     from rgss.sweep import WorkerLimits
@@ -111,9 +111,7 @@ def _confirm(
         EvidenceStore.open(project.evidence, create=is_named, label=label) as store,
         execution_backend(options, WorkerLimits()) as backend,
     ):
-        selection, settings = supported_settings(
-            project, _selection(options, project, store), settings, is_named=bool(options.engine)
-        )
+        selection = _selection(options, project, store)
         runner = SweepRunner(project=project, store=store, backend=backend, share=True)
 
         def run_trials(specs: Sequence[TrialSpec]) -> int:

@@ -61,7 +61,7 @@ class MujocoContactReader:
         self._data = data
         self._object_of = {int(compiled.geom(name).id): one for name, one in model.object_shapes.items()}
         self._finger_of = {int(compiled.geom(name).id): index for name, index in model.finger_shapes.items()}
-        self._fingers = len(model.fingers)
+        self._fingers = model.pressing
         self._scene_body_of = {int(compiled.geom(name).id): body for name, body in model.scene_bodies.items()}
         links = {**model.links, **{name: f"finger_{index}" for name, index in model.finger_shapes.items()}}
         self._link_of = {int(compiled.geom(name).id): link for name, link in links.items()}

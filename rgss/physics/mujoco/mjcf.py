@@ -8,8 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.physics.mujoco.robot_links import Corners
-from rgss.physics.mujoco.solids import Capsule, Solid
+from rgss.physics.mujoco.robot_links import Capsule, Corners, Solid
 from rgss.scenes import Box, Cylinder, Pose
 
 

@@ -1,7 +1,8 @@
 """MuJoCo model of scene, arm, hand and workpiece.
 
 Built from the scene, the gripper and the robot's URDF. Except for the ribs of the pads it shares nothing with the
-PyBullet world, so that an error in the construction of either shows as a difference.
+PyBullet world, so that an error in the construction of either shows as a difference. The links of a gripper's linkage
+are those of the URDF that both engines read.
 
 Contacts of this engine are soft, and a held object creeps. As a remedy its documentation recommends elliptic friction
 cones, the Newton solver, and friction much stiffer than the normal direction (`impratio`): at 100 an object near the
@@ -19,23 +20,26 @@ import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from rgss.errors import SimulationError
-from rgss.physics.mujoco.mjcf import add_body, add_geom, add_inertial, cylinder_inertia, number, numbers
+from rgss.physics.mujoco.hand_model import (
+    MACHINE,
+    HandModel,
+    HandParts,
+    add_bond,
+    add_hand,
+    add_linkage_drive,
+    finger_of_linkage_link,
+)
+from rgss.physics.mujoco.mjcf import add_body, add_geom, add_inertial, number, numbers
 from rgss.physics.mujoco.robot_links import RobotLink, read_links
-from rgss.physics.mujoco.solids import finger_solids, object_solids
+from rgss.physics.mujoco.solids import object_solids
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import Gripper, Pose, Scene, Workpiece, centre_of_mass, finger_pads, inertia_kg_m2
+from rgss.scenes import Gripper, Pose, Scene, Workpiece, assembled_urdf, centre_of_mass, finger_pads, inertia_kg_m2
 
 WORKPIECE = "workpiece"
 
-# Collision filter for contacts without an explicit pair: machine with scene, neither with itself.
-_MACHINE, _SCENE, _ALONE = (1, 2), (2, 1), (0, 0)
+_SCENE, _ALONE = (2, 1), (0, 0)
 _IMPEDANCE = "0.95 0.99 0.0001"
-# A finger's motor gives all its force once the finger lags by this share of its speed. With less than F dt / (2 M v),
-# which is 0.42 at most for the reference grippers, the finger jumps over the band in a step and closes wrongly.
-_SATURATING_SHARE = 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,8 +48,10 @@ class WorldModel:
 
     Attributes:
         text: The model as MJCF.
-        fingers: Names of the fingers' joints, shared by their bodies and motors.
-        finger_shapes: Index of the finger by the name of a shape of it.
+        fingers: Names of the sliding fingers' joints, shared by their bodies and motors; empty for other grippers.
+        pressing: Number of fingers, or 1 for a suction cup.
+        finger_shapes: Index of the finger by the name of a shape of it; that of a suction cup is 0.
+        linkage_joints: Name of the joint of each link of a gripper's linkage by the index of the link.
         scene_bodies: Id of the scene's body by the name of its shape.
         links: Name of the robot's link by the name of a shape, without the fingers.
         object_bodies: Name of the body of each object.
@@ -54,7 +60,9 @@ class WorldModel:
 
     text: str
     fingers: tuple[str, ...]
+    pressing: int
     finger_shapes: Mapping[str, int]
+    linkage_joints: Mapping[int, str]
     scene_bodies: Mapping[str, str]
     links: Mapping[str, str]
     object_bodies: Mapping[str, str]
@@ -82,8 +90,10 @@ def world_model(
     builder.add_objects()
     return WorldModel(
         text=ET.tostring(builder.root, encoding="unicode"),
-        fingers=builder.fingers,
+        fingers=builder.hand.joints,
+        pressing=max(1, gripper.geometry.fingers),
         finger_shapes=builder.finger_shapes,
+        linkage_joints=builder.hand.linkage_joints,
         scene_bodies=builder.scene_bodies,
         links=builder.links,
         object_bodies=builder.object_bodies,
@@ -102,7 +112,7 @@ class _Builder:
             "solref": f"{number(contact_time_constant_s)} 1",
             "solimp": _IMPEDANCE,
         }
-        self.fingers = tuple(f"finger:{index}" for index in range(gripper.geometry.fingers))
+        self.hand = HandModel()
         self.finger_shapes: dict[str, int] = {}
         self.scene_bodies: dict[str, str] = {}
         self.links: dict[str, str] = {}
@@ -121,6 +131,8 @@ class _Builder:
             "impratio": "100",
             "ccd_tolerance": "1e-9",
             "ccd_iterations": "100",
+            # The load of a suction cup is read from the rows of its bond.
+            "jacobian": "dense" if gripper.suction is not None else "auto",
         }
         ET.SubElement(ET.SubElement(self.root, "option", option), "flag", {"multiccd": "enable"})
         self._asset, self._world, self._contact, self._equality, self._actuator = (
@@ -136,16 +148,29 @@ class _Builder:
 
     def add_robot(self) -> None:
         """Add the arm with a motor of its rated torque at each joint, and the hand on its flange."""
-        robot = self._scene.robot
+        robot, geometry = self._scene.robot, self._gripper.geometry
+        pads = finger_pads(self._scene, geometry)
+        is_linkage = geometry.linkage is not None
+        urdf = assembled_urdf(robot, self._gripper, pads=pads) if is_linkage else robot.urdf
         parents: dict[str, ET.Element] = {}
-        for link in read_links(robot.urdf):
+        for link in read_links(urdf):
             parent = parents[link.parent] if link.parent else self._world
             parents[link.name] = self._add_link(parent, link, link.pose if link.parent else robot.base @ link.pose)
         for joint in robot.joints:
             limit = number(joint.torque_n_m)
             motor = {"name": joint.name, "joint": joint.name, "forcerange": f"-{limit} {limit}"}
             ET.SubElement(self._actuator, "motor", motor)
-        self._add_hand(parents[robot.flange])
+        parts = HandParts(equality=self._equality, actuator=self._actuator, stiffness=self._stiffness)
+        if geometry.linkage is not None:
+            self.hand = add_linkage_drive(parts, geometry.linkage, parents, step_s=self._settings.step_s)
+            finger_of_link = finger_of_linkage_link(geometry.linkage)
+            named = {name: finger_of_link[link] for name, link in self.links.items() if link in finger_of_link}
+            self.finger_shapes.update(named)
+            self.links = {name: link for name, link in self.links.items() if name not in named}
+            return
+        self.hand = add_hand(parts, parents[robot.flange], self._gripper, pads)
+        self.links.update(self.hand.base_shapes)
+        self.finger_shapes.update(self.hand.finger_shapes)
 
     def add_objects(self) -> None:
         """Add each object as a free body, with a contact pair for each of its shapes and any other shape.
@@ -185,6 +210,8 @@ class _Builder:
             add_geom(body, names[-1], shape, at, touches=_ALONE)
         self.object_bodies[workpiece.id] = body_name
         self.object_shapes.update(dict.fromkeys(names, workpiece.id))
+        if self._gripper.geometry.cup is not None:
+            add_bond(self._equality, body_name, self._stiffness)
         return names
 
     def _add_pair(self, one: str, other: str, friction: float, rolling_m: float) -> None:
@@ -214,50 +241,8 @@ class _Builder:
                 # The engine re-centres a mesh at its centre of mass and compensates that in the geom's placement.
                 corners = " ".join(numbers(corner) for corner in shape)
                 ET.SubElement(self._asset, "mesh", {"name": name, "vertex": corners})
-            add_geom(body, name, shape, at, touches=_MACHINE)
+            add_geom(body, name, shape, at, touches=MACHINE)
         if link.joint:
             kind = {"type": "slide"} if link.is_prismatic else {}
             ET.SubElement(body, "joint", {"name": link.joint, "axis": numbers(link.axis), **kind})
         return body
-
-    def _add_hand(self, flange: ET.Element) -> None:
-        """Add a rigid base and rigid fingers on prismatic joints, each with a motor.
-
-        A motor controls speed within a force limit. Two fingers are coupled to equal travel; uncoupled, each would
-        yield to any force along their common axis.
-        """
-        gripper = self._gripper
-        geometry = gripper.geometry
-        base = add_body(flange, "gripper_base", geometry.base_pose)
-        add_inertial(base, gripper.base_mass_kg, cylinder_inertia(geometry.base, gripper.base_mass_kg))
-        self.links["gripper_base"] = "gripper_base"
-        add_geom(base, "gripper_base", geometry.base, Pose(), touches=_MACHINE)
-        x, y, z = geometry.finger.size_m
-        inertia = np.diag([y**2 + z**2, x**2 + z**2, x**2 + y**2]) * gripper.finger_mass_kg / 12
-        force = number(gripper.finger_force_n)
-        pads = finger_pads(self._scene, geometry)
-        gain = gripper.finger_force_n / (_SATURATING_SHARE * gripper.finger_velocity_m_s)
-        for index, name in enumerate(self.fingers):
-            open_pose = geometry.base_pose.inverse() @ geometry.finger_pose(index, geometry.largest_opening_m)
-            finger = add_body(base, name, open_pose)
-            add_inertial(finger, gripper.finger_mass_kg, inertia)
-            for part, (shape, at) in enumerate(finger_solids(geometry, pads[index])):
-                self.finger_shapes[f"{name}:{part}"] = index
-                add_geom(finger, f"{name}:{part}", shape, at, touches=_MACHINE)
-            drive = {"armature": number(gripper.drive.inertia_kg)} if gripper.drive.inertia_kg else {}
-            slide = {
-                **drive,
-                "name": name,
-                "type": "slide",
-                "axis": "-1 0 0",
-                "range": f"0 {number(geometry.stroke_m)}",
-                "solreflimit": self._stiffness["solref"],
-                "solimplimit": self._stiffness["solimp"],
-            }
-            ET.SubElement(finger, "joint", slide)
-            motor = {"name": name, "joint": name, "kv": number(gain), "forcerange": f"-{force} {force}"}
-            ET.SubElement(self._actuator, "velocity", motor)
-        if geometry.fingers == 2:
-            one, other = self.fingers
-            coupling = {"joint1": one, "joint2": other, "polycoef": "0 1 0 0 0", **self._stiffness}
-            ET.SubElement(self._equality, "joint", coupling)

@@ -13,9 +13,27 @@ from rgss.scenes import Box, Cylinder, Pose, Shape, vertices_of
 
 Vector3 = tuple[float, float, float]
 Corners = tuple[Vector3, ...]
-LinkShape = tuple["Shape | float | Corners", Pose]
 
-_ROUND = frozenset({"cylinder", "sphere"})
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Capsule:
+    """Capsule centred in its frame, with its axis along z.
+
+    Attributes:
+        radius_m: Radius of cylinder and hemispheres.
+        half_length_m: Half of the cylinder's length.
+    """
+
+    radius_m: float
+    half_length_m: float
+
+
+Solid = Shape | Capsule | float
+"""A solid of the engine; a number is the radius (m) of a sphere."""
+
+LinkShape = tuple["Solid | Corners", Pose]
+
+_ROUND = frozenset({"cylinder", "sphere", "capsule"})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,8 +50,7 @@ class RobotLink:
         mass_kg: Its mass; 0 if the URDF has none.
         centre_m: Its centre of mass in its frame.
         inertia_kg_m2: Its inertia (3, 3) about the centre of mass, in the axes of its frame.
-        shapes: Its collision shapes with the transform of each to its frame; a number is the radius (m) of a sphere,
-            points are the corners of a convex shape.
+        shapes: Its collision shapes with the transform of each to its frame; points are the corners of a convex shape.
     """
 
     name: str
@@ -55,7 +72,7 @@ def read_links(urdf: str) -> tuple[RobotLink, ...]:
         urdf: The robot's URDF.
 
     Raises:
-        SimulationError: A collision shape is not a box, cylinder, sphere or convex mesh.
+        SimulationError: A collision shape is not a box, cylinder, sphere, capsule or convex mesh.
     """
     root = ET.fromstring(urdf)  # noqa: S314 - entities and document types are refused on reading
     links = {link.get("name", ""): link for link in root.findall("link")}
@@ -110,7 +127,7 @@ def _with_inertia(mount: RobotLink, link: ET.Element) -> RobotLink:
     )
 
 
-def _shape(collision: ET.Element) -> Shape | float | Corners:
+def _shape(collision: ET.Element) -> Solid | Corners:
     (form,) = _required(collision, "geometry")
     if form.tag == "box":
         return Box(size_m=_triple(form.get("size", "")))
@@ -119,10 +136,15 @@ def _shape(collision: ET.Element) -> Shape | float | Corners:
     if form.tag not in _ROUND:
         raise SimulationError(
             f"the second engine does not support the robot's collision shape <{form.tag}>",
-            hint="use boxes, cylinders and spheres",
+            hint="use boxes, cylinders, spheres and capsules",
         )
     radius_m = float(form.get("radius", ""))
-    return radius_m if form.tag == "sphere" else Cylinder(radius_m=radius_m, height_m=float(form.get("length", "")))
+    if form.tag == "sphere":
+        return radius_m
+    length_m = float(form.get("length", ""))
+    if form.tag == "capsule":
+        return Capsule(radius_m=radius_m, half_length_m=length_m / 2)
+    return Cylinder(radius_m=radius_m, height_m=length_m)
 
 
 def _origin(element: ET.Element) -> Pose:

@@ -3,27 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
-from rgss.physics.mujoco.robot_links import Corners
-from rgss.scenes import Box, GripperGeometry, LyingCylinder, MeshShape, ObjectShape, PadLayout, Pose, Shape
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Capsule:
-    """Capsule centred in its frame, with its axis along z.
-
-    Attributes:
-        radius_m: Radius of cylinder and hemispheres.
-        half_length_m: Half of the cylinder's length.
-    """
-
-    radius_m: float
-    half_length_m: float
-
-
-Solid = Shape | Capsule | float
-"""A solid of the engine; a number is the radius (m) of a sphere."""
+from rgss.physics.mujoco.robot_links import Capsule, Corners, Solid
+from rgss.scenes import Box, GripperGeometry, LyingCylinder, MeshShape, ObjectShape, PadLayout, Pose
 
 
 def finger_solids(geometry: GripperGeometry, pad: PadLayout) -> tuple[tuple[Solid, Pose], ...]:

@@ -13,9 +13,12 @@ from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.hand_view import HandView
 from rgss.physics.mujoco.contact_reader import MujocoContactReader
 from rgss.physics.mujoco.engine import compiled, mujoco
+from rgss.physics.mujoco.linkage_drive import MujocoLinkageDrive
 from rgss.physics.mujoco.model import world_model
+from rgss.physics.mujoco.suction_bond import MujocoBond
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import Gripper, Pose, Scene
+from rgss.physics.suction_seal import SuctionSeal
+from rgss.scenes import Gripper, Pose, Scene, suction_point_of
 
 LEAST_MUJOCO_RATE_HZ = 500.0
 """Contacts, with a time constant of 4 ms, are stable if it is two steps or more."""
@@ -51,23 +54,13 @@ class MujocoWorld:
             joint_offsets_rad: True minus reported angle of each joint of the arm; empty if they are equal.
 
         Raises:
-            DefinitionError: The rate is below the one at which contacts are stable, or the gripper has a suction cup.
+            DefinitionError: The rate is below the one at which contacts are stable.
             SimulationError: The engine cannot build it.
         """
         if settings.rate_hz < LEAST_MUJOCO_RATE_HZ:
             raise DefinitionError(
                 f"the rate must be at least {LEAST_MUJOCO_RATE_HZ:g} Hz in MuJoCo, got {settings.rate_hz:g} Hz",
                 hint="contacts are unstable below it",
-            )
-        if gripper.geometry.linkage is not None:
-            raise DefinitionError(
-                f"MuJoCo's world supports only sliding fingers, gripper {gripper.geometry.id!r} has a linkage",
-                hint="use PyBullet only for this gripper",
-            )
-        if gripper.suction is not None:
-            raise DefinitionError(
-                f"MuJoCo's world supports only fingers, gripper {gripper.geometry.id!r} has a suction cup",
-                hint="run the trial in PyBullet",
             )
         self.scene, self.gripper, self.settings = scene, gripper, settings
         self._engine = mujoco()
@@ -79,13 +72,18 @@ class MujocoWorld:
         self._speeds = np.array([model.joint(name).dofadr[0] for name in driven])
         self._motors = np.array([model.actuator(name).id for name in driven])
         self._limits = model.actuator_forcerange[self._motors, 1].copy()
-        self._travels = np.array([model.joint(name).qposadr[0] for name in described.fingers])
-        self._finger_motors = np.array([model.actuator(name).id for name in described.fingers])
+        self._travels = np.array([model.joint(name).qposadr[0] for name in described.fingers], dtype=int)
+        self._finger_motors = np.array([model.actuator(name).id for name in described.fingers], dtype=int)
         self._offsets = np.array(joint_offsets_rad or np.zeros(len(driven)), dtype=float)
         self._flange = int(model.body(f"link:{scene.robot.flange}").id)
         self._objects = {name: int(model.body(body).id) for name, body in described.object_bodies.items()}
         self._grasp_centre_m = gripper.geometry.grasp_centre.position_m
         self._reader = MujocoContactReader(model, self._data, described)
+        self._bodies = described.object_bodies
+        self._linkage: MujocoLinkageDrive | None = None
+        if gripper.geometry.linkage is not None:
+            linkage, joints = gripper.geometry.linkage, described.linkage_joints
+            self._linkage = MujocoLinkageDrive(model, self._data, linkage, joints, step_s=settings.step_s)
         self._select_workpiece(scene.workpiece.id)
         self._wanted, self._needed = np.zeros(model.nv), np.zeros(model.nv)
         self._target = self._target_speed = self._speed_before = self._torques = np.zeros(len(driven))
@@ -108,6 +106,8 @@ class MujocoWorld:
         self._engine.mj_resetData(self._model, self._data)
         self._target = np.array(configuration_rad, dtype=float) + self._offsets
         self._data.qpos[self._positions] = self._target
+        if self._linkage is not None:
+            self._linkage.reset()
         self._target_speed = self._speed_before = self._torques = np.zeros(len(self._target))
         self.hold_open()
         self._engine.mj_forward(self._model, self._data)
@@ -119,24 +119,38 @@ class MujocoWorld:
 
     @property
     def grip_fault(self) -> str:
-        """Always empty: the world supports only fingers."""
-        return ""
+        """Reason why a switched-on suction cup does not hold the workpiece; empty if it does, and for fingers."""
+        return "" if self._seal is None else self._seal.fault
 
     @property
     def seal_margin(self) -> float | None:
-        """Always None: the world supports only fingers."""
-        return None
+        """Factor by which the load of a suction cup could grow before its seal breaks; None if it is unknown."""
+        return None if self._seal is None else self._seal.margin
 
     def seal_pull(self) -> tuple[tuple[float, float, float], tuple[float, float, float]] | None:
-        """Always None: the world supports only fingers."""
-        return None
+        """Centre of a suction cup's lip in the world and the force in N on the workpiece there; None without a seal."""
+        pull_n = None if self._seal is None else self._seal.pull_n()
+        if pull_n is None:
+            return None
+        return (self._pose_of(self._flange) @ self.gripper.geometry.lip).position_m, pull_n
+
+    @property
+    def follow_error(self) -> float:
+        """Greatest deviation of a linkage's joint from its ratio in rad or m; 0 for other grippers."""
+        return 0.0 if self._linkage is None else self._linkage.largest_error
 
     def hold_open(self) -> None:
         """Hold the fingers at their open end, against its stop."""
         self.drive_fingers(-self.gripper.finger_velocity_m_s, self.gripper.finger_force_n)
 
     def drive_fingers(self, velocity_m_s: float, force_n: float) -> None:
-        """Move every finger at a velocity (positive closes) with at most a force."""
+        """Move every finger at a velocity (positive closes) with at most a force, or switch the vacuum on or off."""
+        if self._seal is not None:
+            self._seal.switch(on=velocity_m_s > 0.0)
+            return
+        if self._linkage is not None:
+            self._linkage.drive(velocity_m_s, force_n)
+            return
         self._data.ctrl[self._finger_motors] = velocity_m_s
         self._model.actuator_forcerange[self._finger_motors] = (-force_n, force_n)
 
@@ -158,11 +172,15 @@ class MujocoWorld:
         torques = (self._needed + data.qfrc_bias)[self._speeds]
         self._torques = np.clip(torques, -self._limits, self._limits)
         data.ctrl[self._motors] = self._torques
+        if self._linkage is not None:
+            self._linkage.before_step()
         engine.mj_step2(model, data)
         engine.mj_kinematics(model, data)
         if data.warning.number.any():
             names = [str(engine.mjtWarning(index).name) for index in np.flatnonzero(data.warning.number).tolist()]
             raise SimulationError(f"MuJoCo warned: {', '.join(names)}", hint="use a higher rate")
+        if self._seal is not None:
+            self._seal.after_step(self._pose_of(self._flange), self.workpiece_pose())
 
     def bend(self, arc_m: Sequence[float]) -> None:
         """Second-order correction of a carried workpiece's position; see `ContactWorld.bend`.
@@ -183,6 +201,8 @@ class MujocoWorld:
 
     def finger_travel_m(self) -> tuple[float, ...]:
         """Travel of each finger from its open end."""
+        if self._linkage is not None:
+            return self._linkage.travel_m()
         return tuple(self._data.qpos[self._travels].tolist())
 
     def workpiece_pose(self) -> Pose:
@@ -224,7 +244,9 @@ class MujocoWorld:
 
     def contacts(self, standing: Contacts | None = None) -> Contacts:
         """Contacts of the last step; see `ContactWorld.contacts`."""
-        return self._reader.contacts(standing)
+        if self._seal is None or not self._seal.is_sealed:
+            return self._reader.contacts(standing)
+        return self._reader.contacts(None)._replace(finger_forces_n=(self._seal.force_n,))
 
     def support_force_n(self) -> float:
         """Sum of the normal forces of the scene's bodies on the workpiece in the last step."""
@@ -238,7 +260,18 @@ class MujocoWorld:
         self._workpiece = self._objects[name]
         self._workpiece_at = int(self._model.joint(self._model.body(self._workpiece).jntadr[0]).qposadr[0])
         self._reader.select(name)
+        self._seal = self._seal_on(name)
         self._note_workpiece()
+
+    def _seal_on(self, name: str) -> SuctionSeal | None:
+        """Seal of a suction cup on an object; None for a gripper with fingers."""
+        geometry, suction = self.gripper.geometry, self.gripper.suction
+        if suction is None:
+            return None
+        lip_m = (geometry.cup_pose.inverse() @ geometry.lip).position_m
+        bond = MujocoBond(self._model, self._data, self._reader, body=self._bodies[name], lip_m=lip_m)
+        point, step_s = suction_point_of(self.scene), self.settings.step_s
+        return SuctionSeal(bond, point=point, gripper=self.gripper, suction=suction, step_s=step_s)
 
     def _note_workpiece(self) -> None:
         """Store the pose of the workpiece at the start of a step, at which the engine detects contacts."""

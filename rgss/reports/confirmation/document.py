@@ -25,7 +25,6 @@ def confirmation_to_json(confirmation: Confirmation) -> dict[str, Any]:
         "chosen": selection.chosen,
         "variants": [variant.id for variant in selection.variants],
         "rivals_left_out": list(selection.left_out),
-        "without_engine": selection.without_engine or None,
         "seeds": list(confirmation.seeds),
         "failures": {
             "before_physics": selection.planned_failures,

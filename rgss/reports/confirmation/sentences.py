@@ -29,8 +29,6 @@ def summary_sentences(confirmation: Confirmation) -> Iterator[str]:
     else:
         yield outcome_sentence(confirmation)
     selection = confirmation.selection
-    if selection.without_engine:
-        yield f"Not confirmed in another engine: {selection.without_engine}."
     if selection.left_out:
         ids = ", ".join(map(str, selection.left_out))
         yield f"Rivals that were not confirmed: {ids} (name them with --variants)."

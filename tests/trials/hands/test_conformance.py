@@ -7,33 +7,10 @@ from dataclasses import replace
 import pytest
 
 from rgss.evidence import Failure, Fidelity
-from rgss.scenes import Cylinder, Pose
+from rgss.scenes import Cylinder
 from rgss.trials.hands import hand_of
 from rgss.trials.pieces.run import Pieces
 from tests.trials.hands.gripper_files import FILES, HELD, UNFIT, gripper_of
-
-
-@pytest.fixture
-def trial(spec_of, tmp_path):
-    """Makes the trial of a kind of gripper with an object, at a fidelity."""
-
-    def make(name, fidelity, *, radius_m=HELD.radius_m, mass_kg=0.1):
-        base = spec_of()
-        shape = replace(HELD, radius_m=radius_m)
-        own = base.scene.workpiece
-        x, y, z = own.pose.position_m
-        lowered_m = own.shape.half_height_m - shape.half_height_m
-        workpiece = replace(own, shape=shape, mass_kg=mass_kg, pose=Pose(position_m=(x, y, z - lowered_m)))
-        planning = replace(base.settings.planning, clearance_m=5.0e-4)
-        return replace(
-            base,
-            scene=replace(base.scene, workpiece=workpiece),
-            gripper=gripper_of(tmp_path, name, shape),
-            fidelity=fidelity,
-            settings=replace(base.settings, planning=planning),
-        )
-
-    return make
 
 
 @pytest.mark.parametrize("fidelity", Fidelity)

@@ -11,7 +11,6 @@ from rgss.physics import open_world
 from rgss.trials.payload_bench import bench_of
 from rgss.trials.payload_bench.bench import run_bench
 from rgss.trials.payload_bench.of_trial import payload_bench
-from rgss.trials.second_engine import mujoco_settings
 from tests.trials.hands.gripper_files import gripper_of
 
 
@@ -25,11 +24,6 @@ def test_the_payload_bench_has_no_cups(spec_of, tmp_path):
 
 def test_there_is_no_bench_for_an_object_that_the_gripper_cannot_hold(spec_of, tmp_path):
     assert bench_of(replace(spec_of(), gripper=gripper_of(tmp_path, "parallel"))) is None
-
-
-def test_mujoco_has_no_cups(spec_of, tmp_path):
-    with pytest.raises(DefinitionError, match="MuJoCo's world supports only fingers, gripper 'cup' has a suction cup"):
-        open_world(spec_of().scene, gripper_of(tmp_path, "vacuum"), mujoco_settings())
 
 
 def test_drives_must_be_lighter_than_the_base(spec_of, tmp_path):

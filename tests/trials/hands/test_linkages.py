@@ -7,12 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.errors import DefinitionError
 from rgss.kinematics import gripper_loads
-from rgss.physics import PhysicsSettings, open_world
 from rgss.physics.linkage_drive import least_iterations
 from rgss.scenes import LinkageMotion, at_opening, load_gripper_file
-from rgss.trials.payload_bench.of_trial import payload_bench
 from rgss.trials.payload_bench.rig import PayloadRig, probe
 from rgss.trials.second_engine import mujoco_settings
 from tests.trials.hands.gripper_files import FILES, HELD, gripper_of, with_thin_pads
@@ -20,26 +17,12 @@ from tests.trials.hands.gripper_files import FILES, HELD, gripper_of, with_thin_
 MASS_KG = 0.3
 
 
-@pytest.fixture
-def bench(spec_of, tmp_path):
-    """Makes the bench of the cranks with an object, at a rate and with other forces of the pads."""
-
-    def make(rate_hz=240.0, force_n=None):
-        spec = spec_of()
-        gripper = gripper_of(tmp_path, "linkage")
-        if force_n is not None:
-            gripper = replace(gripper, finger_force_n=force_n)
-        scene = replace(spec.scene, workpiece=replace(spec.scene.workpiece, shape=HELD))
-        bench = payload_bench(replace(spec, gripper=gripper, scene=scene))
-        return replace(bench, physics=PhysicsSettings(rate_hz=rate_hz))
-
-    return make
-
-
 # As docs/grippers.md states them: rad by which a joint is off while an object is closed on and held.
-@pytest.mark.parametrize(("rate_hz", "bound_rad"), [(240.0, 5e-4), (960.0, 5e-6)])
+@pytest.mark.parametrize(("rate_hz", "bound_rad"), [(240.0, 5e-4), (960.0, 5e-6), (None, 1e-5)])
 def test_joints_follow_while_the_hand_closes_and_holds(bench, rate_hz, bound_rad):
-    with PayloadRig(bench(rate_hz), MASS_KG) as rig:
+    """Without a rate, in MuJoCo."""
+    spec = bench(rate_hz) if rate_hz else replace(bench(), physics=mujoco_settings())
+    with PayloadRig(spec, MASS_KG) as rig:
         world, worst_rad = rig._world, 0.0
         step = world.step
 
@@ -56,10 +39,12 @@ def test_joints_follow_while_the_hand_closes_and_holds(bench, rate_hz, bound_rad
     assert 0.0 < worst_rad < bound_rad
 
 
+@pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
 @pytest.mark.parametrize("force_n", [6.0, 15.0])
-def test_pads_press_with_what_virtual_work_gives(bench, force_n):
+def test_pads_press_with_what_virtual_work_gives(bench, force_n, engine):
     """Torque 2 J F balances the pads' force F; what hangs on the mechanism adds its share along the arcs."""
     spec = bench(960.0, force_n)
+    spec = spec if engine == "pybullet" else replace(spec, physics=mujoco_settings())
     linkage = spec.gripper.geometry.linkage
     with PayloadRig(spec, MASS_KG) as rig:
         rig.grasp()
@@ -168,8 +153,3 @@ def test_loads_are_the_masses_of_the_links(tmp_path):
     assert crank.pose.position_m == pytest.approx((0.012 + 0.01625, 0.0, 0.07 + 0.02315))
     assert tip.pose.position_m == pytest.approx((0.0445 + 0.005, 0.0, 0.1163 + 0.025))
     assert sorted(tip.moments_kg_m2) == pytest.approx([6e-6, 2.4e-5, 2.6e-5])
-
-
-def test_mujoco_has_no_linkages(spec_of, tmp_path):
-    with pytest.raises(DefinitionError, match="supports only sliding fingers, gripper 'two-finger' has a linkage"):
-        open_world(spec_of().scene, gripper_of(tmp_path, "linkage"), mujoco_settings())
