@@ -19,6 +19,7 @@ from rgss.trials.conditions.object_conditions import (
     moved,
     nominal_object,
     perceived_workpiece,
+    support_offsets_m,
     true_workpiece,
 )
 from rgss.trials.trial_spec import TrialSpec
@@ -132,16 +133,18 @@ class Conditions:
         return next(one.workpiece for one in self.scene.objects if one.workpiece.id == name)
 
     def _with_objects(self, changed: Callable[[Workpiece, Conditions | ObjectConditions], Workpiece]) -> Scene:
-        scene = _with_workpiece(self.scene, changed(self.scene.workpiece, self))
-        if not self.others:
-            return scene
-        drawn = {one.id: one for one in self.others}
-        others = tuple(
-            replace(one, workpiece=changed(one.workpiece, drawn[one.workpiece.id]))
-            if one.workpiece.id in drawn
-            else one
-            for one in scene.others
-        )
+        drawn: dict[str, Conditions | ObjectConditions] = {one.id: one for one in self.others}
+        drawn[self.scene.workpiece.id] = self
+        own_m = {name: (one.offset_x_m, one.offset_y_m) for name, one in drawn.items()}
+        beneath_m = support_offsets_m(self.scene, own_m)
+
+        def changed_object(known: Workpiece) -> Workpiece:
+            if known.id in beneath_m:
+                known = replace(known, pose=moved(known.pose, (*beneath_m[known.id], 0.0)))
+            return changed(known, drawn[known.id]) if known.id in drawn else known
+
+        scene = _with_workpiece(self.scene, changed_object(self.scene.workpiece))
+        others = tuple(replace(one, workpiece=changed_object(one.workpiece)) for one in scene.others)
         return scene if others == scene.others else replace(scene, others=others)
 
 

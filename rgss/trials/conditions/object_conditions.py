@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from rgss.scenes import Pose, Workpiece
+from rgss.scenes import Pose, Scene, Workpiece
 
 
 class ObjectValues(Protocol):
@@ -132,6 +133,25 @@ def perceived_workpiece(assumed: Workpiece, one: ObjectValues) -> Workpiece:
     if any(turn):
         pose = pose @ Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), turn)
     return replace(assumed, pose=pose)
+
+
+def support_offsets_m(scene: Scene, own_m: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
+    """True offset along x and y of the support of each object that stands on others: the sum of theirs.
+
+    Args:
+        scene: The scene at the start.
+        own_m: True offset of each object with draws.
+    """
+    beneath = {one.workpiece.id: one.support for one in scene.objects}
+    found = {}
+    for name, support in beneath.items():
+        x_m, y_m, lower = 0.0, 0.0, support
+        while lower in beneath:
+            dx_m, dy_m = own_m.get(lower, (0.0, 0.0))
+            x_m, y_m, lower = x_m + dx_m, y_m + dy_m, beneath[lower]
+        if x_m or y_m:
+            found[name] = (x_m, y_m)
+    return found
 
 
 def moved(pose: Pose, shift_m: tuple[float, float, float]) -> Pose:

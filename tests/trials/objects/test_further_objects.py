@@ -142,3 +142,32 @@ def test_the_hand_goes_where_each_object_is_perceived():
         error = errors.get(cube.id, (0.0, 0.0))
         expected = [at + off for at, off in zip(cube.pose.position_m, error, strict=False)]
         assert reached[:2] == pytest.approx(expected, abs=1e-4)
+
+
+def test_what_stands_on_an_object_has_its_true_offset_and_not_the_error_of_its_perception(two_objects):
+    """A lid on the mug, which stands on the cup: the cup's offset moves both, the mug's the lid."""
+    (mug,) = two_objects.scene.others
+    lid = replace(mug, workpiece=replace(mug.workpiece, id="lid"), support="mug")
+    stack = (replace(mug, support=two_objects.scene.workpiece.id), lid)
+    values = {
+        "workpiece__x": 0.003,
+        "workpiece__y": -0.001,
+        "perception__x": 0.05,
+        "workpieces__mug__x": 0.01,
+        "perception__lid__y": 0.002,
+    }
+    spec = replace(two_objects, scene=replace(two_objects.scene, others=stack), uncertainty=constants(**values))
+    conditions = conditions_of(spec)
+
+    def offsets_mm(scene):
+        pairs = zip(scene.objects, spec.scene.objects, strict=True)
+        return [
+            [
+                round(1e3 * (a - b), 6)
+                for a, b in zip(after.workpiece.pose.position_m, before.workpiece.pose.position_m, strict=True)
+            ]
+            for after, before in pairs
+        ]
+
+    assert offsets_mm(conditions.true_scene) == [[3, -1, 0], [13, -1, 0], [13, -1, 0]]
+    assert offsets_mm(conditions.perceived_scene) == [[53, -1, 0], [13, -1, 0], [13, 1, 0]]
