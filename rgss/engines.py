@@ -10,6 +10,7 @@ from rgss.errors import DefinitionError
 
 INSTALL = "pip install 'rgss[sim]'"
 INSTALL_MUJOCO = "pip install 'rgss[mujoco]'"
+INSTALL_XACRO = "pip install 'rgss[xacro]', or expand it: xacro FILE > arm.urdf"
 
 DISTRIBUTIONS: Mapping[str, str] = MappingProxyType(
     {
@@ -70,6 +71,19 @@ def require_mujoco(purpose: str) -> None:
     """
     if not _is_installed("mujoco"):
         raise DefinitionError(f"{purpose} needs MuJoCo, which is not installed", hint=INSTALL_MUJOCO)
+
+
+def require_xacro(purpose: str) -> None:
+    """Require that the package that expands xacros is installed.
+
+    Args:
+        purpose: Subject of the error message.
+
+    Raises:
+        DefinitionError: It is not installed.
+    """
+    if not _is_installed("xacrodoc"):
+        raise DefinitionError(f"{purpose} needs xacrodoc, which is not installed", hint=INSTALL_XACRO)
 
 
 def _is_installed(module: str) -> bool:

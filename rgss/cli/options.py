@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -24,6 +25,38 @@ def add_arm_mass(parser: argparse.ArgumentParser, when: str) -> None:
         metavar="MASS",
         help=f"{when}: mass of the whole arm, as '20 kg', shared by volume where the URDF has none",
     )
+
+
+def add_xacro_arguments(parser: argparse.ArgumentParser, when: str) -> None:
+    """Add the arguments of a xacro."""
+    parser.add_argument(
+        "--xacro",
+        action="append",
+        default=[],
+        metavar="NAME:=VALUE",
+        help=f"{when}: an argument of a xacro, which is expanded (pip install 'rgss[xacro]'); may be given several "
+        "times",
+    )
+
+
+def xacro_arguments(texts: Sequence[str]) -> dict[str, str]:
+    """Arguments of a xacro by name.
+
+    Raises:
+        DefinitionError: One is not of the form NAME:=VALUE.
+    """
+    from rgss.errors import DefinitionError
+    from rgss.findings import shown
+
+    found = {}
+    for text in texts:
+        name, sign, value = text.partition(":=")
+        if not sign or not name.strip():
+            raise DefinitionError(
+                f"--xacro: {shown(text)} is not of the form NAME:=VALUE", hint="write it as --xacro ur_type:=ur5e"
+            )
+        found[name.strip()] = value
+    return found
 
 
 def arm_mass_kg(text: str | None) -> float | None:

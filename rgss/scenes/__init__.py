@@ -61,7 +61,7 @@ from rgss.scenes.mass_properties import (
     quaternion_of,
     solid_moments,
 )
-from rgss.scenes.mesh_shapes import is_empty_mesh, mesh_summary
+from rgss.scenes.mesh_shapes import is_empty_mesh, mesh_summary, write_convex_parts
 from rgss.scenes.objects import (
     ObjectPlacement,
     finger_pads,

@@ -1,5 +1,7 @@
 """Convex approximations of a mesh: its hull, the hulls of its parts, or its bounding box."""
 
+# long file: every use of the reader of meshes, which no other file has.
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -25,6 +27,7 @@ MOST_VERTICES = 160
 
 _SUFFIXES = frozenset({".stl", ".obj", ".dae", ".ply"})
 _CONCAVITY = 0.05
+_MOST_WRITTEN = 16
 _EXACT = 1e-9
 
 
@@ -60,6 +63,26 @@ def shapes_of_mesh(
         DefinitionError: The file is not a mesh, or has no volume.
     """
     return _shapes(path, sha256, scale, how)
+
+
+def write_convex_parts(path: Path, folder: Path, *, scale: tuple[float, float, float]) -> tuple[str, ...]:
+    """Write the convex parts of a mesh as meshes of their own; returns the names of the files.
+
+    Args:
+        path: The file of the mesh.
+        folder: The folder of the parts.
+        scale: Factors along its axes, which the parts include.
+
+    Raises:
+        DefinitionError: The file is not a mesh with a volume, or CoACD is not installed.
+    """
+    import trimesh
+
+    parts = _shapes(path, "", scale, CollisionShapes.DECOMPOSE, _MOST_WRITTEN)
+    names = tuple(f"{path.stem}_{index}.stl" for index in range(len(parts)))
+    for name, corners in zip(names, parts, strict=True):
+        trimesh.Trimesh(corners).convex_hull.export(str(folder / name))
+    return names
 
 
 def mesh_summary(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1.0)) -> MeshSummary:
@@ -142,13 +165,15 @@ def mesh_mass(path: Path, *, scale: float = 1.0) -> MeshMass:
 
 
 @lru_cache(maxsize=256)
-def _shapes(path: Path, _sha256: str, scale: tuple[float, float, float], how: CollisionShapes) -> tuple[Vertices, ...]:
+def _shapes(
+    path: Path, _sha256: str, scale: tuple[float, float, float], how: CollisionShapes, most: int = -1
+) -> tuple[Vertices, ...]:
     mesh = read_mesh(path, scale)
     if how is CollisionShapes.BOXES:
         edges = np.asarray(mesh.bounds, dtype=float).T.tolist()
         return (tuple((x, y, z) for x in edges[0] for y in edges[1] for z in edges[2]),)
     if how is CollisionShapes.DECOMPOSE:
-        parts = _parts(mesh.split(only_watertight=False))
+        parts = _parts(mesh.split(only_watertight=False), most)
         if parts:
             return tuple(_reduced_hull(part, path) for part in parts)
     return (_reduced_hull(np.asarray(mesh.vertices, dtype=float), path),)
@@ -211,7 +236,7 @@ def _is_closed(mesh: Any) -> bool:
     return bool(mesh.is_watertight) or bool(np.array_equal(there, back))
 
 
-def _parts(bodies: Sequence[Any]) -> list[Array]:
+def _parts(bodies: Sequence[Any], most: int) -> list[Array]:
     """Convex pieces of the bodies of a mesh; empty if faces without a volume are left over.
 
     Separate faces, such as the six of an open box, are taken for one body.
@@ -220,7 +245,7 @@ def _parts(bodies: Sequence[Any]) -> list[Array]:
     loose: list[Array] = []
     for body in bodies:
         if _has_volume(body.vertices):
-            parts += _convex_pieces(body)
+            parts += _convex_pieces(body, most)
         else:
             loose.append(body.vertices)
     if not loose:
@@ -239,7 +264,7 @@ def _has_volume(points: Array) -> bool:
     return True
 
 
-def _convex_pieces(body: Any) -> list[Array]:
+def _convex_pieces(body: Any, most: int) -> list[Array]:
     if body.is_convex or not body.is_watertight:
         return [np.asarray(body.vertices, dtype=float)]
     try:
@@ -250,7 +275,8 @@ def _convex_pieces(body: Any) -> list[Array]:
         ) from None
     coacd.set_log_level("error")
     mesh = coacd.Mesh(np.asarray(body.vertices, dtype=float), np.asarray(body.faces, dtype=np.int32))
-    return [np.asarray(points, dtype=float) for points, _ in coacd.run_coacd(mesh, threshold=_CONCAVITY, seed=0)]
+    pieces = coacd.run_coacd(mesh, threshold=_CONCAVITY, max_convex_hull=most, seed=0)
+    return [np.asarray(points, dtype=float) for points, _ in pieces]
 
 
 def _reduced_hull(points: Array, path: Path) -> Vertices:

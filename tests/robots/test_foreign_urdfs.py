@@ -13,7 +13,7 @@ from rgss.errors import DefinitionError
 from rgss.kinematics import Arm, ArmDynamics, Load
 from rgss.scenes import Pose, link_solid
 from rgss.studies.robot_project import robot_summary, write_robot_project
-from rgss.studies.robot_project.arm_of_urdf import arm_of_urdf
+from rgss.studies.robot_project.urdf import arm_of_urdf
 from tests.fixtures.serial_arms import SIX_WITHOUT_DECOMPOSITION as SIX
 from tests.fixtures.serial_arms import serial_urdf
 from tests.robots.test_arm_sizes import FOUR
@@ -91,8 +91,7 @@ def test_a_robot_without_a_name_has_that_of_its_file(draft):
     ("old", "new", "message"),
     [
         ("<robot ", '<robot xmlns:xacro="http://x/xacro" ', None),
-        ("</robot>", "<xacro:macro/></robot>", "is a xacro: it has <xacro:macro>"),
-        ('name="joint_1"', 'name="${prefix}joint_1"', "is a xacro: it has ${prefix}"),
+        ("</robot>", '<xacro:property name="width" value="0.2"/></robot>', None),
         ('<child link="link_1"/>', '<child link="nowhere"/>', "has the child link 'nowhere', which the URDF has not"),
         ("</robot>", '<link name="left"/></robot>', "2 links that nothing carries: base, left"),
         ('effort="100"', 'effort="much"', "has effort='much' in <limit>"),

@@ -17,13 +17,13 @@ MORE_EXAMPLES = (
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    from rgss.cli.options import add_arm_mass
+    from rgss.cli.options import add_arm_mass, add_xacro_arguments
 
     parser.add_argument(
         "folder", nargs="?", type=Path, default=Path(), metavar="FOLDER", help="the new folder (default: this one)"
     )
     parser.add_argument(
-        "--robot", type=Path, metavar="URDF", help="make it for this arm; the URDF and its meshes are copied"
+        "--robot", type=Path, metavar="URDF", help="make it for this arm; the URDF, or xacro, and its meshes are copied"
     )
     parser.add_argument(
         "--flange", metavar="LINK", help="with --robot: the link that carries the gripper (default: the arm's last)"
@@ -40,6 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="URDF",
         help="with --robot: the URDF of your gripper, or again that of the arm for the hand that it has",
     )
+    add_xacro_arguments(parser, "with --robot")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -59,8 +60,9 @@ def run(options: argparse.Namespace) -> int:
         ("tool_axis", "names an axis"),
         ("mass", "is that of the arm"),
         ("gripper", "is for the arm"),
+        ("xacro", "is an argument"),
     ):
-        if getattr(options, name) is not None and options.robot is None:
+        if getattr(options, name) and options.robot is None:
             option = f"--{name.replace('_', '-')}"
             raise DefinitionError(f"{option} {what} of a URDF", hint="give the URDF with --robot")
     files, notes = (write_scaffold(folder), ()) if options.robot is None else _robot_files(options)
@@ -80,7 +82,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _robot_files(options: argparse.Namespace) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    from rgss.cli.options import arm_mass_kg
+    from rgss.cli.options import arm_mass_kg, xacro_arguments
     from rgss.engines import require_engines
     from rgss.studies.robot_project import write_robot_project
 
@@ -92,5 +94,6 @@ def _robot_files(options: argparse.Namespace) -> tuple[tuple[str, ...], tuple[st
         tool_axis=options.tool_axis,
         mass_kg=arm_mass_kg(options.mass),
         gripper=options.gripper,
+        xacro=xacro_arguments(options.xacro),
     )
     return written.files, tuple(note.rationale for note in written.notes)

@@ -18,11 +18,12 @@ MORE_EXAMPLES = (("rgss robot scenes/robots/my_arm.yaml", "an arm of a project, 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    from rgss.cli.options import add_arm_mass
+    from rgss.cli.options import add_arm_mass, add_xacro_arguments
 
     parser.add_argument("file", type=Path, metavar="FILE", help="a URDF, or a robot file of a project")
     parser.add_argument("--flange", metavar="LINK", help="of a URDF: the link that carries the gripper")
     add_arm_mass(parser, "of a URDF")
+    add_xacro_arguments(parser, "of a URDF")
     parser.add_argument(
         "-o", "--output", type=Path, metavar="PICTURE", help="draw the workspace into this .png or .svg file"
     )
@@ -31,14 +32,19 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Summarise; 1 if there are findings, 2 if the description cannot be used."""
     from rgss.cli.main import CLEAN, FINDINGS
-    from rgss.cli.options import arm_mass_kg
+    from rgss.cli.options import arm_mass_kg, xacro_arguments
     from rgss.cli.output import print_json
     from rgss.engines import require_engines
     from rgss.reports import draw_workspace
     from rgss.studies.robot_project import robot_summary
 
     require_engines("'rgss robot'", pictures=options.output is not None)
-    summary = robot_summary(options.file, flange=options.flange, mass_kg=arm_mass_kg(options.mass))
+    summary = robot_summary(
+        options.file,
+        flange=options.flange,
+        mass_kg=arm_mass_kg(options.mass),
+        xacro=xacro_arguments(options.xacro),
+    )
     if options.output is not None:
         draw_workspace(summary.positions_m, options.output, title=summary.robot.id)
     if options.json:

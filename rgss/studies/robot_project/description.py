@@ -18,9 +18,7 @@ from rgss.scenes import JointKind, Robot, mesh_summary
 from rgss.studies.motion import calibrated_at
 from rgss.studies.project import Project
 from rgss.studies.robot_project.holding import weak_joints
-
-LARGEST_HULL_RATIO = 1.25
-"""Volume of a mesh's hull over its own from which the loss is reported."""
+from rgss.studies.robot_project.urdf import LARGEST_HULL_RATIO
 
 _LARGEST_LENGTH_M, _LARGEST_MASS_KG = 10.0, 1000.0
 _LARGEST_ANGLE_RAD = 30.0

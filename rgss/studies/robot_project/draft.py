@@ -4,19 +4,26 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rgss.errors import DefinitionError, DocumentError
 from rgss.findings import shown
 from rgss.scenes import Pose, Robot, load_robot
-from rgss.studies.robot_project.arm_of_urdf import UrdfArm, arm_of_urdf
-from rgss.studies.robot_project.masses import complete_masses
 from rgss.studies.robot_project.palm_of_fingers import with_palm
 from rgss.studies.robot_project.robot_text import robot_text
 from rgss.studies.robot_project.tool_axis import add_tool_frame, likely_tool_axes
-from rgss.studies.robot_project.urdf_files import copy_named_files
-from rgss.studies.robot_project.urdf_reading import read_arm_urdf, snap_right_angles
+from rgss.studies.robot_project.urdf import (
+    NO_ARGUMENTS,
+    UrdfArm,
+    arm_of_urdf,
+    complete_masses,
+    copy_named_files,
+    decompose,
+    read_arm_urdf,
+    snap_right_angles,
+)
 
 _DRAFT_PAYLOAD_KG = 1.0
 _POSE_FREEDOMS = 6
@@ -48,6 +55,8 @@ def drafted_robot(
     flange: str | None = None,
     tool_axis: str = "z",
     mass_kg: float | None = None,
+    xacro: Mapping[str, str] = NO_ARGUMENTS,
+    is_decomposed: bool = False,
 ) -> DraftedRobot:
     """Draft a robot file from a URDF, at home in the middle of its ranges.
 
@@ -57,11 +66,13 @@ def drafted_robot(
         flange: The link that carries the gripper; found if None.
         tool_axis: The axis of that link along which the gripper points away from the arm.
         mass_kg: Mass of the arm with its base, for a URDF without masses.
+        xacro: Arguments, if the URDF is a xacro.
+        is_decomposed: True to divide concave collision meshes into convex parts.
 
     Raises:
         DefinitionError: There is no arm in the URDF, a file that it names is missing, or the description is wrong.
     """
-    root, notes = read_arm_urdf(urdf)
+    root, notes = read_arm_urdf(urdf, xacro)
     arm, added = with_palm(root, arm_of_urdf(root, flange=flange))
     notes += [*arm.notes, *added]
     if len(arm.joints) < _POSE_FREEDOMS:
@@ -72,6 +83,8 @@ def drafted_robot(
     robots = project / "scenes" / "robots"
     robots.mkdir(parents=True, exist_ok=True)
     notes += copy_named_files(root, urdf, robots)
+    if is_decomposed:
+        notes += decompose(root, robots)
     link = arm.flange
     mount, assumed = add_tool_frame(root, arm, tool_axis)
     arm = replace(arm, flange=mount, notes=(*notes, *assumed))

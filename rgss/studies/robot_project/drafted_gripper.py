@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,8 +16,7 @@ from rgss.studies.robot_project.draft import DraftedRobot, identifier_of
 from rgss.studies.robot_project.following_finger import let_one_finger_follow
 from rgss.studies.robot_project.layout import Cup
 from rgss.studies.robot_project.tool_axis import TOOL_AXES
-from rgss.studies.robot_project.urdf_files import copy_named_files
-from rgss.studies.robot_project.urdf_reading import Note, read_arm_urdf
+from rgss.studies.robot_project.urdf import NO_ARGUMENTS, Note, copy_named_files, read_arm_urdf
 
 _LARGEST_SPEED_M_S, _LARGEST_FORCE_N = 0.05, 20.0
 
@@ -77,7 +76,7 @@ def drafted_hand(urdf: Path, project: Path, drafted: DraftedRobot) -> DraftedGri
     )
 
 
-def drafted_gripper(urdf: Path, project: Path) -> DraftedGripper:
+def drafted_gripper(urdf: Path, project: Path, xacro: Mapping[str, str] = NO_ARGUMENTS) -> DraftedGripper:
     """Draft the gripper file of a URDF that describes a gripper alone, and copy the files that it names.
 
     The gripper is mounted at the base of its URDF, along the axis on which its pads are.
@@ -85,12 +84,13 @@ def drafted_gripper(urdf: Path, project: Path) -> DraftedGripper:
     Args:
         urdf: The URDF.
         project: The folder of the project.
+        xacro: Arguments, if the URDF is a xacro.
 
     Raises:
         DefinitionError: The URDF is wrong, a file that it names is missing, or it is no mechanism that can be
             simulated.
     """
-    root, notes = read_arm_urdf(urdf)
+    root, notes = read_arm_urdf(urdf, xacro)
     grippers = project / "scenes" / "grippers"
     grippers.mkdir(parents=True, exist_ok=True)
     notes += copy_named_files(root, urdf, grippers)

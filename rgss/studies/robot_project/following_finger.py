@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 from rgss.scenes import carried_by
-from rgss.studies.robot_project.urdf_reading import Note
+from rgss.studies.robot_project.urdf import Note
 
 _FINGERS = 2
 

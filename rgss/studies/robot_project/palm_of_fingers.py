@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rgss.scenes import Pose, origin_of
-from rgss.studies.robot_project.arm_of_urdf import UrdfArm
-from rgss.studies.robot_project.urdf_reading import Note
+from rgss.studies.robot_project.urdf import Note, UrdfArm
 
 Triple = tuple[float, float, float]
 

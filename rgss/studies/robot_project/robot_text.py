@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 
 from rgss.scenes import JointKind
-from rgss.studies.robot_project.arm_of_urdf import UrdfArm, UrdfJoint
+from rgss.studies.robot_project.urdf import UrdfArm, UrdfJoint
 
 _ACCELERATION_TIME_S = 0.4
 _LARGEST_ACCELERATION = {JointKind.REVOLUTE: 5.0, JointKind.PRISMATIC: 3.0}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import xml.etree.ElementTree as ET
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,7 +19,7 @@ from rgss.studies.robot_project.description import assumed_subjects, description
 from rgss.studies.robot_project.draft import drafted_robot
 from rgss.studies.robot_project.holding import payload_at_reach_kg
 from rgss.studies.robot_project.reach import horizontal_reach_m, sampled_configurations
-from rgss.studies.robot_project.urdf_reading import Note
+from rgss.studies.robot_project.urdf import NO_ARGUMENTS, Note
 
 _YAML = frozenset({".yaml", ".yml"})
 
@@ -53,13 +53,16 @@ class RobotSummary:
     notes: tuple[Note, ...] = ()
 
 
-def robot_summary(path: Path, *, flange: str | None = None, mass_kg: float | None = None) -> RobotSummary:
+def robot_summary(
+    path: Path, *, flange: str | None = None, mass_kg: float | None = None, xacro: Mapping[str, str] = NO_ARGUMENTS
+) -> RobotSummary:
     """Summarise the arm of a URDF or of a robot file.
 
     Args:
         path: The URDF, or the robot file.
         flange: Of a URDF, the link that carries the gripper; found where None.
         mass_kg: Of a URDF without masses, that of the whole arm.
+        xacro: Arguments, if the URDF is a xacro.
 
     Raises:
         DefinitionError: There is no arm in the URDF, or it is wrong.
@@ -72,7 +75,7 @@ def robot_summary(path: Path, *, flange: str | None = None, mass_kg: float | Non
         urdf = path.parent / str(data["description"])
         return _summary(robot, urdf, urdf.name, assumed_subjects(data))
     with tempfile.TemporaryDirectory() as folder:
-        drafted = drafted_robot(path, Path(folder), flange=flange, mass_kg=mass_kg)
+        drafted = drafted_robot(path, Path(folder), flange=flange, mass_kg=mass_kg, xacro=xacro)
         found = _summary(drafted.robot, drafted.file.with_suffix(".urdf"), path.name, lines_of=path)
         return replace(found, notes=drafted.arm.notes)
 

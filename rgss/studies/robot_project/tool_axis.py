@@ -11,9 +11,7 @@ from numpy.typing import NDArray
 
 from rgss.errors import DefinitionError
 from rgss.scenes import Pose, chain_to, link_solid, origin_of
-from rgss.studies.robot_project.arm_of_urdf import UrdfArm
-from rgss.studies.robot_project.urdf_files import find_named_file
-from rgss.studies.robot_project.urdf_reading import Note
+from rgss.studies.robot_project.urdf import Note, UrdfArm, find_named_file
 
 Array = NDArray[np.float64]
 

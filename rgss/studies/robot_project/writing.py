@@ -7,6 +7,7 @@ import math
 import re
 import shutil
 import tempfile
+import xml.etree.ElementTree as ET
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -26,7 +27,7 @@ from rgss.studies.robot_project.holding import payload_at_reach_kg
 from rgss.studies.robot_project.layout import scene_text
 from rgss.studies.robot_project.reach import SAMPLES, greatest_travel_m
 from rgss.studies.robot_project.robot_text import robot_text
-from rgss.studies.robot_project.urdf_reading import Note
+from rgss.studies.robot_project.urdf import INSTALL, NO_ARGUMENTS, Note, can_decompose, has_concave_meshes
 from rgss.studies.scaffolding import scaffold_texts
 from rgss.studies.schema_headers import cannot_write
 
@@ -35,6 +36,18 @@ _MOST_AXES, _MOST_CELLS = 3, 4
 _NEAR_DOWN_RAD = math.radians(30.0)
 _RESOLUTION_RAD, _RESOLUTION_STEP_RAD = 0.01, 0.0005
 _ITERATIONS = "solver_iterations: 100 # joints follow their targets with any distribution of the arm's masses"
+
+
+class _NoLayoutError(DefinitionError):
+    """No layout was found for an arm.
+
+    Attributes:
+        is_concave: True if hulls that are much larger than the arm's collision meshes may be the reason.
+    """
+
+    def __init__(self, message: str, *, hint: str, is_concave: bool) -> None:
+        super().__init__(message, hint=hint)
+        self.is_concave = is_concave
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,6 +71,7 @@ def write_robot_project(
     tool_axis: str | None = None,
     mass_kg: float | None = None,
     gripper: Path | None = None,
+    xacro: Mapping[str, str] = NO_ARGUMENTS,
 ) -> RobotProject:
     """Write a new project round the arm of a URDF into a folder, which is made if it is not there.
 
@@ -72,13 +86,31 @@ def write_robot_project(
         mass_kg: Mass of the arm with its base, for a URDF without masses.
         gripper: The URDF of a gripper, or that of the arm for the hand that it has; two grippers with sliding fingers
             where None.
+        xacro: Arguments, if one of them is a xacro.
 
     Raises:
         DefinitionError: A URDF is wrong or has no arm that the task can be fitted to, or a file is there already.
     """
     with tempfile.TemporaryDirectory() as scratch:
-        project = Path(scratch) / "project"
-        notes = _write_files(project, urdf, flange, tool_axis, mass_kg, gripper)
+
+        def write(name: str, *, is_decomposed: bool) -> tuple[Path, tuple[Note, ...]]:
+            project = Path(scratch) / name
+            draft = partial(drafted_robot, urdf, project, flange=flange, mass_kg=mass_kg, xacro=xacro)
+            draft = partial(draft, is_decomposed=is_decomposed)
+            draft_gripper = None if gripper is None else partial(_drafted_gripper, gripper, project, urdf, xacro)
+            return project, _write_files(project, tool_axis, draft, draft_gripper)
+
+        try:
+            project, notes = write("project", is_decomposed=False)
+        except _NoLayoutError as error:
+            if not error.is_concave:
+                raise
+            if not can_decompose():
+                raise DefinitionError(error.message, hint=f"{error.hint}. Or {INSTALL}") from error
+            try:
+                project, notes = write("decomposed", is_decomposed=True)
+            except _NoLayoutError:
+                raise error from None
         names = tuple(sorted(path.relative_to(project).as_posix() for path in project.rglob("*") if path.is_file()))
         try:
             for name in names:
@@ -95,16 +127,18 @@ def write_robot_project(
 
 
 def _write_files(
-    project: Path, urdf: Path, flange: str | None, tool_axis: str | None, mass_kg: float | None, gripper: Path | None
+    project: Path,
+    tool_axis: str | None,
+    draft: Callable[..., DraftedRobot],
+    draft_gripper: Callable[[DraftedRobot], DraftedGripper] | None,
 ) -> tuple[Note, ...]:
-    draft = partial(drafted_robot, urdf, project, flange=flange, mass_kg=mass_kg)
     drafted = draft(tool_axis=tool_axis or "z")
     id_ = drafted.robot.id
     texts = scaffold_texts()
     (old,) = (PurePosixPath(name).stem for name in texts if re.fullmatch(r"scenes/robots/[^/]+\.yaml", name))
     axes, own = _axes_down(drafted, tool_axis), None
-    if gripper is not None:
-        axes, own = _axes_of_gripper(gripper, project, urdf, axes, draft=draft)
+    if draft_gripper is not None:
+        axes, own = _axes_of_gripper(draft_gripper, axes, draft=draft)
     reasons: dict[str, str] = {}
     renamed = partial(_renamed, old=old, id_=id_, name=drafted.arm.name)
     if own is not None:
@@ -115,8 +149,8 @@ def _write_files(
             continue
         _write_texts(project, texts, size, renamed=renamed)
         drafted = draft(tool_axis=axis)
-        if own is not None and gripper is not None:
-            own = _drafted_gripper(gripper, project, urdf, drafted)
+        if draft_gripper is not None:
+            own = draft_gripper(drafted)
         files = sorted((project / "scenes" / "grippers").glob("*.yaml"))
         geometries = [load_gripper_file(path, project=project).geometry for path in files]
         _write_resolution(project, drafted.robot, geometries, size)
@@ -125,40 +159,51 @@ def _write_files(
             return drafted.arm.notes if own is None else (*drafted.arm.notes, *own.notes)
         reasons.setdefault(axis, search.reason)
     found = "; ".join(f"with the gripper along {axis}, {reason}" for axis, reason in reasons.items())
-    raise DefinitionError(
+    raise _NoLayoutError(
         f"no layout was found in which {id_} grasps a cup on a table with its tool pointing down: {found}",
         hint=f"is {drafted.flange} the link that carries the gripper (--flange), and one of these its axis out of "
         "the arm (--tool-axis)? An arm that cannot turn its tool down needs a scene and a task of its own",
+        is_concave=_has_concave_meshes(drafted),
     )
 
 
+def _has_concave_meshes(drafted: DraftedRobot) -> bool:
+    folder = drafted.file.parent
+    root = ET.parse(folder / f"{drafted.robot.id}.urdf").getroot()  # noqa: S314 - written by this package
+    return has_concave_meshes(root, folder)
+
+
 def _axes_of_gripper(
-    gripper: Path, project: Path, urdf: Path, axes: Sequence[str], *, draft: Callable[..., DraftedRobot]
+    draft_gripper: Callable[[DraftedRobot], DraftedGripper], axes: Sequence[str], *, draft: Callable[..., DraftedRobot]
 ) -> tuple[tuple[str, ...], DraftedGripper]:
     """Axes of the flange along which a gripper can close on an object, and the gripper along the first of them.
 
     Raises:
         DefinitionError: There is none; the reason along the most likely one.
     """
-    tried = [(axis, _tried(gripper, project, urdf, draft(tool_axis=axis))) for axis in axes]
+    tried = [(axis, _tried(draft_gripper, draft(tool_axis=axis))) for axis in axes]
     found = [(axis, own) for axis, own in tried if isinstance(own, DraftedGripper)]
     if not found:
         raise next(problem for _, problem in tried if isinstance(problem, DefinitionError))
     return tuple(axis for axis, _ in found), found[0][1]
 
 
-def _tried(gripper: Path, project: Path, urdf: Path, drafted: DraftedRobot) -> DraftedGripper | DefinitionError:
+def _tried(
+    draft_gripper: Callable[[DraftedRobot], DraftedGripper], drafted: DraftedRobot
+) -> DraftedGripper | DefinitionError:
     try:
-        return _drafted_gripper(gripper, project, urdf, drafted)
+        return draft_gripper(drafted)
     except DefinitionError as error:
         return error
 
 
-def _drafted_gripper(gripper: Path, project: Path, urdf: Path, drafted: DraftedRobot) -> DraftedGripper:
+def _drafted_gripper(
+    gripper: Path, project: Path, urdf: Path, xacro: Mapping[str, str], drafted: DraftedRobot
+) -> DraftedGripper:
     """The gripper of a URDF; a hand for the URDF of the arm itself."""
     if gripper.is_file() and urdf.is_file() and gripper.samefile(urdf):
         return drafted_hand(urdf, project, drafted)
-    return drafted_gripper(gripper, project)
+    return drafted_gripper(gripper, project, xacro)
 
 
 def _is_written(project: Path, drafted: DraftedRobot, search: CellSearch) -> bool:

@@ -11,8 +11,8 @@ import numpy as np
 
 from rgss.errors import DefinitionError
 from rgss.scenes import LinkSolid, carried_by, link_solid, loads_without_inertia, standing_links
-from rgss.studies.robot_project.urdf_files import find_named_file
-from rgss.studies.robot_project.urdf_reading import Note
+from rgss.studies.robot_project.urdf.files import find_named_file
+from rgss.studies.robot_project.urdf.reading import Note
 
 _LEAST_SHARE = 1e-3
 _GYRATION_M = 0.02

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from rgss.errors import DefinitionError
 from rgss.scenes import MOST_JOINTS, JointKind, chain_to, kind_of
-from rgss.studies.robot_project.urdf_reading import Note
+from rgss.studies.robot_project.urdf.reading import Note
 
 _LONGER_BY = 3
 """Joints by which the arm is longer than what else turns on one of its links; fingers of a hand differ by fewer."""

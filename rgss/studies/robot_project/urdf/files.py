@@ -11,12 +11,11 @@ from pathlib import Path, PurePosixPath
 from rgss.documents import content_digest
 from rgss.errors import DefinitionError
 from rgss.scenes import is_empty_mesh
-from rgss.studies.robot_project.urdf_reading import Note
+from rgss.studies.robot_project.urdf.packages import FOLDERS_UP, package_name
+from rgss.studies.robot_project.urdf.reading import Note
 
 _SCHEME = re.compile(r"^(package|model|file)://")
 _LARGEST_MESH_BYTES = 256 * 1024 * 1024
-_PACKAGE_FILE = "package.xml"
-_FOLDERS_UP = 4
 _LARGEST_EMPTY_MESH_BYTES = 4096
 
 
@@ -80,22 +79,14 @@ def find_named_file(name: str, urdf: Path) -> Path | None:
 def _in_package(rest: str, urdf: Path) -> Iterator[Path]:
     package, _, below = rest.partition("/")
     for folder in urdf.parents:
-        if folder.name == package or _package_name(folder) == package:
+        if folder.name == package or package_name(folder) == package:
             yield folder / below
         yield folder / package / below
     # The package goes by another name here: what follows its name, or a part of that, is looked for above the URDF.
     parts = PurePosixPath(rest).parts
-    for folder in list(urdf.parents)[:_FOLDERS_UP]:
+    for folder in list(urdf.parents)[:FOLDERS_UP]:
         for skipped in range(len(parts) - 1):
             yield folder / PurePosixPath(*parts[skipped:])
-
-
-def _package_name(folder: Path) -> str | None:
-    try:
-        found = re.search(r"<name>\s*([^<\s]+)\s*</name>", (folder / _PACKAGE_FILE).read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError):
-        return None
-    return None if found is None else found[1]
 
 
 def _file(path: Path) -> Path | None:

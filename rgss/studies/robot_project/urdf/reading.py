@@ -1,23 +1,27 @@
-"""Reading of a URDF as others write it: old prefixes, padded names, names that are no identifiers, empty shapes."""
+"""Reading of a URDF as others write it: xacros, old prefixes, names that are no identifiers, empty shapes."""
 
 from __future__ import annotations
 
 import math
 import re
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 from rgss.documents import open_regular
 from rgss.errors import DefinitionError
 from rgss.scenes import number_problems
+from rgss.studies.robot_project.urdf.xacro import expanded, needs_expansion
 
 _LARGEST_URDF_BYTES = 1024 * 1024
 _KEPT = frozenset({"link", "joint", "material"})
 _PREFIX = re.compile(r"</?([A-Za-z_][\w.-]*):")
-_SUBSTITUTION = re.compile(r"\$[({][^)}]*[)}]?")
 _LARGEST_ROUNDING_RAD = 2e-3
+
+NO_ARGUMENTS: Mapping[str, str] = MappingProxyType({})
+"""Arguments of a xacro that has none, or the defaults of all."""
 _SHAPES = {"box": ("size",), "cylinder": ("radius", "length"), "sphere": ("radius",)}
 
 
@@ -34,19 +38,20 @@ class Note:
     rationale: str
 
 
-def read_arm_urdf(urdf: Path) -> tuple[ET.Element, list[Note]]:
+def read_arm_urdf(urdf: Path, xacro: Mapping[str, str] = NO_ARGUMENTS) -> tuple[ET.Element, list[Note]]:
     """Read a URDF for a new project: links, joints and materials, with names that are identifiers.
 
     Args:
-        urdf: The URDF.
+        urdf: The URDF, or a xacro, which is expanded.
+        xacro: Values of the arguments of a xacro.
 
     Returns:
         The URDF, and what was assumed about it.
 
     Raises:
-        DefinitionError: It cannot be read, or is a xacro.
+        DefinitionError: It cannot be read or expanded.
     """
-    root = _parsed(urdf)
+    root = _parsed(urdf, xacro)
     for child in list(root):
         if child.tag not in _KEPT:
             root.remove(child)
@@ -65,8 +70,8 @@ def read_arm_urdf(urdf: Path) -> tuple[ET.Element, list[Note]]:
     return root, notes
 
 
-def _parsed(urdf: Path) -> ET.Element:
-    hint = "name a URDF; a xacro is expanded with the tool of that name first"
+def _parsed(urdf: Path, xacro: Mapping[str, str]) -> ET.Element:
+    hint = "name a URDF, or a xacro"
     try:
         with open_regular(urdf) as file:
             content = file.read(_LARGEST_URDF_BYTES + 1)
@@ -77,16 +82,21 @@ def _parsed(urdf: Path) -> ET.Element:
         raise DefinitionError(f"{urdf} cannot be read: it is not UTF-8", hint=hint) from error
     if len(content) > _LARGEST_URDF_BYTES or "<!DOCTYPE" in text or "<!ENTITY" in text:
         raise DefinitionError(f"{urdf} is larger than 1 MiB or declares a document type", hint=hint)
-    try:
-        root = ET.fromstring(_with_known_prefixes(text))  # noqa: S314 - entities and document types are refused above
-    except ET.ParseError as error:
-        raise DefinitionError(f"{urdf} is not XML: {error}", hint=hint) from error
-    left = next(_xacro_leftovers(root), None)
-    if left is not None:
-        raise DefinitionError(f"{urdf} is a xacro: it has {left}", hint=f"xacro {urdf.name} > arm.urdf")
+    root = _root_of(text, urdf, hint)
+    if needs_expansion(root):
+        name = root.get("name", "")
+        name = urdf.name.partition(".")[0] if not name or "$" in name else name
+        root = _root_of(expanded(urdf, name=name, arguments=xacro), urdf, hint)
     if root.tag != "robot" or root.find("link") is None:
         raise DefinitionError(f"{urdf} is not a URDF: it has no robot with links", hint=hint)
     return root
+
+
+def _root_of(text: str, urdf: Path, hint: str) -> ET.Element:
+    try:
+        return ET.fromstring(_with_known_prefixes(text))  # noqa: S314 - entities and document types were refused
+    except ET.ParseError as error:
+        raise DefinitionError(f"{urdf} is not XML: {error}", hint=hint) from error
 
 
 def _with_known_prefixes(text: str) -> str:
@@ -94,18 +104,6 @@ def _with_known_prefixes(text: str) -> str:
     unknown = sorted({prefix for prefix in _PREFIX.findall(text) if f"xmlns:{prefix}" not in text})
     declared = "".join(f' xmlns:{prefix}="urn:{prefix}"' for prefix in unknown)
     return re.sub(r"<robot\b", lambda found: found[0] + declared, text, count=1)
-
-
-def _xacro_leftovers(root: ET.Element) -> Iterator[str]:
-    for element in root.iter():
-        if "xacro" in element.tag.partition("}")[0] and "}" in element.tag:
-            yield f"<xacro:{element.tag.partition('}')[2]}>"
-        if element.tag in _KEPT:
-            for one in element.iter():
-                for value in one.attrib.values():
-                    found = _SUBSTITUTION.search(value)
-                    if found:
-                        yield found[0]
 
 
 def _rename(root: ET.Element) -> Iterator[Note]:

@@ -1,0 +1,43 @@
+"""Packages of robots, as ROS lays them out: folders with a package file, or with the package's name."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+FOLDERS_UP = 4
+"""Folders above a file that are searched for what it names, where its package goes by another name."""
+
+_PACKAGE_FILE = "package.xml"
+
+
+def package_folder(package: str, urdf: Path) -> Path | None:
+    """Folder of a package, seen from a URDF; None where it is not there.
+
+    Args:
+        package: The name of the package.
+        urdf: The URDF.
+    """
+    for folder in urdf.resolve().parents:
+        if folder.name == package or package_name(folder) == package:
+            return folder
+        if (folder / package).is_dir():
+            return folder / package
+    for folder in list(urdf.resolve().parents)[:FOLDERS_UP]:
+        for inside in sorted(folder.glob("*/")):
+            if package_name(inside) == package:
+                return inside
+    return None
+
+
+def package_name(folder: Path) -> str | None:
+    """Name of the package that a folder states to be; None without one.
+
+    Args:
+        folder: The folder.
+    """
+    try:
+        found = re.search(r"<name>\s*([^<\s]+)\s*</name>", (folder / _PACKAGE_FILE).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError):
+        return None
+    return None if found is None else found[1]
