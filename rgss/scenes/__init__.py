@@ -31,7 +31,7 @@ from rgss.scenes.grasps import (
     settled_grasp,
     surface_of,
 )
-from rgss.scenes.gripper import Gripper, GripperDrive, GripperFile, GripperGeometry, Suction
+from rgss.scenes.gripper import Gripper, GripperDrive, GripperFile, GripperGeometry, Suction, boss_height_m
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file
 from rgss.scenes.hands import (
     LinkageGripperDocument,

@@ -11,6 +11,7 @@ from rgss.scenes.pose import Pose
 from rgss.scenes.shapes import Box, Cylinder
 
 _CUP_MASS_SHARE = 0.05
+_BOSS_M = 1.0e-3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,8 +58,13 @@ class GripperGeometry:
 
     @property
     def palm_height_m(self) -> float:
-        """Distance along z from the flange to the palm in m, the limit for an object between the fingers."""
-        return self.base.height_m if self.linkage is None else min(self.base.height_m, self.linkage.palm_height_m)
+        """Distance along z from the flange to the palm in m, the limit for an object between the fingers.
+
+        What protrudes from the fingers before their pads is a limit too.
+        """
+        if self.linkage is None:
+            return self.base.height_m
+        return min(self.base.height_m, max(self.linkage.palm_height_m, boss_height_m(self.linkage)))
 
     @property
     def tip_height_m(self) -> float:
@@ -215,3 +221,16 @@ class Gripper:
     def mass_kg(self) -> float:
         """Mass of the whole gripper."""
         return self.base_mass_kg + self.geometry.fingers * self.finger_mass_kg
+
+
+def boss_height_m(linkage: Linkage) -> float:
+    """Distance along z from the flange to the end of what protrudes before the faces of the pads in m; else 0.
+
+    Args:
+        linkage: The mechanism.
+    """
+    poses = linkage.link_poses(linkage.opened)
+    hulls = ((pad, hull) for pad in linkage.pads for hull in linkage.links[pad.link].hulls_m)
+    corners = ((pad, Pose(position_m=corner)) for pad, hull in hulls for corner in hull)
+    before = ((pad, at) for pad, at in corners if (pad.frame.inverse() @ at).position_m[0] < -_BOSS_M)
+    return max(((poses[pad.link] @ at).position_m[2] for pad, at in before), default=0.0)

@@ -92,8 +92,7 @@ class Linkage:
         """Indices of the links that are fixed relative to the flange."""
         still: list[int] = []
         for index, link in enumerate(self.links):
-            if link.kind is None and (link.parent < 0 or link.parent in still):
-                still.append(index)
+            still += [index] if link.kind is None and (link.parent < 0 or link.parent in still) else []
         return tuple(still)
 
     @property
@@ -129,9 +128,8 @@ class Linkage:
 
     def _height_m(self, links: Iterable[int], driven: float) -> float:
         poses = self.link_poses(driven)
-        corners = ((index, corner) for index in links for hull in self.links[index].hulls_m for corner in hull)
-        heights = [poses[index].position_m[2] + poses[index].rotate(corner)[2] for index, corner in corners]
-        return max(heights, default=0.0)
+        corners = ((poses[index], corner) for index in links for hull in self.links[index].hulls_m for corner in hull)
+        return max((pose.position_m[2] + pose.rotate(corner)[2] for pose, corner in corners), default=0.0)
 
     def joint_position(self, link: int, driven: float) -> float:
         """Position of the joint of a link, in rad or m.
@@ -240,7 +238,7 @@ class LinkageMotion:
     @property
     def greatest_transmission(self) -> float:
         """Greatest travel of a pad per travel of the driven joint."""
-        return max(self._slope(index) for index in range(_SAMPLES))
+        return max(map(self._slope, range(_SAMPLES)))
 
     def travel_m(self, driven: float) -> float:
         """Travel of each pad from open in m; clipped to the stroke.
@@ -248,10 +246,9 @@ class LinkageMotion:
         Args:
             driven: Position of the driven joint.
         """
-        place = min(max((driven - self._driven[0]) / self._step, 0.0), float(_SAMPLES))
-        index = min(int(place), _SAMPLES - 1)
+        index, share = self._sample(driven)
         before_m, after_m = self._travels_m[index : index + 2]
-        return before_m + (place - index) * (after_m - before_m)
+        return before_m + share * (after_m - before_m)
 
     def driven_at(self, travel_m: float) -> float:
         """Position of the driven joint for a travel of each pad from open.
@@ -271,8 +268,7 @@ class LinkageMotion:
         Args:
             driven: Position of the driven joint.
         """
-        place = min(max((driven - self._driven[0]) / self._step, 0.0), float(_SAMPLES))
-        return self._slope(min(int(place), _SAMPLES - 1))
+        return self._slope(self._sample(driven)[0])
 
     def axial_slope(self, driven: float) -> float:
         """Travel of the pads along the tool axis, away from the flange, per travel towards each other.
@@ -280,10 +276,15 @@ class LinkageMotion:
         Args:
             driven: Position of the driven joint.
         """
-        place = min(max((driven - self._driven[0]) / self._step, 0.0), float(_SAMPLES))
-        before, after = self._driven[index := min(int(place), _SAMPLES - 1)], self._driven[index + 1]
+        index, _ = self._sample(driven)
+        before, after = self._driven[index : index + 2]
         axial_m = self.linkage.depth_m(after) - self.linkage.depth_m(before)
         return axial_m / (self._travels_m[index + 1] - self._travels_m[index])
+
+    def _sample(self, driven: float) -> tuple[int, float]:
+        """Last sample before a position of the driven joint, and its share of the way to the next."""
+        place = min(max((driven - self._driven[0]) / self._step, 0.0), float(_SAMPLES))
+        return (index := min(int(place), _SAMPLES - 1)), place - index
 
     def _slope(self, index: int) -> float:
         return (self._travels_m[index + 1] - self._travels_m[index]) / abs(self._step)

@@ -118,6 +118,9 @@ def _add_link(root: ET.Element, link: LinkageLink, name: str, mass_kg: float, fa
     for hull in link.hulls_m:
         for tag in ("collision", "visual"):
             corners = hull if face is None or tag == "visual" else tuple(_behind(*face, corner) for corner in hull)
+            if corners != hull and not any(corner in hull for corner in corners):
+                # Nothing but a plane would remain of a layer of the pad.
+                continue
             geometry = ET.SubElement(ET.SubElement(element, tag), "geometry")
             geometry.append(convex_element(corners))
 

@@ -31,7 +31,7 @@ OWN_WRITERS = {
     "rgss/studies/robot_project/draft.py",
     "rgss/studies/robot_project/drafted_gripper.py",
     "rgss/studies/robot_project/fitting.py",
-    "rgss/studies/robot_project/following_finger.py",
+    "rgss/studies/robot_project/fingers_of_urdf.py",
     "rgss/studies/robot_project/writing.py",
     "rgss/studies/scaffolding.py",
     "rgss/sweep/worker_process.py",

@@ -11,6 +11,7 @@ import trimesh
 
 from rgss.errors import DefinitionError
 from rgss.studies.robot_project import write_robot_project, writing
+from rgss.studies.robot_project.unfit_shapes import UnfitShapesError, is_any_mesh_concave
 from rgss.studies.robot_project.urdf import decompose, has_concave_meshes
 from tests.fixtures.serial_arms import SIX_WITHOUT_DECOMPOSITION as SIX
 from tests.fixtures.serial_arms import serial_urdf
@@ -58,8 +59,7 @@ def test_the_parts_of_a_ring_leave_its_hole_free(arm):
     parts = root.findall("link[@name='link_1']/collision")
     assert 4 <= len(parts) <= 16
     assert note.rationale == (
-        f"With the hulls of its collision meshes no layout was found. {len(parts)} convex parts stand for those of "
-        "link_1."
+        f"The hulls of its collision meshes did not suit the task. {len(parts)} convex parts stand for those of link_1."
     )
     assert {part.find("origin").get("xyz") for part in parts} == {"0 0 0.01"}
     turns = np.linspace(0.0, 2 * np.pi, 50)
@@ -82,8 +82,8 @@ def search(monkeypatch):
             meshes = sorted(path.name for path in project.rglob("*.stl"))
             seen.append(meshes)
             if also_parts_fail or len(seen) == 1:
-                raise writing._NoLayoutError(
-                    f"no layout {len(seen)}", hint="turn it", is_concave=writing._has_concave_meshes(drafted)
+                raise UnfitShapesError(
+                    f"no layout {len(seen)}", hint="turn it", is_concave=is_any_mesh_concave(project)
                 )
             return drafted.arm.notes
 

@@ -9,9 +9,11 @@ import shutil
 import xml.etree.ElementTree as ET
 
 import pytest
+import trimesh
 import yaml
 
 from rgss.cli.main import main
+from rgss.errors import DefinitionError
 from rgss.scenes import load_gripper_file
 from rgss.studies.robot_project.drafted_gripper import drafted_gripper
 from tests.robots.conftest import urdf_of
@@ -197,6 +199,55 @@ def test_a_mirrored_range_is_followed_backwards(tmp_path):
     assert 'multiplier="-1"' in (tmp_path / "one" / "scenes" / "grippers" / "jaws.urdf").read_text(encoding="utf-8")
     assert found.geometry.largest_opening_m == pytest.approx(expected.geometry.largest_opening_m)
     assert found.geometry.stroke_m == pytest.approx(expected.geometry.stroke_m)
+
+
+@pytest.mark.parametrize(("kind", "assumed"), [("prismatic", ("0.05 m/s", "40 N")), ("revolute", ("1 rad/s", "2 N*m"))])
+def test_a_drive_without_speed_or_effort_is_assumed(tmp_path, kind, assumed):
+    text = JAWS if kind == "prismatic" else TWO_FINGER.read_text(encoding="utf-8")
+    lacking = re.sub(r'effort="[^"]*" velocity="[^"]*"', 'effort="0" velocity="0"', text)
+    assert lacking != text
+    (tmp_path / "g.urdf").write_text(lacking, encoding="utf-8")
+    drafted = drafted_gripper(tmp_path / "g.urdf", tmp_path / "project")
+
+    found = {note.about: note.rationale for note in drafted.notes if note.rationale.startswith("The URDF has no")}
+    assert list(found) == ["speed", "force"]
+    for rationale, value in zip(found.values(), assumed, strict=True):
+        assert rationale.endswith(f": {value}.")
+    assert drafted.force_n > 0.0
+
+
+FINGER = """<collision><geometry><mesh filename="{}.stl"/></geometry></collision>"""
+
+
+@pytest.fixture
+def bossed(tmp_path):
+    """The jaws with meshes of two boxes: a pad, and before it a boss of 14 mm near the palm; their hull has no pad."""
+    text = JAWS
+    for name, sign in (("left", 1.0), ("right", -1.0)):
+        pad = trimesh.creation.box(bounds=[[-0.01, 0.0, 0.0], [0.01, 0.01, 0.04]])
+        boss = trimesh.creation.box(bounds=[[-0.01, -0.014, 0.0], [0.01, 0.0, 0.003]])
+        mesh = trimesh.util.concatenate([pad, boss])
+        mesh.apply_scale([1.0, sign, 1.0])
+        mesh.fix_normals()
+        mesh.export(tmp_path / f"{name}.stl")
+        before, link, after = text.partition(f'<link name="{name}">')
+        text = before + link + re.sub(r"<collision>.*</collision>", FINGER.format(name), after, count=1)
+    (tmp_path / "jaws.urdf").write_text(text, encoding="utf-8")
+    return tmp_path / "jaws.urdf"
+
+
+def test_a_finger_with_a_boss_has_its_pad_in_the_parts_of_its_mesh(bossed, tmp_path):
+    with pytest.raises(DefinitionError, match=r"^jaws\.urdf "):
+        drafted_gripper(bossed, tmp_path / "hull")
+    geometry = drafted_gripper(bossed, tmp_path / "parts", is_decomposed=True).geometry
+
+    assert geometry.finger.size_m == pytest.approx((0.01, 0.02, 0.037), abs=1e-6)
+    assert geometry.largest_opening_m == pytest.approx(0.03, abs=1e-6)
+    assert geometry.least_opening_m == pytest.approx(0.014, abs=1e-6)
+    assert geometry.palm_height_m == pytest.approx(0.063, abs=1e-6)
+    (cup, *_) = drafted_gripper(bossed, tmp_path / "again", is_decomposed=True).cups
+    # Its top stays 10 mm below the bosses.
+    assert geometry.grasp_depth_m - cup.height_m / 2 >= 0.063 + 0.01 - 1e-9
 
 
 def test_a_fast_gripper_of_long_pads_is_slowed_and_grasps_near_its_tips(tmp_path):

@@ -64,6 +64,36 @@ def test_jaws_close_where_they_meet_and_the_effort_is_shared(jaws):
     assert file.drive.firm_force_n == 2.0
 
 
+BOSS = '<collision><origin xyz="0 {} {}"/><geometry><box size="0.02 0.004 0.005"/></geometry></collision></link>'
+
+
+def with_bosses(height_m):
+    """The jaws, each with a boss that protrudes by 4 mm before its face, 5 mm long, at a height of its middle."""
+    text = JAWS
+    for name, y_m in (("left", -0.002), ("right", 0.002)):
+        before, link, after = text.partition(f'<link name="{name}">')
+        text = before + link + after.replace("</link>", BOSS.format(y_m, height_m), 1)
+    return text
+
+
+def test_a_boss_near_the_palm_is_no_pad(jaws):
+    """The pad begins past it, objects stay below it, and the jaws meet at the bosses."""
+    geometry = jaws(JAWS, with_bosses(0.003)).geometry
+
+    assert geometry.finger.size_m == pytest.approx((0.01, 0.02, 0.04 - 0.0055))
+    assert (geometry.largest_opening_m, geometry.least_opening_m) == pytest.approx((0.03, 0.004), abs=1e-9)
+    assert geometry.base.height_m == geometry.palm_height_m == pytest.approx(0.06 + 0.0055)
+    assert geometry.grasp_depth_m == pytest.approx(0.06 + 0.0055 + 0.0345 / 2)
+
+
+def test_what_protrudes_at_the_tip_is_the_pad(jaws):
+    geometry = jaws(JAWS, with_bosses(0.0375)).geometry
+
+    assert geometry.finger.size_m == pytest.approx((0.014, 0.02, 0.005))
+    assert (geometry.largest_opening_m, geometry.least_opening_m) == pytest.approx((0.026, 0.0), abs=1e-9)
+    assert geometry.palm_height_m == pytest.approx(0.06)
+
+
 def test_the_grasp_may_be_nearer_to_the_tip(jaws):
     geometry = jaws(more="grasp_from_tip: 10 mm\n").geometry
 

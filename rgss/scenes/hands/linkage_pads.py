@@ -19,6 +19,8 @@ _LEAST_STROKE_M = 1.0e-3
 _LEAST_PAD_M = 4.0e-3
 _TOLERANCE_M = 1.0e-3
 _FACE_M = 6.0e-4
+# An innermost face with less than this share of another's area is a boss.
+_SMALL_SHARE = 0.5
 _LARGEST_M = 1.0
 _LARGEST_KG = 50.0
 _HALVINGS = 60
@@ -85,8 +87,9 @@ def linkage_of(links: tuple[LinkageLink, ...], pads: tuple[int, int], driven: Dr
     if not opens_low:
         bare = replace(bare, opened=driven.upper, closed=driven.lower)
     azimuth = math.atan2(outward[1], outward[0])
-    found = tuple(_face(bare, index, angle) for index, angle in zip(pads, (azimuth, azimuth + math.pi), strict=True))
-    return _closing(replace(bare, pads=found))
+    found = [_face(bare, index, angle) for index, angle in zip(pads, (azimuth, azimuth + math.pi), strict=True)]
+    boss_m = max(boss_m for _, boss_m in found)
+    return _closing(replace(bare, pads=tuple(pad for pad, _ in found)), boss_m)
 
 
 def _require_metres(linkage: Linkage) -> None:
@@ -137,33 +140,89 @@ def _outward(linkage: Linkage, pads: tuple[int, int]) -> tuple[tuple[float, floa
     return (sign * x, sign * y), opens_low
 
 
-def _face(linkage: Linkage, index: int, azimuth: float) -> LinkagePad:
-    """Innermost face of a link, towards the tool axis."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _FlatFace:
+    """Flat face of a link towards the tool axis.
+
+    Attributes:
+        depth_m: Its distance from the tool axis.
+        across_m: Its ends across the tool axis.
+        along_m: Its ends along the tool axis, without what the link covers by parts before it.
+    """
+
+    depth_m: float
+    across_m: tuple[float, float]
+    along_m: tuple[float, float]
+
+    @property
+    def size_m(self) -> tuple[float, float]:
+        """Width and length."""
+        return self.across_m[1] - self.across_m[0], self.along_m[1] - self.along_m[0]
+
+    @property
+    def area_m2(self) -> float:
+        """Its area, 0 without a least size."""
+        width_m, length_m = self.size_m
+        return width_m * length_m if min(width_m, length_m) >= _LEAST_PAD_M else 0.0
+
+
+def _face(linkage: Linkage, index: int, azimuth: float) -> tuple[LinkagePad, float]:
+    """Contact face of a link, and how far others protrude before it.
+
+    It is the innermost face, unless that is small beside another that an object can touch.
+
+    A finger may have a boss near the palm that protrudes before its pad.
+    """
     link, pose = linkage.links[index], linkage.link_poses(linkage.opened)[index]
     x, y = math.cos(azimuth), math.sin(azimuth)
-    corners = [_moved(pose, corner) for hull in link.hulls_m for corner in hull]
-    depths = [x * px + y * py for px, py, _ in corners]
-    inner = min(depths)
-    face = [corner for corner, depth in zip(corners, depths, strict=True) if depth < inner + _FACE_M]
-    across = [y * -px + x * py for px, py, _ in face]
-    along = [pz for _, _, pz in face]
-    width, length = max(across) - min(across), max(along) - min(along)
-    if min(width, length) < _LEAST_PAD_M:
-        message = f"has no flat face of 4 mm on the pad {link.name!r}: {width * 1e3:.3g} mm x {length * 1e3:.3g} mm"
+    hulls = [
+        [(x * px + y * py, y * -px + x * py, pz) for px, py, pz in (_moved(pose, corner) for corner in hull)]
+        for hull in link.hulls_m
+    ]
+    corners = [corner for hull in hulls for corner in hull]
+    innermost = _flat_face(min(depth for depth, _, _ in corners), corners)
+    of_parts = [_flat_face(min(depth for depth, _, _ in hull), corners) for hull in hulls]
+    largest = max(of_parts, key=lambda part: part.area_m2)
+    face = innermost if innermost.area_m2 > _SMALL_SHARE * largest.area_m2 else largest
+    if not face.area_m2:
+        width, length = (1e3 * size_m for size_m in innermost.size_m)
         raise PadError(
-            message,
+            f"has no flat face of 4 mm on the pad {link.name!r}: {width:.3g} mm x {length:.3g} mm",
             ("pads",),
             "give the collision shape a face that is parallel to the tool axis, or state the gripper by its sizes "
             "(kind: parallel)",
         )
-    aside, height = (max(across) + min(across)) / 2, (max(along) + min(along)) / 2
+    inner, aside, height = face.depth_m, sum(face.across_m) / 2, sum(face.along_m) / 2
     place = (inner * x - aside * y, inner * y + aside * x, height)
     frame = pose.inverse() @ Pose.from_roll_pitch_yaw(place, (0.0, 0.0, azimuth))
-    return LinkagePad(link=index, frame=frame, size_m=(max(depths) - inner, width, length))
+    pad = LinkagePad(link=index, frame=frame, size_m=(max(depth for depth, _, _ in corners) - inner, *face.size_m))
+    return pad, inner - innermost.depth_m
 
 
-def _closing(linkage: Linkage) -> Linkage:
-    """Linkage with its stroke ended where the pads meet; both must close symmetrically on the tool axis."""
+def _flat_face(depth_m: float, corners: Sequence[Triple]) -> _FlatFace:
+    """Face of a link at a depth.
+
+    Args:
+        depth_m: Distance from the tool axis.
+        corners: All corners of the link: distance from the tool axis, place across it and along it.
+    """
+    face = [corner for corner in corners if depth_m <= corner[0] < depth_m + _FACE_M]
+    across, along = [corner[1] for corner in face], [corner[2] for corner in face]
+    covered_m = max((corner[2] for corner in corners if corner[0] < depth_m - _FACE_M), default=-math.inf)
+    return _FlatFace(
+        depth_m=depth_m,
+        across_m=(min(across), max(across)),
+        along_m=(min(max(min(along), covered_m), max(along)), max(along)),
+    )
+
+
+def _closing(linkage: Linkage, boss_m: float) -> Linkage:
+    """Linkage with its stroke ended where the fingers meet; both must close symmetrically on the tool axis.
+
+    Args:
+        linkage: The mechanism with its pads.
+        boss_m: Greatest distance by which a finger protrudes before its pad.
+    """
     names = " and ".join(repr(linkage.links[pad.link].name) for pad in linkage.pads)
     hint = "correct the pose of the palm under 'mount': z out of the arm, and the pads on both sides of the axis"
     span = linkage.closed - linkage.opened
@@ -177,12 +236,12 @@ def _closing(linkage: Linkage) -> Linkage:
         offset_m = abs(one.position_m[2] - other.position_m[2])
         if offset_m > _TOLERANCE_M:
             raise PadError(f"has the pads {names} {offset_m * 1e3:.3g} mm apart along the axis", ("pads",), hint)
-    if openings[0] <= _LEAST_STROKE_M:
+    if openings[0] - boss_m <= _LEAST_STROKE_M:
         message = f"never opens the pads {names}"
         raise PadError(message, ("pads",), "their inner faces must face each other")
-    end = next((index for index, opening in enumerate(openings) if opening < 0.0), None)
+    end = next((index for index, opening in enumerate(openings) if opening < boss_m), None)
     if end is not None:
-        linkage = replace(linkage, closed=_meeting(linkage, opened[end - 1], opened[end]))
+        linkage = replace(linkage, closed=_meeting(linkage, opened[end - 1], opened[end], boss_m))
         openings = openings[: end + 1]
     if any(later >= before for before, later in pairwise(openings)):
         message = f"makes the pads {names} approach and separate again"
@@ -192,11 +251,11 @@ def _closing(linkage: Linkage) -> Linkage:
     return linkage
 
 
-def _meeting(linkage: Linkage, apart: float, crossed: float) -> float:
-    """Position of the driven joint at which the pads touch each other, by bisection."""
+def _meeting(linkage: Linkage, apart: float, crossed: float, boss_m: float) -> float:
+    """Position of the driven joint at which the fingers touch each other, by bisection."""
     for _ in range(_HALVINGS):
         middle = (apart + crossed) / 2
-        if linkage.opening_m(middle) < 0.0:
+        if linkage.opening_m(middle) < boss_m:
             crossed = middle
         else:
             apart = middle

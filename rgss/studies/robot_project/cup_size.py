@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.scenes import GripperGeometry, Linkage, Pose, at_opening, motion_of
+from rgss.scenes import GripperGeometry, Linkage, Pose, at_opening, boss_height_m, motion_of
 from rgss.studies.robot_project.layout import Cup
 
 Array = NDArray[np.float64]
@@ -90,7 +90,7 @@ def _reach_above_m(geometry: GripperGeometry, radius_m: float) -> float:
     motion = motion_of(linkage)
     pads = {pad.link for pad in linkage.pads}
     fingers = {index for parts in linkage.finger_parts for index in parts}
-    deepest_m = 0.0
+    deepest_m = boss_height_m(linkage)
     for driven in np.linspace(linkage.opened, motion.driven_at(motion.largest_opening_m - radius_m), _CLOSING_SAMPLES):
         for index, pose in enumerate(linkage.link_poses(float(driven))):
             for points_m in () if index in pads else _points(linkage, index, pose):

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rgss.errors import DefinitionError, DocumentError
-from rgss.scenes import GripperGeometry, Pose, find_pads, load_gripper_file, origin_of
+from rgss.scenes import GripperGeometry, Pose, carried_by, find_pads, load_gripper_file, origin_of
 from rgss.studies.robot_project.cup_size import cups_of, grasp_from_tip_m
 from rgss.studies.robot_project.draft import DraftedRobot, identifier_of
-from rgss.studies.robot_project.following_finger import let_one_finger_follow
+from rgss.studies.robot_project.fingers_of_urdf import assume_drive, let_one_finger_follow
 from rgss.studies.robot_project.layout import Cup
 from rgss.studies.robot_project.tool_axis import TOOL_AXES
-from rgss.studies.robot_project.urdf import NO_ARGUMENTS, Note, copy_named_files, read_arm_urdf
+from rgss.studies.robot_project.urdf import NO_ARGUMENTS, Note, copy_named_files, decompose, read_arm_urdf
 
 _LARGEST_SPEED_M_S, _LARGEST_FORCE_N = 0.05, 20.0
 
@@ -40,13 +40,14 @@ class DraftedGripper:
     notes: tuple[Note, ...]
 
 
-def drafted_hand(urdf: Path, project: Path, drafted: DraftedRobot) -> DraftedGripper:
+def drafted_hand(urdf: Path, project: Path, drafted: DraftedRobot, *, is_decomposed: bool = False) -> DraftedGripper:
     """Draft the gripper file of the hand that an arm's own URDF has.
 
     Args:
         urdf: The URDF of the arm.
         project: The folder of the project, with the drafted robot.
         drafted: The arm.
+        is_decomposed: True to divide concave collision meshes of the hand into convex parts.
 
     Raises:
         DefinitionError: The arm has no hand, or the hand is no mechanism that can be simulated.
@@ -69,6 +70,9 @@ def drafted_hand(urdf: Path, project: Path, drafted: DraftedRobot) -> DraftedGri
     if others := [name for name in drafted.arm.hands if name != palm]:
         rationale = f"{', '.join(others)} of the URDF, beside the palm, {'are' if len(others) > 1 else 'is'} left out."
         notes.append(Note(about="description", rationale=rationale))
+    if is_decomposed:
+        notes += decompose(root, copy.parent, only=carried_by(root, [palm]))
+        copy.write_text(ET.tostring(root, encoding="unicode") + "\n", encoding="utf-8")
     mount = Pose() if drafted.arm.flange == drafted.flange else origin_of(joints[drafted.arm.flange])
     pose = origin_of(joints[palm]).relative_to(mount)
     return _drafted(
@@ -76,7 +80,9 @@ def drafted_hand(urdf: Path, project: Path, drafted: DraftedRobot) -> DraftedGri
     )
 
 
-def drafted_gripper(urdf: Path, project: Path, xacro: Mapping[str, str] = NO_ARGUMENTS) -> DraftedGripper:
+def drafted_gripper(
+    urdf: Path, project: Path, xacro: Mapping[str, str] = NO_ARGUMENTS, *, is_decomposed: bool = False
+) -> DraftedGripper:
     """Draft the gripper file of a URDF that describes a gripper alone, and copy the files that it names.
 
     The gripper is mounted at the base of its URDF, along the axis on which its pads are.
@@ -85,6 +91,7 @@ def drafted_gripper(urdf: Path, project: Path, xacro: Mapping[str, str] = NO_ARG
         urdf: The URDF.
         project: The folder of the project.
         xacro: Arguments, if the URDF is a xacro.
+        is_decomposed: True to divide concave collision meshes into convex parts.
 
     Raises:
         DefinitionError: The URDF is wrong, a file that it names is missing, or it is no mechanism that can be
@@ -94,6 +101,8 @@ def drafted_gripper(urdf: Path, project: Path, xacro: Mapping[str, str] = NO_ARG
     grippers = project / "scenes" / "grippers"
     grippers.mkdir(parents=True, exist_ok=True)
     notes += copy_named_files(root, urdf, grippers)
+    if is_decomposed:
+        notes += decompose(root, grippers)
     id_ = identifier_of(root.get("name", ""), prefix="gripper")
     ET.indent(root)
     copy = grippers / f"{id_}.urdf"
@@ -114,7 +123,7 @@ def _drafted(
 ) -> DraftedGripper:
     grippers = project / "scenes" / "grippers"
     grippers.mkdir(parents=True, exist_ok=True)
-    notes = [*notes, *let_one_finger_follow(copy, palm)]
+    notes = [*notes, *let_one_finger_follow(copy, palm), *assume_drive(copy, palm)]
     try:
         pads = find_pads(copy, palm=palm, project=project, mounts=mounts)
         file = grippers / f"{id_}.yaml"

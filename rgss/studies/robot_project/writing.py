@@ -7,7 +7,6 @@ import math
 import re
 import shutil
 import tempfile
-import xml.etree.ElementTree as ET
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -18,16 +17,18 @@ from rgss.scenes import GripperGeometry, Robot, load_gripper_file
 from rgss.studies.project import load_project
 from rgss.studies.robot_project.descent_search import NEVER_DOWN, angles_from_vertical_rad
 from rgss.studies.robot_project.draft import DraftedRobot, drafted_robot
-from rgss.studies.robot_project.drafted_gripper import DraftedGripper, drafted_gripper, drafted_hand
+from rgss.studies.robot_project.drafted_gripper import DraftedGripper
 from rgss.studies.robot_project.first_trial import carries_object, has_scene_errors
 from rgss.studies.robot_project.fitting import POINTS_INTO_ARM, CellSearch, FittedCell
+from rgss.studies.robot_project.gripper_axes import axes_of_gripper, gripper_or_hand
 from rgss.studies.robot_project.gripper_texts import with_gripper
 from rgss.studies.robot_project.hand_size import HandSize, hand_sizes
 from rgss.studies.robot_project.holding import payload_at_reach_kg
 from rgss.studies.robot_project.layout import scene_text
 from rgss.studies.robot_project.reach import SAMPLES, greatest_travel_m
 from rgss.studies.robot_project.robot_text import robot_text
-from rgss.studies.robot_project.urdf import INSTALL, NO_ARGUMENTS, Note, can_decompose, has_concave_meshes
+from rgss.studies.robot_project.unfit_shapes import UnfitShapesError, is_any_mesh_concave
+from rgss.studies.robot_project.urdf import INSTALL, NO_ARGUMENTS, Note, can_decompose
 from rgss.studies.scaffolding import scaffold_texts
 from rgss.studies.schema_headers import cannot_write
 
@@ -36,18 +37,6 @@ _MOST_AXES, _MOST_CELLS = 3, 4
 _NEAR_DOWN_RAD = math.radians(30.0)
 _RESOLUTION_RAD, _RESOLUTION_STEP_RAD = 0.01, 0.0005
 _ITERATIONS = "solver_iterations: 100 # joints follow their targets with any distribution of the arm's masses"
-
-
-class _NoLayoutError(DefinitionError):
-    """No layout was found for an arm.
-
-    Attributes:
-        is_concave: True if hulls that are much larger than the arm's collision meshes may be the reason.
-    """
-
-    def __init__(self, message: str, *, hint: str, is_concave: bool) -> None:
-        super().__init__(message, hint=hint)
-        self.is_concave = is_concave
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,23 +82,27 @@ def write_robot_project(
     """
     with tempfile.TemporaryDirectory() as scratch:
 
-        def write(name: str, *, is_decomposed: bool) -> tuple[Path, tuple[Note, ...]]:
+        def write(name: str, *, is_decomposed: bool, is_gripper: bool = False) -> tuple[Path, tuple[Note, ...]]:
             project = Path(scratch) / name
             draft = partial(drafted_robot, urdf, project, flange=flange, mass_kg=mass_kg, xacro=xacro)
-            draft = partial(draft, is_decomposed=is_decomposed)
-            draft_gripper = None if gripper is None else partial(_drafted_gripper, gripper, project, urdf, xacro)
+            draft = partial(draft, is_decomposed=is_decomposed and not is_gripper)
+            draft_gripper = None
+            if gripper is not None:
+                draft_gripper = partial(
+                    gripper_or_hand, gripper, project, urdf, xacro=xacro, is_decomposed=is_decomposed
+                )
             return project, _write_files(project, tool_axis, draft, draft_gripper)
 
         try:
             project, notes = write("project", is_decomposed=False)
-        except _NoLayoutError as error:
+        except UnfitShapesError as error:
             if not error.is_concave:
                 raise
             if not can_decompose():
                 raise DefinitionError(error.message, hint=f"{error.hint}. Or {INSTALL}") from error
             try:
-                project, notes = write("decomposed", is_decomposed=True)
-            except _NoLayoutError:
+                project, notes = write("decomposed", is_decomposed=True, is_gripper=error.is_gripper)
+            except UnfitShapesError:
                 raise error from None
         names = tuple(sorted(path.relative_to(project).as_posix() for path in project.rglob("*") if path.is_file()))
         try:
@@ -138,7 +131,7 @@ def _write_files(
     (old,) = (PurePosixPath(name).stem for name in texts if re.fullmatch(r"scenes/robots/[^/]+\.yaml", name))
     axes, own = _axes_down(drafted, tool_axis), None
     if draft_gripper is not None:
-        axes, own = _axes_of_gripper(draft_gripper, axes, draft=draft)
+        axes, own = axes_of_gripper(draft_gripper, axes, project, draft=draft)
     reasons: dict[str, str] = {}
     renamed = partial(_renamed, old=old, id_=id_, name=drafted.arm.name)
     if own is not None:
@@ -159,51 +152,12 @@ def _write_files(
             return drafted.arm.notes if own is None else (*drafted.arm.notes, *own.notes)
         reasons.setdefault(axis, search.reason)
     found = "; ".join(f"with the gripper along {axis}, {reason}" for axis, reason in reasons.items())
-    raise _NoLayoutError(
+    raise UnfitShapesError(
         f"no layout was found in which {id_} grasps a cup on a table with its tool pointing down: {found}",
         hint=f"is {drafted.flange} the link that carries the gripper (--flange), and one of these its axis out of "
         "the arm (--tool-axis)? An arm that cannot turn its tool down needs a scene and a task of its own",
-        is_concave=_has_concave_meshes(drafted),
+        is_concave=is_any_mesh_concave(project),
     )
-
-
-def _has_concave_meshes(drafted: DraftedRobot) -> bool:
-    folder = drafted.file.parent
-    root = ET.parse(folder / f"{drafted.robot.id}.urdf").getroot()  # noqa: S314 - written by this package
-    return has_concave_meshes(root, folder)
-
-
-def _axes_of_gripper(
-    draft_gripper: Callable[[DraftedRobot], DraftedGripper], axes: Sequence[str], *, draft: Callable[..., DraftedRobot]
-) -> tuple[tuple[str, ...], DraftedGripper]:
-    """Axes of the flange along which a gripper can close on an object, and the gripper along the first of them.
-
-    Raises:
-        DefinitionError: There is none; the reason along the most likely one.
-    """
-    tried = [(axis, _tried(draft_gripper, draft(tool_axis=axis))) for axis in axes]
-    found = [(axis, own) for axis, own in tried if isinstance(own, DraftedGripper)]
-    if not found:
-        raise next(problem for _, problem in tried if isinstance(problem, DefinitionError))
-    return tuple(axis for axis, _ in found), found[0][1]
-
-
-def _tried(
-    draft_gripper: Callable[[DraftedRobot], DraftedGripper], drafted: DraftedRobot
-) -> DraftedGripper | DefinitionError:
-    try:
-        return draft_gripper(drafted)
-    except DefinitionError as error:
-        return error
-
-
-def _drafted_gripper(
-    gripper: Path, project: Path, urdf: Path, xacro: Mapping[str, str], drafted: DraftedRobot
-) -> DraftedGripper:
-    """The gripper of a URDF; a hand for the URDF of the arm itself."""
-    if gripper.is_file() and urdf.is_file() and gripper.samefile(urdf):
-        return drafted_hand(urdf, project, drafted)
-    return drafted_gripper(gripper, project, xacro)
 
 
 def _is_written(project: Path, drafted: DraftedRobot, search: CellSearch) -> bool:

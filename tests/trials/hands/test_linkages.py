@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import copy
 import math
+import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 import pytest
 
 from rgss.kinematics import gripper_loads
 from rgss.physics.linkage_drive import least_iterations
-from rgss.scenes import LinkageMotion, at_opening, load_gripper_file
+from rgss.scenes import LinkageMotion, assembled_urdf, at_opening, finger_pads, load_gripper_file
 from rgss.trials.payload_bench.rig import PayloadRig, probe
 from rgss.trials.second_engine import mujoco_settings
-from tests.trials.hands.gripper_files import FILES, HELD, gripper_of, with_thin_pads
+from tests.trials.hands.gripper_files import FILES, HELD, gripper_of, linkage_file, with_thin_pads
 
 MASS_KG = 0.3
 
@@ -153,3 +155,34 @@ def test_loads_are_the_masses_of_the_links(tmp_path):
     assert crank.pose.position_m == pytest.approx((0.012 + 0.01625, 0.0, 0.07 + 0.02315))
     assert tip.pose.position_m == pytest.approx((0.0445 + 0.005, 0.0, 0.1163 + 0.025))
     assert sorted(tip.moments_kg_m2) == pytest.approx([6e-6, 2.4e-5, 2.6e-5])
+
+
+def test_a_layer_of_a_pad_is_left_to_its_contact_elements(spec_of, tmp_path):
+    """What lies within the margin behind a face would be flattened to a plane, which is no solid."""
+    names, layers = ("left_tip", "right_tip"), {}
+    for name in ("plain", "with a layer"):
+        folder = tmp_path / name
+        folder.mkdir()
+        linkage_file(folder)
+        urdf = ET.parse(folder / "two_finger.urdf")  # noqa: S314 - written here
+        for link in (urdf.find(f"link[@name='{one}']") for one in names) if name != "plain" else ():
+            # A tenth of a millimetre of the tip's own box; the tips face each other along x of their frames.
+            layer = copy.deepcopy(link.find("collision"))
+            depth, width, length = (float(word) for word in layer.find("geometry/box").get("size").split())
+            layer.find("geometry/box").set("size", f"1e-4 {width} {length}")
+            x, y, z = (float(word) for word in layer.find("origin").get("xyz").split())
+            layer.find("origin").set("xyz", f"{x - (depth - 1e-4) / 2} {y} {z}")
+            link.append(layer)
+        urdf.write(folder / "two_finger.urdf")
+        geometry = at_opening(load_gripper_file(folder / "gripper.yaml").geometry, HELD.radius_m)
+        gripper = replace(gripper_of(tmp_path, "linkage"), geometry=geometry)
+        scene = replace(spec_of().scene, workpiece=replace(spec_of().scene.workpiece, shape=HELD))
+        text = assembled_urdf(scene.robot, gripper, pads=finger_pads(scene, geometry))
+        root = ET.fromstring(text)  # noqa: S314 - our own text
+        layers[name] = [
+            [len(root.findall(f"link[@name='finger_{finger}']/{tag}")) for tag in ("collision", "visual")]
+            for finger in (1, 2)
+        ]
+    (collisions, seen), _ = layers["plain"]
+    assert layers["plain"][0] == layers["plain"][1]
+    assert layers["with a layer"] == [[collisions, seen + 1]] * 2

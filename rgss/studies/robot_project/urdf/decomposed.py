@@ -6,6 +6,7 @@ import copy
 import importlib.util
 import math
 import xml.etree.ElementTree as ET
+from collections.abc import Collection
 from pathlib import Path
 
 from rgss.scenes import mesh_summary, write_convex_parts
@@ -33,12 +34,13 @@ def has_concave_meshes(root: ET.Element, robots: Path) -> bool:
     return any(_is_concave(mesh, robots) for mesh in root.iterfind("link/collision/geometry/mesh"))
 
 
-def decompose(root: ET.Element, robots: Path) -> list[Note]:
+def decompose(root: ET.Element, robots: Path, only: Collection[str] | None = None) -> list[Note]:
     """Replace each concave collision mesh by its convex parts, which are written beside the URDF.
 
     Args:
         root: The URDF; modified in place. Its files are in the folder.
         robots: The folder.
+        only: Links whose meshes are divided; all if None.
 
     Returns:
         What was assumed.
@@ -50,7 +52,8 @@ def decompose(root: ET.Element, robots: Path) -> list[Note]:
     for link in root.findall("link"):
         for shape in link.findall("collision"):
             mesh = shape.find("geometry/mesh")
-            if mesh is None or not _is_concave(mesh, robots):
+            is_wanted = only is None or link.get("name", "") in only
+            if mesh is None or not is_wanted or not _is_concave(mesh, robots):
                 continue
             path = robots / mesh.get("filename", "")
             folder = path.parent / _PARTS
@@ -70,7 +73,7 @@ def decompose(root: ET.Element, robots: Path) -> list[Note]:
         return []
     names = ", ".join(dict.fromkeys(links))
     rationale = (
-        f"With the hulls of its collision meshes no layout was found. {count} convex parts stand for those of {names}."
+        f"The hulls of its collision meshes did not suit the task. {count} convex parts stand for those of {names}."
     )
     return [Note(about="description", rationale=rationale)]
 
