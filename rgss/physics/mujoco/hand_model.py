@@ -18,6 +18,12 @@ GRIPPER_BASE = "gripper_base"
 MACHINE = (1, 2)
 """Collision filter of the robot's shapes, for contacts without an explicit pair: with the scene, not with itself."""
 
+CUP_BIT = 4
+"""Bit of the collision filter by which a suction cup meets objects.
+
+A pair of shapes is in contact at all times, and its filter cannot be changed; that of shapes can.
+"""
+
 # A finger's motor gives all its force once the finger lags by this share of its speed. With less than F dt / (2 M v),
 # which is 0.42 at most for the reference grippers, the finger jumps over the band in a step and closes wrongly.
 _SATURATING_SHARE = 0.5
@@ -75,7 +81,10 @@ def add_hand(parts: HandParts, flange: ET.Element, gripper: Gripper, pads: Seque
     if geometry.cup is not None:
         cup = add_body(base, "suction_cup", geometry.base_pose.inverse() @ geometry.cup_pose)
         add_inertial(cup, gripper.cup_mass_kg, cylinder_inertia(geometry.cup, gripper.cup_mass_kg))
-        add_geom(cup, "suction_cup", geometry.cup, Pose(), touches=MACHINE)
+        add_geom(cup, "suction_cup", geometry.cup, Pose(), touches=(MACHINE[0] | CUP_BIT, MACHINE[1]))
+        (shape,) = cup.findall("geom")
+        # The contact has the attributes of the shape with the greater priority; the bond sets the friction.
+        shape.attrib.update({"priority": "1", "condim": "3", **parts.stiffness})
         return HandModel(base_shapes=base_shapes, finger_shapes={"suction_cup": 0})
     joints = tuple(f"finger:{index}" for index in range(geometry.fingers))
     finger_shapes = _add_fingers(parts, base, gripper, joints, pads)

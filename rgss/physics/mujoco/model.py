@@ -22,6 +22,7 @@ from dataclasses import dataclass
 
 from rgss.errors import SimulationError
 from rgss.physics.mujoco.hand_model import (
+    CUP_BIT,
     MACHINE,
     HandModel,
     HandParts,
@@ -38,7 +39,7 @@ from rgss.scenes import Gripper, Pose, Scene, Workpiece, assembled_urdf, centre_
 
 WORKPIECE = "workpiece"
 
-_SCENE, _ALONE = (2, 1), (0, 0)
+_SCENE = (2, 1)
 _IMPEDANCE = "0.95 0.99 0.0001"
 
 
@@ -180,7 +181,8 @@ class _Builder:
         """
         # Contact of an object with any other part of the machine ends the trial, so its friction is irrelevant.
         frictions = dict.fromkeys(self.links, 0.0)
-        frictions.update(dict.fromkeys(self.finger_shapes, self._gripper.friction))
+        if self._gripper.geometry.cup is None:
+            frictions.update(dict.fromkeys(self.finger_shapes, self._gripper.friction))
         scene = {f"scene:{one.id}": one.friction for one in self._scene.bodies}
         for index, one in enumerate(self._scene.objects):
             workpiece = one.workpiece
@@ -207,7 +209,7 @@ class _Builder:
             if isinstance(shape, tuple):
                 corners = " ".join(numbers(corner) for corner in shape)
                 ET.SubElement(self._asset, "mesh", {"name": names[-1], "vertex": corners})
-            add_geom(body, names[-1], shape, at, touches=_ALONE)
+            add_geom(body, names[-1], shape, at, touches=(0, CUP_BIT if self._gripper.geometry.cup is not None else 0))
         self.object_bodies[workpiece.id] = body_name
         self.object_shapes.update(dict.fromkeys(names, workpiece.id))
         if self._gripper.geometry.cup is not None:

@@ -9,16 +9,16 @@ from numpy.typing import NDArray
 
 from rgss.physics.mujoco.contact_reader import MujocoContactReader
 from rgss.physics.mujoco.engine import mujoco
+from rgss.physics.mujoco.hand_model import CUP_BIT
 from rgss.physics.suction_seal import Vector3
-
-# The engine leaves out contacts that are not deeper than the gap beyond the margin.
-_NO_CONTACT_GAP_M, _CONTACT_GAP_M = 10.0, 0.0
 
 
 class MujocoBond:
     """Implementation of `SuctionBond`, by the weld between the cup and one object."""
 
-    def __init__(self, model: Any, data: Any, reader: MujocoContactReader, *, body: str, lip_m: Vector3) -> None:
+    def __init__(
+        self, model: Any, data: Any, reader: MujocoContactReader, *, body: str, lip_m: Vector3, friction: float
+    ) -> None:
         """Start detached.
 
         Args:
@@ -27,18 +27,15 @@ class MujocoBond:
             reader: Reader of the contacts of the object, which is the workpiece.
             body: Name of the object's body and of its weld.
             lip_m: Centre of the lip in the cup's frame.
+            friction: Coefficient of cup and object while they are in contact without a vacuum.
         """
         self._model, self._data, self._reader = model, data, reader
         self._weld = int(model.equality(body).id)
         self._cup, self._object = int(model.body("suction_cup").id), int(model.body(body).id)
         self._dofs = slice(first := int(model.body_dofadr[self._object]), first + 6)
         self._lip_m = np.array(lip_m)
-        shape, bodies = int(model.geom("suction_cup").id), model.geom_bodyid
-        ends = zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True)
-        self._pairs = np.array(
-            [index for index, pair in enumerate(ends) if shape in pair and self._object in bodies[list(pair)]],
-            dtype=int,
-        )
+        self._shapes = np.flatnonzero(model.geom_bodyid == self._object)
+        model.geom_friction[int(model.geom("suction_cup").id), 0] = friction
 
     @property
     def is_attached(self) -> bool:
@@ -58,12 +55,12 @@ class MujocoBond:
         model.eq_data[self._weld, 3:6] = self._lip_m
         model.eq_data[self._weld, 6:10] = relative
         data.eq_active[self._weld] = 1
-        model.pair_gap[self._pairs] = _NO_CONTACT_GAP_M
+        model.geom_conaffinity[self._shapes] = 0
 
     def detach(self) -> None:
         """Remove the bond."""
         self._data.eq_active[self._weld] = 0
-        self._model.pair_gap[self._pairs] = _CONTACT_GAP_M
+        self._model.geom_conaffinity[self._shapes] = CUP_BIT
 
     def is_borne(self) -> bool:
         """True if anything but the robot pressed on the workpiece in the last step."""

@@ -269,7 +269,10 @@ class MujocoWorld:
         if suction is None:
             return None
         lip_m = (geometry.cup_pose.inverse() @ geometry.lip).position_m
-        bond = MujocoBond(self._model, self._data, self._reader, body=self._bodies[name], lip_m=lip_m)
+        friction = self.gripper.friction * self.scene.workpiece.friction
+        bond = MujocoBond(
+            self._model, self._data, self._reader, body=self._bodies[name], lip_m=lip_m, friction=friction
+        )
         point, step_s = suction_point_of(self.scene), self.settings.step_s
         return SuctionSeal(bond, point=point, gripper=self.gripper, suction=suction, step_s=step_s)
 
