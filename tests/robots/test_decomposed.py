@@ -71,6 +71,22 @@ def test_the_parts_of_a_ring_leave_its_hole_free(arm):
     assert root.find("link[@name='link_2']/collision/geometry/mesh").get("filename") == "box.stl"
 
 
+def test_shapes_of_one_mesh_at_other_scales_have_parts_of_their_own(arm):
+    text = arm.read_text(encoding="utf-8").replace("box.stl", "ring.stl")
+    before, scale, after = text.rpartition('scale="0.001 0.001 0.001"')
+    root = ET.fromstring(before + scale.replace("0.001 0.001 0.001", "0.002 0.001 0.001") + after)  # noqa: S314
+    decompose(root, arm.parent)
+
+    widths_m = []
+    for link in ("link_1", "link_2"):
+        meshes = [
+            trimesh.load_mesh(arm.parent / mesh.get("filename"))
+            for mesh in root.iterfind(f"link[@name='{link}']/collision/geometry/mesh")
+        ]
+        widths_m.append(max(mesh.bounds[1][0] for mesh in meshes))
+    assert widths_m == pytest.approx([OUTER_M, 2 * OUTER_M], rel=0.02)
+
+
 @pytest.fixture
 def search(monkeypatch):
     """Replaces the search of a layout, which takes minutes where there is none: it succeeds with an arm's parts."""
@@ -99,7 +115,7 @@ def test_an_arm_without_a_layout_is_tried_with_the_parts_of_its_meshes(arm, tmp_
     assert seen[0] == ["box.stl", "ring.stl"]
     assert len(seen[1]) > 4
     assert any("convex parts stand for those of link_1" in note.rationale for note in written.notes)
-    assert (tmp_path / "project" / "scenes" / "robots" / "convex_parts" / "ring_0.stl").is_file()
+    assert (tmp_path / "project" / "scenes" / "robots" / "convex_parts" / "link_1_0" / "ring_0.stl").is_file()
     assert sorted(path.name for path in (tmp_path / "project").rglob("*.stl")) == seen[1]
 
 

@@ -50,14 +50,15 @@ def decompose(root: ET.Element, robots: Path, only: Collection[str] | None = Non
     """
     count, links = 0, []
     for link in root.findall("link"):
-        for shape in link.findall("collision"):
+        for number, shape in enumerate(link.findall("collision")):
             mesh = shape.find("geometry/mesh")
             is_wanted = only is None or link.get("name", "") in only
             if mesh is None or not is_wanted or not _is_concave(mesh, robots):
                 continue
             path = robots / mesh.get("filename", "")
-            folder = path.parent / _PARTS
-            folder.mkdir(exist_ok=True)
+            # Several shapes may have the same mesh at other scales.
+            folder = path.parent / _PARTS / f"{link.get('name')}_{number}"
+            folder.mkdir(parents=True, exist_ok=True)
             at = list(link).index(shape)
             link.remove(shape)
             parts = write_convex_parts(path, folder, scale=_scale(mesh))
