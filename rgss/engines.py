@@ -69,8 +69,7 @@ def require_mujoco(purpose: str) -> None:
     Raises:
         DefinitionError: MuJoCo is not installed.
     """
-    if not _is_installed("mujoco"):
-        raise DefinitionError(f"{purpose} needs MuJoCo, which is not installed", hint=INSTALL_MUJOCO)
+    _require("mujoco", "MuJoCo", purpose, INSTALL_MUJOCO)
 
 
 def require_xacro(purpose: str) -> None:
@@ -82,8 +81,12 @@ def require_xacro(purpose: str) -> None:
     Raises:
         DefinitionError: It is not installed.
     """
-    if not _is_installed("xacrodoc"):
-        raise DefinitionError(f"{purpose} needs xacrodoc, which is not installed", hint=INSTALL_XACRO)
+    _require("xacrodoc", "xacrodoc", purpose, INSTALL_XACRO)
+
+
+def _require(module: str, name: str, purpose: str, hint: str) -> None:
+    if not _is_installed(module):
+        raise DefinitionError(f"{purpose} needs {name}, which is not installed", hint=hint)
 
 
 def _is_installed(module: str) -> bool:

@@ -32,15 +32,14 @@ def add_xacro_arguments(parser: argparse.ArgumentParser, when: str) -> None:
     parser.add_argument(
         "--xacro",
         action="append",
-        default=[],
         metavar="NAME:=VALUE",
         help=f"{when}: an argument of a xacro, which is expanded (pip install 'rgss[xacro]'); may be given several "
         "times",
     )
 
 
-def xacro_arguments(texts: Sequence[str]) -> dict[str, str]:
-    """Arguments of a xacro by name.
+def xacro_arguments(texts: Sequence[str] | None) -> dict[str, str]:
+    """Arguments of a xacro by name; none without the option.
 
     Raises:
         DefinitionError: One is not of the form NAME:=VALUE.
@@ -49,7 +48,7 @@ def xacro_arguments(texts: Sequence[str]) -> dict[str, str]:
     from rgss.findings import shown
 
     found = {}
-    for text in texts:
+    for text in texts or ():
         name, sign, value = text.partition(":=")
         if not sign or not name.strip():
             raise DefinitionError(

@@ -80,6 +80,13 @@ def test_an_argument_without_an_arm_is_refused(tmp_path, capsys):
     assert "--xacro is an argument of a URDF (give the URDF with --robot)" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("option", ["--flange", "--mass", "--gripper", "--xacro"])
+def test_an_empty_value_without_an_arm_is_refused_too(tmp_path, capsys, option):
+    assert main(["init", str(tmp_path / "new"), option, ""]) == 2
+    assert "(give the URDF with --robot)" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
+
+
 @pytest.mark.parametrize(
     ("changes", "message", "hint"),
     [

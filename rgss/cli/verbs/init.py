@@ -62,7 +62,7 @@ def run(options: argparse.Namespace) -> int:
         ("gripper", "is for the arm"),
         ("xacro", "is an argument"),
     ):
-        if getattr(options, name) and options.robot is None:
+        if getattr(options, name) is not None and options.robot is None:
             option = f"--{name.replace('_', '-')}"
             raise DefinitionError(f"{option} {what} of a URDF", hint="give the URDF with --robot")
     files, notes = (write_scaffold(folder), ()) if options.robot is None else _robot_files(options)

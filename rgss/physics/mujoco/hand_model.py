@@ -13,7 +13,7 @@ from rgss.physics.mujoco.solids import finger_solids
 from rgss.scenes import Gripper, Linkage, PadLayout, Pose, link_names_of
 
 GRIPPER_BASE = "gripper_base"
-"""Body and shape of the gripper's base."""
+"""Link, body and shape of the gripper's base."""
 
 MACHINE = (1, 2)
 """Collision filter of the robot's shapes, for contacts without an explicit pair: with the scene, not with itself."""
@@ -52,13 +52,11 @@ class HandModel:
 
     Attributes:
         joints: Joints of sliding fingers, shared by their bodies and motors.
-        base_shapes: Name of the link by the name of a shape of the base.
         finger_shapes: Index of the finger by the name of a shape of it; that of a suction cup is 0.
         linkage_joints: Name of the joint of each link of a linkage by the index of the link.
     """
 
     joints: tuple[str, ...] = ()
-    base_shapes: Mapping[str, str] = field(default_factory=dict)
     finger_shapes: Mapping[str, int] = field(default_factory=dict)
     linkage_joints: Mapping[int, str] = field(default_factory=dict)
 
@@ -77,7 +75,6 @@ def add_hand(parts: HandParts, flange: ET.Element, gripper: Gripper, pads: Seque
     base_kg = gripper.base_mass_kg - gripper.cup_mass_kg
     add_inertial(base, base_kg, cylinder_inertia(geometry.base, base_kg))
     add_geom(base, GRIPPER_BASE, geometry.base, Pose(), touches=MACHINE)
-    base_shapes = {GRIPPER_BASE: GRIPPER_BASE}
     if geometry.cup is not None:
         cup = add_body(base, "suction_cup", geometry.base_pose.inverse() @ geometry.cup_pose)
         add_inertial(cup, gripper.cup_mass_kg, cylinder_inertia(geometry.cup, gripper.cup_mass_kg))
@@ -85,10 +82,10 @@ def add_hand(parts: HandParts, flange: ET.Element, gripper: Gripper, pads: Seque
         (shape,) = cup.findall("geom")
         # The contact has the attributes of the shape with the greater priority; the bond sets the friction.
         shape.attrib.update({"priority": "1", "condim": "3", **parts.stiffness})
-        return HandModel(base_shapes=base_shapes, finger_shapes={"suction_cup": 0})
+        return HandModel(finger_shapes={"suction_cup": 0})
     joints = tuple(f"finger:{index}" for index in range(geometry.fingers))
     finger_shapes = _add_fingers(parts, base, gripper, joints, pads)
-    return HandModel(joints=joints, base_shapes=base_shapes, finger_shapes=finger_shapes)
+    return HandModel(joints=joints, finger_shapes=finger_shapes)
 
 
 def _add_fingers(

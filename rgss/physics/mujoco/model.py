@@ -23,6 +23,7 @@ from dataclasses import dataclass
 from rgss.errors import SimulationError
 from rgss.physics.mujoco.hand_model import (
     CUP_BIT,
+    GRIPPER_BASE,
     MACHINE,
     HandModel,
     HandParts,
@@ -170,7 +171,7 @@ class _Builder:
             self.links = {name: link for name, link in self.links.items() if name not in named}
             return
         self.hand = add_hand(parts, parents[robot.flange], self._gripper, pads)
-        self.links.update(self.hand.base_shapes)
+        self.links[GRIPPER_BASE] = GRIPPER_BASE
         self.finger_shapes.update(self.hand.finger_shapes)
 
     def add_objects(self) -> None:

@@ -13,7 +13,7 @@ from rgss.errors import DefinitionError, DocumentError
 from rgss.scenes import GripperGeometry, Pose, carried_by, find_pads, load_gripper_file, origin_of
 from rgss.studies.robot_project.cup_size import cups_of, grasp_from_tip_m
 from rgss.studies.robot_project.draft import DraftedRobot, identifier_of
-from rgss.studies.robot_project.fingers_of_urdf import assume_drive, let_one_finger_follow
+from rgss.studies.robot_project.fingers_of_urdf import complete_fingers
 from rgss.studies.robot_project.layout import Cup
 from rgss.studies.robot_project.tool_axis import TOOL_AXES
 from rgss.studies.robot_project.urdf import NO_ARGUMENTS, Note, copy_named_files, decompose, read_arm_urdf
@@ -123,7 +123,7 @@ def _drafted(
 ) -> DraftedGripper:
     grippers = project / "scenes" / "grippers"
     grippers.mkdir(parents=True, exist_ok=True)
-    notes = [*notes, *let_one_finger_follow(copy, palm), *assume_drive(copy, palm)]
+    notes = [*notes, *complete_fingers(copy, palm)]
     try:
         pads = find_pads(copy, palm=palm, project=project, mounts=mounts)
         file = grippers / f"{id_}.yaml"

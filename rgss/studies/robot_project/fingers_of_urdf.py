@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from rgss.scenes import carried_by
@@ -16,8 +17,8 @@ _ASSUMED = {
 }
 
 
-def let_one_finger_follow(urdf: Path, palm: str | None) -> tuple[Note, ...]:
-    """Let the second of two driven joints follow the first if their ranges are equal or mirrored.
+def complete_fingers(urdf: Path, palm: str | None) -> tuple[Note, ...]:
+    """Let one of two fingers that are driven alike follow the other, and complete the drive where the URDF has none.
 
     Args:
         urdf: The URDF; it is changed.
@@ -27,41 +28,35 @@ def let_one_finger_follow(urdf: Path, palm: str | None) -> tuple[Note, ...]:
         What was assumed.
     """
     root = ET.parse(urdf).getroot()  # noqa: S314 - written by this package
-    driven = _driven(root, palm)
+    notes = [*_let_one_finger_follow(_driven(root, palm))]
+    notes += _assume_drive(_driven(root, palm))
+    if notes:
+        urdf.write_text(ET.tostring(root, encoding="unicode") + "\n", encoding="utf-8")
+    return tuple(notes)
+
+
+def _let_one_finger_follow(driven: Sequence[ET.Element]) -> Iterator[Note]:
+    """Let the second of two driven joints follow the first if their ranges are equal or mirrored."""
     if len(driven) != _FINGERS or driven[0].get("type") != driven[1].get("type"):
-        return ()
+        return
     (low, high), other = (_range_of(joint) for joint in driven)
     if low == high or other not in ((low, high), (-high, -low)):
-        return ()
+        return
     leader, follower = (joint.get("name", "") for joint in driven)
     ET.SubElement(driven[1], "mimic", {"joint": leader, "multiplier": "1" if other == (low, high) else "-1"})
-    urdf.write_text(ET.tostring(root, encoding="unicode") + "\n", encoding="utf-8")
     rationale = f"The URDF drives {leader} and {follower} alike; {follower} follows {leader} here."
-    return (Note(about="description", rationale=rationale),)
+    yield Note(about="description", rationale=rationale)
 
 
-def assume_drive(urdf: Path, palm: str | None) -> tuple[Note, ...]:
-    """Complete the speed and the effort of the driven joint where the URDF has none.
-
-    Args:
-        urdf: The URDF; it is changed.
-        palm: The link at the flange; all joints are those of the gripper if None.
-
-    Returns:
-        What was assumed.
-    """
-    root = ET.parse(urdf).getroot()  # noqa: S314 - written by this package
-    driven, notes = _driven(root, palm), []
+def _assume_drive(driven: Sequence[ET.Element]) -> Iterator[Note]:
+    """Complete the speed and the effort of a single driven joint."""
     for joint in driven if len(driven) == 1 else ():
         limit, slides = joint.find("limit"), joint.get("type") == "prismatic"
         for key, about, value in _ASSUMED[slides]:
             if limit is not None and float(limit.get(key, "0")) <= 0.0:
                 limit.set(key, value.partition(" ")[0])
                 name = "speed" if key == "velocity" else "effort"
-                notes.append(Note(about=about, rationale=f"The URDF has no {name} of {joint.get('name')}: {value}."))
-    if notes:
-        urdf.write_text(ET.tostring(root, encoding="unicode") + "\n", encoding="utf-8")
-    return tuple(notes)
+                yield Note(about=about, rationale=f"The URDF has no {name} of {joint.get('name')}: {value}.")
 
 
 def _driven(root: ET.Element, palm: str | None) -> list[ET.Element]:

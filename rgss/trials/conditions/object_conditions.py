@@ -136,7 +136,7 @@ def perceived_workpiece(assumed: Workpiece, one: ObjectValues) -> Workpiece:
 
 
 def support_offsets_m(scene: Scene, own_m: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
-    """True offset along x and y of the support of each object that stands on others: the sum of theirs.
+    """True offset along x and y of the support of each stacked object: the sum over all objects below it.
 
     Args:
         scene: The scene at the start.

@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 from rgss.documents import content_digest
 from rgss.errors import DefinitionError
 from rgss.scenes import is_empty_mesh
-from rgss.studies.robot_project.urdf.packages import FOLDERS_UP, package_name
+from rgss.studies.robot_project.urdf.packages import FOLDERS_UP, package_folders
 from rgss.studies.robot_project.urdf.reading import Note
 
 _SCHEME = re.compile(r"^(package|model|file)://")
@@ -78,10 +78,7 @@ def find_named_file(name: str, urdf: Path) -> Path | None:
 
 def _in_package(rest: str, urdf: Path) -> Iterator[Path]:
     package, _, below = rest.partition("/")
-    for folder in urdf.parents:
-        if folder.name == package or package_name(folder) == package:
-            yield folder / below
-        yield folder / package / below
+    yield from (folder / below for folder in package_folders(package, urdf))
     # The package goes by another name here: what follows its name, or a part of that, is looked for above the URDF.
     parts = PurePosixPath(rest).parts
     for folder in list(urdf.parents)[:FOLDERS_UP]:

@@ -2,13 +2,28 @@
 
 from __future__ import annotations
 
+import itertools
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 FOLDERS_UP = 4
 """Folders above a file that are searched for what it names, where its package goes by another name."""
 
 _PACKAGE_FILE = "package.xml"
+
+
+def package_folders(package: str, urdf: Path) -> Iterator[Path]:
+    """Folders that a package may be, the nearest to a URDF first, whether they are there or not.
+
+    Args:
+        package: The name of the package.
+        urdf: The URDF, resolved.
+    """
+    for folder in urdf.parents:
+        if folder.name == package or package_name(folder) == package:
+            yield folder
+        yield folder / package
 
 
 def package_folder(package: str, urdf: Path) -> Path | None:
@@ -18,16 +33,15 @@ def package_folder(package: str, urdf: Path) -> Path | None:
         package: The name of the package.
         urdf: The URDF.
     """
-    for folder in urdf.resolve().parents:
-        if folder.name == package or package_name(folder) == package:
-            return folder
-        if (folder / package).is_dir():
-            return folder / package
-    for folder in list(urdf.resolve().parents)[:FOLDERS_UP]:
-        for inside in sorted(folder.glob("*/")):
-            if package_name(inside) == package:
-                return inside
-    return None
+    urdf = urdf.resolve()
+    named = (folder for folder in package_folders(package, urdf) if folder.is_dir())
+    beside = (
+        inside
+        for folder in list(urdf.parents)[:FOLDERS_UP]
+        for inside in sorted(folder.glob("*/"))
+        if package_name(inside) == package
+    )
+    return next(itertools.chain(named, beside), None)
 
 
 def package_name(folder: Path) -> str | None:
