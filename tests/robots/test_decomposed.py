@@ -93,7 +93,7 @@ def search(monkeypatch):
     seen = []
 
     def install(*, also_parts_fail=False):
-        def write(project, tool_axis, draft, draft_gripper):
+        def write(project, tool_axis, draft, draft_gripper, *, on_stage):
             drafted = draft(tool_axis="z")
             meshes = sorted(path.name for path in project.rglob("*.stl"))
             seen.append(meshes)
@@ -111,7 +111,9 @@ def search(monkeypatch):
 
 def test_an_arm_without_a_layout_is_tried_with_the_parts_of_its_meshes(arm, tmp_path, search):
     seen = search()
-    written = write_robot_project(arm, tmp_path / "project")
+    stages = []
+    written = write_robot_project(arm, tmp_path / "project", on_stage=stages.append)
+    assert stages == ["dividing concave collision meshes"]
     assert seen[0] == ["box.stl", "ring.stl"]
     assert len(seen[1]) > 4
     assert any("convex parts stand for those of link_1" in note.rationale for note in written.notes)

@@ -214,5 +214,9 @@ def test_a_layout_that_the_check_refuses_is_not_written(tmp_path, capsys, monkey
 
 def test_a_layout_without_a_finding_is_written_though_the_first_trial_fails(tmp_path, monkeypatch):
     monkeypatch.setattr(writing, "carries_object", lambda project: False)
-    write_robot_project(urdf_of("six"), tmp_path / "new")
+    stages = []
+    write_robot_project(urdf_of("six"), tmp_path / "new", on_stage=stages.append)
+    first = stages.index("gripper along z, size 1 of 3: trying a cell in a trial")
+    assert set(stages[:first]) == {f"gripper along z, size 1 of 3: layout {tried}" for tried in range(1, first + 1)}
+    assert stages.count("gripper along z, size 1 of 3: places where the tool comes down") == 1
     assert not has_scene_errors(load_project(tmp_path / "new"))

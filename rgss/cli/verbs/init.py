@@ -83,17 +83,20 @@ def run(options: argparse.Namespace) -> int:
 
 def _robot_files(options: argparse.Namespace) -> tuple[tuple[str, ...], tuple[str, ...]]:
     from rgss.cli.options import arm_mass_kg, xacro_arguments
+    from rgss.cli.terminal import stage_progress
     from rgss.engines import require_engines
     from rgss.studies.robot_project import write_robot_project
 
     require_engines("rgss init --robot")
-    written = write_robot_project(
-        options.robot,
-        options.folder,
-        flange=options.flange,
-        tool_axis=options.tool_axis,
-        mass_kg=arm_mass_kg(options.mass),
-        gripper=options.gripper,
-        xacro=xacro_arguments(options.xacro),
-    )
+    with stage_progress(options.robot.name) as on_stage:
+        written = write_robot_project(
+            options.robot,
+            options.folder,
+            flange=options.flange,
+            tool_axis=options.tool_axis,
+            mass_kg=arm_mass_kg(options.mass),
+            gripper=options.gripper,
+            xacro=xacro_arguments(options.xacro),
+            on_stage=on_stage,
+        )
     return written.files, tuple(note.rationale for note in written.notes)

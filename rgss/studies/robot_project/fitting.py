@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -57,7 +57,14 @@ class CellSearch:
     """Search for a cell in which an arm reaches every waypoint with every gripper."""
 
     def __init__(
-        self, folder: Path, robot: Robot, robot_file: str, geometries: Sequence[GripperGeometry], *, size: HandSize
+        self,
+        folder: Path,
+        robot: Robot,
+        robot_file: str,
+        geometries: Sequence[GripperGeometry],
+        *,
+        size: HandSize,
+        on_stage: Callable[[str], None],
     ) -> None:
         """Prepare the search.
 
@@ -67,7 +74,9 @@ class CellSearch:
             robot_file: Name of its file.
             geometries: The grippers.
             size: Scale of object and grippers.
+            on_stage: Called with the name of each stage before it begins.
         """
+        self._on_stage, self._tried = on_stage, 0
         self._path, self._robot, self._robot_file = folder / "scenes" / "kitchen.yaml", robot, robot_file
         self._geometries, self._size = geometries, size
         self._gap_m: float | None = None
@@ -92,6 +101,7 @@ class CellSearch:
         yield from itertools.islice(common, 1)
         if self._reason == POINTS_INTO_ARM:
             return
+        self._on_stage("places where the tool comes down")
         longest = max(self._geometries, key=lambda geometry: geometry.grasp_depth_m)
         search = descent_search(robot, longest, scale=size.scale)
         if search.reason:
@@ -110,6 +120,8 @@ class CellSearch:
                 return
 
     def _fitted(self, tried: Layout, *, is_direct: bool) -> FittedCell | None:
+        self._tried += 1
+        self._on_stage(f"layout {self._tried}")
         layout = replace(tried, own_cup=self._size.own_cup)
         if self._gap_m and not layout.is_overhead:
             layout = replace(layout, pedestal_gap_m=self._gap_m)

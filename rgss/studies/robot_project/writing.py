@@ -61,6 +61,7 @@ def write_robot_project(
     mass_kg: float | None = None,
     gripper: Path | None = None,
     xacro: Mapping[str, str] = NO_ARGUMENTS,
+    on_stage: Callable[[str], None] | None = None,
 ) -> RobotProject:
     """Write a new project round the arm of a URDF into a folder, which is made if it is not there.
 
@@ -76,10 +77,12 @@ def write_robot_project(
         gripper: The URDF of a gripper, or that of the arm for the hand that it has; two grippers with sliding fingers
             where None.
         xacro: Arguments, if one of them is a xacro.
+        on_stage: Called with the name of each stage of the search, which may take minutes, before it begins.
 
     Raises:
         DefinitionError: A URDF is wrong or has no arm that the task can be fitted to, or a file is there already.
     """
+    report = on_stage or (lambda _: None)
     with tempfile.TemporaryDirectory() as scratch:
 
         def write(name: str, *, is_decomposed: bool, is_gripper: bool = False) -> tuple[Path, tuple[Note, ...]]:
@@ -91,7 +94,7 @@ def write_robot_project(
                 draft_gripper = partial(
                     gripper_or_hand, gripper, project, urdf, xacro=xacro, is_decomposed=is_decomposed
                 )
-            return project, _write_files(project, tool_axis, draft, draft_gripper)
+            return project, _write_files(project, tool_axis, draft, draft_gripper, on_stage=report)
 
         try:
             project, notes = write("project", is_decomposed=False)
@@ -100,6 +103,7 @@ def write_robot_project(
                 raise
             if not can_decompose():
                 raise DefinitionError(error.message, hint=f"{error.hint}. Or {INSTALL}") from error
+            report("dividing concave collision meshes")
             try:
                 project, notes = write("decomposed", is_decomposed=True, is_gripper=error.is_gripper)
             except UnfitShapesError:
@@ -124,6 +128,8 @@ def _write_files(
     tool_axis: str | None,
     draft: Callable[..., DraftedRobot],
     draft_gripper: Callable[[DraftedRobot], DraftedGripper] | None,
+    *,
+    on_stage: Callable[[str], None],
 ) -> tuple[Note, ...]:
     drafted = draft(tool_axis=tool_axis or "z")
     id_ = drafted.robot.id
@@ -147,8 +153,9 @@ def _write_files(
         files = sorted((project / "scenes" / "grippers").glob("*.yaml"))
         geometries = [load_gripper_file(path, project=project).geometry for path in files]
         _write_resolution(project, drafted.robot, geometries, size)
-        search = CellSearch(project, drafted.robot, drafted.file.name, geometries, size=size)
-        if _is_written(project, drafted, search):
+        within = partial(_report, on_stage, f"gripper along {axis}, size {sizes.index(size) + 1} of {len(sizes)}")
+        search = CellSearch(project, drafted.robot, drafted.file.name, geometries, size=size, on_stage=within)
+        if _is_written(project, drafted, search, on_stage=within):
             return drafted.arm.notes if own is None else (*drafted.arm.notes, *own.notes)
         reasons.setdefault(axis, search.reason)
     found = "; ".join(f"with the gripper along {axis}, {reason}" for axis, reason in reasons.items())
@@ -160,7 +167,7 @@ def _write_files(
     )
 
 
-def _is_written(project: Path, drafted: DraftedRobot, search: CellSearch) -> bool:
+def _is_written(project: Path, drafted: DraftedRobot, search: CellSearch, *, on_stage: Callable[[str], None]) -> bool:
     """Write the first cell in which the task succeeds, else the first without errors; False if there is none.
 
     The robot file may have narrower ranges, and has another home than the draft, so that other pairs of links may be
@@ -168,6 +175,7 @@ def _is_written(project: Path, drafted: DraftedRobot, search: CellSearch) -> boo
     """
     first = None
     for cell in itertools.islice(search.cells(), _MOST_CELLS):
+        on_stage("trying a cell in a trial")
         _write_cell(project, drafted, cell)
         written = load_project(project)
         if carries_object(written):
@@ -177,6 +185,10 @@ def _is_written(project: Path, drafted: DraftedRobot, search: CellSearch) -> boo
     if first is not None:
         _write_cell(project, drafted, first)
     return first is not None
+
+
+def _report(on_stage: Callable[[str], None], part: str, stage: str) -> None:
+    on_stage(f"{part}: {stage}")
 
 
 def _write_cell(project: Path, drafted: DraftedRobot, cell: FittedCell) -> None:
