@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from rgss.grasping.candidates import FrameRejection
 from rgss.kinematics import CLOSING_ROOM_M, ClosingLinks, Overlap, Solid, overlaps
 from rgss.scenes import (
     Box,
@@ -162,22 +161,9 @@ def _without_grasp(searches: Sequence[GraspSearch], cell: Workcell) -> Iterator[
     for search in searches:
         problem = SceneProblem(kind=SceneProblemKind.NO_GRASP, first=search.object, detail=search.reasons)
         stops = [stop for stop in unserved if stop.object == search.object]
-        if not search.ranked.grasps:
-            problem = replace(problem, detail=search.reasons + _widths(search, cell.geometry))
-        elif stops:
+        if search.ranked.grasps and stops:
             problem = replace(problem, waypoint=stops[0].name, reason=unserved[stops[0]])
         yield problem
-
-
-def _widths(search: GraspSearch, geometry: GripperGeometry) -> str:
-    """Width of the object, where it is nearest to what the gripper takes, and the end of the gripper's range."""
-    texts = []
-    for why, opening_m in search.ranked.nearest_opening_m.items():
-        is_wide = why is FrameRejection.TOO_WIDE
-        end_m = geometry.largest_opening_m if is_wide else geometry.least_opening_m
-        ends = "opens" if is_wide else "closes"
-        texts.append(f"; {2e3 * opening_m:.4g} mm across at best, and the gripper {ends} to {2e3 * end_m:.4g} mm")
-    return "".join(texts)
 
 
 def _furniture(scene: Scene) -> Iterator[SceneProblem]:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 
 from rgss.kinematics import Arm, CollisionContext, CollisionModel
 from rgss.scenes import GripperGeometry, Scene
 from rgss.tasks import TaskProgram
 from rgss.trials.conditions import conditions_of
-from rgss.trials.grasp_choice import GraspSearch, search_grasps, with_stated_suction
+from rgss.trials.grasp_choice import GraspSearch, NoGrasp, search_grasps, with_stated_suction
 from rgss.trials.route import route_of
 from rgss.trials.trial_spec import TrialSpec
 
@@ -23,7 +23,15 @@ class Workcell:
     it is immutable in use.
     """
 
-    def __init__(self, scene: Scene, geometry: GripperGeometry, *, clearance_m: float, task: TaskProgram) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        geometry: GripperGeometry,
+        *,
+        clearance_m: float,
+        task: TaskProgram,
+        ungrasped: Iterable[NoGrasp] = (),
+    ) -> None:
         """Build the models.
 
         Args:
@@ -31,10 +39,12 @@ class Workcell:
             geometry: The gripper's shape.
             clearance_m: Clearance of planned paths.
             task: The task.
+            ungrasped: Objects of which no grasp candidate can be carried out.
         """
         self.scene = scene
         self.geometry = geometry
         self.task = task
+        self.ungrasped: Mapping[str, NoGrasp] = {one.object: one for one in ungrasped}
         self.arm = Arm(scene.robot, geometry.grasp_centre)
         self.route = route_of(scene, geometry, self.task)
         contexts = {leg.step.name: (leg.scene, leg.context) for leg in self.route.legs}
@@ -55,7 +65,13 @@ def _models(
 
 
 @lru_cache(maxsize=4)
-def workcell_of(scene: Scene, geometry: GripperGeometry, clearance_m: float, task: TaskProgram) -> Workcell:
+def workcell_of(
+    scene: Scene,
+    geometry: GripperGeometry,
+    clearance_m: float,
+    task: TaskProgram,
+    ungrasped: tuple[NoGrasp, ...] = (),
+) -> Workcell:
     """Workcell of a scene and a gripper shape, cached in the process.
 
     Args:
@@ -63,8 +79,9 @@ def workcell_of(scene: Scene, geometry: GripperGeometry, clearance_m: float, tas
         geometry: The gripper's shape.
         clearance_m: Clearance of planned paths.
         task: The task.
+        ungrasped: Objects of which no grasp candidate can be carried out.
     """
-    return Workcell(scene, geometry, clearance_m=clearance_m, task=task)
+    return Workcell(scene, geometry, clearance_m=clearance_m, task=task, ungrasped=ungrasped)
 
 
 def cell_of(spec: TrialSpec) -> Workcell:
@@ -75,6 +92,7 @@ def cell_of(spec: TrialSpec) -> Workcell:
     """
     clearance_m = spec.settings.planning.clearance_m
     perceived = with_stated_suction(conditions_of(spec).perceived_scene, spec.gripper.geometry)
+    ungrasped: tuple[NoGrasp, ...] = ()
     if perceived.task.candidates is not None:
         searches = grasp_searches_of(
             perceived,
@@ -84,7 +102,8 @@ def cell_of(spec: TrialSpec) -> Workcell:
             task=spec.task,
         )
         perceived = searches[-1].scene
-    return workcell_of(perceived, spec.gripper.geometry, clearance_m, spec.task)
+        ungrasped = tuple(search.no_grasp for search in searches if search.no_grasp is not None)
+    return workcell_of(perceived, spec.gripper.geometry, clearance_m, spec.task, ungrasped)
 
 
 @lru_cache(maxsize=16)

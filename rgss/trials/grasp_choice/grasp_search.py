@@ -7,12 +7,20 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from functools import partial
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.grasping.candidates import RankedGrasp, RankedGrasps, ranked_grasps, ranked_suction, symmetric_turns
+from rgss.grasping.candidates import (
+    FrameRejection,
+    RankedGrasp,
+    RankedGrasps,
+    ranked_grasps,
+    ranked_suction,
+    symmetric_turns,
+)
 from rgss.kinematics import CLOSING_ROOM_M, Arm, ClosingLinks, CollisionModel, inverse_kinematics, straight_line
 from rgss.scenes import ChosenGrasp, GraspCandidates, GripperGeometry, Scene, initial_placements, scene_about
 from rgss.tasks import MoveKind, TaskProgram, stages_of
@@ -50,6 +58,30 @@ class Cell(Protocol):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class NoGrasp:
+    """An object of which no grasp candidate can be carried out.
+
+    Attributes:
+        object: The object.
+        reasons: Numbers of rejections by filter.
+        is_any_ranked: True if there is a best candidate, for which a task is planned.
+    """
+
+    object: str
+    reasons: str
+    is_any_ranked: bool
+
+    def detail(self, of_best: str) -> str:
+        """Reason why the object's first move is not planned.
+
+        Args:
+            of_best: The same for the best candidate.
+        """
+        text = f"no grasp candidate of {self.object} can be carried out: {self.reasons}"
+        return f"{text}; of the best one, {of_best}" if self.is_any_ranked else text
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class GraspSearch:
     """Result of a search for a grasp.
 
@@ -60,6 +92,7 @@ class GraspSearch:
         taken: The chosen grasp; None if none is reachable.
         ranked: The candidates and the rejected tool frames.
         rejected: Number of candidates rejected by each filter before the chosen one.
+        geometry: The gripper's shape.
     """
 
     object: str
@@ -67,13 +100,32 @@ class GraspSearch:
     taken: ChosenGrasp | None
     ranked: RankedGrasps
     rejected: Mapping[Rejection, int]
+    geometry: GripperGeometry
 
     @property
     def reasons(self) -> str:
-        """Numbers of rejections by filter, in one line."""
+        """Numbers of rejections by filter in one line, without any candidate with the widths that did not fit."""
         counts = [(reason.value, count) for reason, count in self.ranked.rejected_frames.items()]
         counts += [(reason.value, count) for reason, count in self.rejected.items()]
-        return ", ".join(f"{reason}: {count}" for reason, count in counts)
+        text = ", ".join(f"{reason}: {count}" for reason, count in counts)
+        return text if self.ranked.grasps else text + self._widths()
+
+    @property
+    def no_grasp(self) -> NoGrasp | None:
+        """The object and the reasons, if no candidate can be carried out."""
+        if self.taken is not None:
+            return None
+        return NoGrasp(object=self.object, reasons=self.reasons, is_any_ranked=bool(self.ranked.grasps))
+
+    def _widths(self) -> str:
+        """Width of the object, where it is nearest to what the gripper takes, and the end of the gripper's range."""
+        texts = []
+        for why, opening_m in self.ranked.nearest_opening_m.items():
+            is_wide = why is FrameRejection.TOO_WIDE
+            end_m = self.geometry.largest_opening_m if is_wide else self.geometry.least_opening_m
+            ends = "opens" if is_wide else "closes"
+            texts.append(f"; {2e3 * opening_m:.4g} mm across at best, and the gripper {ends} to {2e3 * end_m:.4g} mm")
+        return "".join(texts)
 
 
 def search_grasps(
@@ -130,6 +182,7 @@ def _search(
     else:
         contact = friction * workpiece.friction
         ranked = ranked_grasps(workpiece, geometry, options, friction=contact, clearance_m=clearance_m)
+    found = partial(GraspSearch, object=name, ranked=ranked, geometry=geometry)
     turns = symmetric_turns(workpiece.shape, options.yaws)
     placements, links = initial_placements(scene), ClosingLinks(geometry)
     rejected: Counter[Rejection] = Counter()
@@ -152,12 +205,12 @@ def _search(
                 arm = cell.arm
                 reason = _obstacle(cell, name)
             if reason is None:
-                return GraspSearch(object=name, scene=tried, taken=taken, ranked=ranked, rejected=dict(rejected))
+                return found(scene=tried, taken=taken, rejected=dict(rejected))
             why.append(reason[0])
             if reason[1]:
                 break
         rejected[_last(why)] += 1
-    return GraspSearch(object=name, scene=first or scene, taken=None, ranked=ranked, rejected=dict(rejected))
+    return found(scene=first or scene, taken=None, rejected=dict(rejected))
 
 
 def _is_met(links: ClosingLinks, view: Scene) -> bool:

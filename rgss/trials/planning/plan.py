@@ -68,8 +68,9 @@ def plan_task(
             why = too_wide(cell.geometry, leg.scene) or stops.reasons.get(
                 index, "none is reachable from the previous waypoint"
             )
-            name = cell.route.stops[index].name
-            moves[phase] = _ill_posed(phase, outcome, f"no valid configuration for {name}: {why}")
+            detail = f"no valid configuration for {cell.route.stops[index].name}: {why}"
+            ungrasped = cell.ungrasped.get(leg.scene.workpiece.id)
+            moves[phase] = _ill_posed(phase, outcome, detail if ungrasped is None else ungrasped.detail(detail))
             break
         if kind is not MoveKind.PLANNED:
             moves[phase] = _direct(leg, kind, start, goal, cell, settings)

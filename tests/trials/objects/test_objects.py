@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from dataclasses import replace
 
 import pytest
 
-from rgss.evidence import Fidelity
+from rgss.evidence import Failure, Fidelity
 from rgss.scenes import Approach, Box, GraspCandidates, LyingCylinder, MeshShape
 from rgss.trials.conditions import conditions_of
 from rgss.trials.pieces.run import Pieces
@@ -138,6 +139,29 @@ def test_the_best_grasp_that_no_arm_reaches_is_given_with_its_distance(with_obje
     assert problem.waypoint == "grasp_approach"
     assert problem.reason.obstacle is Obstacle.OUT_OF_REACH
     assert problem.reason.distance_m > 3.0
+
+
+def test_a_trial_without_a_grasp_says_why_no_candidate_can_be_carried_out(with_object):
+    """And not only which waypoint the stated grasp, which the task does not use, would not serve."""
+    record = Pieces().record(replace(with_object(Box(size_m=(0.2, 0.21, 0.19))), fidelity=Fidelity.KINEMATIC))
+    assert record.failure is Failure.INVALID_GOAL
+    detail = record.failure_detail
+    assert re.fullmatch(
+        r"no grasp candidate of \w+ can be carried out: .*too wide: \d+.*; 190 mm across at best, and the gripper opens "
+        r"to \d+ mm",
+        detail,
+    )
+
+    spec = with_object("box")
+    x, y, z = spec.scene.workpiece.pose.position_m
+    away = replace(spec.scene.workpiece.pose, position_m=(x + 3.0, y, z))
+    scene = replace(spec.scene, workpiece=replace(spec.scene.workpiece, pose=away))
+    detail = Pieces().record(replace(spec, scene=scene, fidelity=Fidelity.KINEMATIC)).failure_detail
+    assert re.fullmatch(
+        r"no grasp candidate of \w+ can be carried out: .*reach: \d+; of the best one, no valid configuration for "
+        r"grasp_approach: out of reach: 3\.\d\d m .*",
+        detail,
+    )
 
 
 def test_a_grasp_that_no_arm_reaches_is_counted_by_its_filter(with_object):
