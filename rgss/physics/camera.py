@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType, TracebackType
 from typing import Any
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from rgss.physics.rendering import Array, Lens, Picture, Vector, Window, draw
 from rgss.physics.shadows import Light, Receiver, darkness
 from rgss.physics.stage import Posture, Stage
-from rgss.scenes import Gripper, Scene
+from rgss.scenes import Gripper, PlaceRegion, Scene
 
 _SUPERSAMPLING = 2
 _FIELD_OF_VIEW_RAD = math.radians(36)
@@ -72,7 +72,16 @@ class _Background:
 class Camera:
     """Camera of a scene; a context manager that closes its stage."""
 
-    def __init__(self, scene: Scene, gripper: Gripper, view: View, *, width: int, height: int) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        gripper: Gripper,
+        view: View,
+        *,
+        width: int,
+        height: int,
+        places: Iterable[PlaceRegion] = (),
+    ) -> None:
         """Build the stage and the light.
 
         Args:
@@ -81,6 +90,7 @@ class Camera:
             view: The viewpoint.
             width: Width of the pictures in pixels.
             height: Height of the pictures in pixels.
+            places: The places to mark, on fixed bodies.
 
         Raises:
             SimulationError: The engine cannot build the stage.
@@ -93,7 +103,7 @@ class Camera:
         self._background: _Background | None = None
         self._sun = Light(self._middle, reach_m=_SCENE_REACH_M, resolution=1024, tolerance_m=0.045)
         self._sun_depths: Array | None = None
-        self._stage = Stage(scene, gripper)
+        self._stage = Stage(scene, gripper, places)
 
     def __enter__(self) -> Camera:
         return self

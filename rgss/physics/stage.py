@@ -8,7 +8,7 @@ seem to float.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
 from typing import Any
@@ -24,6 +24,7 @@ from rgss.scenes import (
     Box,
     Cylinder,
     Gripper,
+    PlaceRegion,
     Pose,
     Scene,
     Shape,
@@ -85,16 +86,17 @@ class Stage:
     """Fixed bodies in one client and moving ones in another, so that each can be rendered separately.
 
     Attributes:
-        still: Client of the scene's bodies and of a mat that marks the place.
+        still: Client of the scene's bodies and of a mat on each marked place.
         moving: Client of the arm, the gripper and the objects.
     """
 
-    def __init__(self, scene: Scene, gripper: Gripper) -> None:
+    def __init__(self, scene: Scene, gripper: Gripper, places: Iterable[PlaceRegion] = ()) -> None:
         """Build the stage.
 
         Args:
             scene: The scene to render.
             gripper: The gripper on the robot's flange.
+            places: The places to mark, on fixed bodies.
 
         Raises:
             SimulationError: The engine cannot build it.
@@ -108,9 +110,9 @@ class Stage:
             self.still, self.moving, self._machine = self._open(), self._open(), self._open()
             for body in scene.bodies:
                 self._add(self.still, shape_surface(body.primitive), body.pose, body.colour)
-            if scene.place.offset_m is None:
-                mat = Cylinder(radius_m=scene.place.radius_m, height_m=_MAT_THICKNESS_M)
-                centre = Pose(position_m=scene.place.centre_m).raised(_MAT_THICKNESS_M / 2)
+            for place in places:
+                mat = Cylinder(radius_m=place.radius_m, height_m=_MAT_THICKNESS_M)
+                centre = Pose(position_m=place.centre_m).raised(_MAT_THICKNESS_M / 2)
                 self._add(self.still, cylinder_surface(mat), centre, PLACE_COLOUR)
             self._half_sizes: dict[int, tuple[float, float, float]] = {}
             self._poses: dict[int, Pose] = {}

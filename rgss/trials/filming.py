@@ -6,12 +6,14 @@ import math
 from collections.abc import Iterable
 from contextlib import ExitStack
 from dataclasses import dataclass
+from functools import partial
 from types import TracebackType
 
 from rgss.evidence.records import PhaseSpan, TrialTrace
 from rgss.physics import Camera, Picture, Posture, View
 from rgss.scenes import Pose
 from rgss.trials.conditions import conditions_of
+from rgss.trials.marked_places import marked_places
 from rgss.trials.pieces import TrialSpec
 from rgss.trials.workcell import cell_of, with_grasp_of
 
@@ -71,10 +73,11 @@ class Film:
         if scene.task.candidates is not None:
             scene = with_grasp_of(scene, cell_of(spec))
         with ExitStack() as cameras:  # closes the first camera if the second fails
-            self._camera = cameras.enter_context(Camera(scene, spec.gripper, view, width=width, height=height))
+            open_camera = partial(Camera, scene, spec.gripper, places=marked_places(scene, spec.task).values())
+            self._camera = cameras.enter_context(open_camera(view, width=width, height=height))
             if inset is not None:
-                size = {"width": round(_INSET_SHARE * width), "height": round(_INSET_SHARE * height)}
-                self._inset = cameras.enter_context(Camera(scene, spec.gripper, inset, **size))
+                across, down = round(_INSET_SHARE * width), round(_INSET_SHARE * height)
+                self._inset = cameras.enter_context(open_camera(inset, width=across, height=down))
             self._cameras = cameras.pop_all()
 
     def __enter__(self) -> Film:

@@ -13,6 +13,7 @@ from rgss.evidence.records import TrialTrace
 from rgss.physics import Contacts, ContactWorld, Posture, SeenSolid, Stage, object_surfaces
 from rgss.scenes import Pose, Scene, Workpiece
 from rgss.trials.conditions import conditions_of
+from rgss.trials.marked_places import marked_places
 from rgss.trials.monitors import StepObserver
 from rgss.trials.pieces import run_trial
 from rgss.trials.replay.planned_lines import planned_lines
@@ -121,7 +122,8 @@ def _machine_nodes(
     scene: Scene, spec: TrialSpec, joints: NDArray[np.float64], travel: NDArray[np.float64]
 ) -> list[NodeTrack]:
     """Nodes of the fixed bodies, and of the links of arm and gripper over time."""
-    stage = Stage(scene, spec.gripper)
+    places = marked_places(scene, spec.task)
+    stage = Stage(scene, spec.gripper, places.values())
     try:
         solids = stage.solids()
         poses: dict[str, list[Pose]] = {}
@@ -131,8 +133,8 @@ def _machine_nodes(
                 poses.setdefault(link, []).append(pose)
     finally:
         stage.close()
-    # The mat that marks a place on a fixed body comes after the bodies of the scene.
-    names = [body.id for body in scene.bodies] + ["place"] * (scene.place.offset_m is None)
+    # The mats that mark places come after the bodies of the scene.
+    names = [*(body.id for body in scene.bodies), *places]
     fixed = [solid for solid in solids if not solid.link]
     nodes = [_node(name, NodeKind.BODY, (solid,), [Pose()]) for name, solid in zip(names, fixed, strict=True)]
     for link, track in poses.items():

@@ -147,8 +147,8 @@ def test_a_trial_without_a_grasp_says_why_no_candidate_can_be_carried_out(with_o
     assert record.failure is Failure.INVALID_GOAL
     detail = record.failure_detail
     assert re.fullmatch(
-        r"no grasp candidate of \w+ can be carried out: .*too wide: \d+.*; 190 mm across at best, and the gripper opens "
-        r"to \d+ mm",
+        r"no grasp candidate of \w+ can be carried out: .*too wide: \d+.*; 190 mm across at best, and the gripper "
+        r"opens to \d+ mm",
         detail,
     )
 
