@@ -6,6 +6,6 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.cli.terminal.page import TerminalPage, fitted_page
-    from rgss.cli.terminal.stage_progress import stage_progress
+    from rgss.cli.terminal.stages import stage_progress
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
