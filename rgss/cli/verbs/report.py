@@ -66,8 +66,8 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import shown_path
     from rgss.cli.pictures import ordered_look, trial_pictures
-    from rgss.cli.verbs.trade import portfolio_of
-    from rgss.decision import measure_survivors
+    from rgss.cli.served_studies import served_studies
+    from rgss.decision import choose_portfolio, measure_survivors
     from rgss.decision.assumptions import assumption_outcomes
     from rgss.decision.study_decision import decide_study
     from rgss.errors import EvidenceError
@@ -92,13 +92,13 @@ def run(options: argparse.Namespace) -> int:
         except EvidenceError as error:
             raise EvidenceError(error.message, hint=f"run '{_sweep_command(options)}' first") from None
         state = _evidence_state(project, measured, recorded, options.junit)
-        portfolio = portfolio_of(project, store)
+        served = served_studies(project, store)
         made = decide_study(
             project,
             measured,
             evidence=label,
             screened=screened,
-            portfolio=portfolio,
+            portfolio=choose_portfolio(project, served) if served else None,
             assumptions=assumption_outcomes(project, measured, store),
         )
         planners = None if options.no_film else _planners(project)

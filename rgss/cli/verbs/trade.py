@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from rgss.decision.what_if import Scenario
     from rgss.evidence import EvidenceStore
     from rgss.studies import Project
-    from rgss.tradeoff import PortfolioDecision, SolverRun
 
 HELP = "choose the best variant, with the reasons and what would change the choice"
 PAGED = True
@@ -82,7 +81,8 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.assumption_trials import known_assumptions, scenario_measures
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import shown_path
-    from rgss.decision import measure_survivors
+    from rgss.cli.served_studies import served_studies
+    from rgss.decision import choose_portfolio, measure_survivors
     from rgss.decision.study_decision import decide_study
     from rgss.decision.what_if import suppose
     from rgss.errors import DefinitionError
@@ -112,7 +112,10 @@ def run(options: argparse.Namespace) -> int:
         more = () if screened is None or scenario is None else _reopened(project, scenario, screened, store)
         asked = scenario is None and (analysed or options.run)
         assumptions = known_assumptions(options, project, measured, store) if asked else ()
-        portfolio = portfolio_of(project, store, time_limit=time_limit, independent=independent)
+        served = served_studies(project, store, options)
+        portfolio = (
+            choose_portfolio(project, served, time_limit=time_limit, independent=independent) if served else None
+        )
     made = decide_study(
         project,
         measured,
@@ -179,16 +182,3 @@ def _reopened(project: Project, scenario: Scenario, screened: ScreeningResult, s
         return ()  # The suppositions change the screening trials themselves, so that nothing is known of them.
     first = measure_variants(project.with_fidelity(screened.screening.fidelity.value), store)
     return reopened(screened, scenario.project, measured_in(scenario, first))
-
-
-def portfolio_of(
-    project: Project, store: EvidenceStore, *, time_limit: float | None = None, independent: tuple[SolverRun, ...] = ()
-) -> PortfolioDecision | None:
-    """The portfolio of the study, from the evidence of every study that it serves; None if it has none."""
-    if project.study.trade_off.portfolio is None:
-        return None
-    from rgss.decision import choose_portfolio, measure_survivors, portfolio_projects
-
-    projects = portfolio_projects(project)
-    measured = {name: (each, measure_survivors(each, store)[0]) for name, each in projects.items()}
-    return choose_portfolio(project, measured, time_limit=time_limit, independent=independent)

@@ -20,6 +20,6 @@ if TYPE_CHECKING:
     from rgss.decision.what_if.shapes import ALL, SHAPE
     from rgss.decision.what_if.simulated import simulated_numbers
     from rgss.decision.what_if.trial_evidence import ScenarioEvidenceReader
-    from rgss.decision.what_if.what_if import PRICES, suppose
+    from rgss.decision.what_if.what_if import PRICES, suppose, suppose_known
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

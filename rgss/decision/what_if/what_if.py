@@ -32,6 +32,33 @@ PRICES = "prices"
 EXAMPLE = 'weight.t_p=0.4, "SYS-012.threshold=0.8 kg" or "catalogue.kg-2-light.cost=4500 USD"'
 
 
+class UnknownSuppositionError(DefinitionError):
+    """A supposition about a number that the study does not have."""
+
+
+def suppose_known(project: Project, suppositions: Sequence[str]) -> Scenario | None:
+    """Apply to a study those suppositions that it has; None if it has none of them.
+
+    Suppositions about the study of a portfolio concern each study that it serves and that has the number too.
+
+    Args:
+        project: The project with one of the served studies.
+        suppositions: Texts as in `suppose`.
+
+    Raises:
+        DefinitionError: As in `suppose`, except for an unknown name.
+        TradeoffError: As in `suppose`.
+    """
+    known = []
+    for text in suppositions:
+        try:
+            suppose(project, [text])
+        except UnknownSuppositionError:
+            continue
+        known.append(text)
+    return suppose(project, known) if known else None
+
+
 def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
     """Read suppositions and apply them to a project, without a simulation.
 
@@ -277,8 +304,8 @@ def _requirements(project: Project) -> list[str]:
     return [f"{one.id}.{THRESHOLD}" for one in project.requirements.system if one.criterion is not None]
 
 
-def _unknown(name: str, known: Iterable[str], near_to: str) -> DefinitionError:
+def _unknown(name: str, known: Iterable[str], near_to: str) -> UnknownSuppositionError:
     names = list(known)
     near = difflib.get_close_matches(name, names, n=3) or [one for one in names if near_to and near_to in one][:3]
     hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(names[:4])}"
-    return DefinitionError(f"--what-if: unknown input {shown(name)}", hint=hint)
+    return UnknownSuppositionError(f"--what-if: unknown input {shown(name)}", hint=hint)
