@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 
-from rgss.tradeoff.elicitation import GREATEST_RATIO, Consistency, ElicitedWeights, FitMethod, PairwiseAnswer, Triad
+from rgss.tradeoff.elicitation import (
+    GREATEST_RATIO,
+    Consistency,
+    ElicitedWeights,
+    FitMethod,
+    PairwiseAnswer,
+    RatioBeyondBounds,
+    Triad,
+)
 
 DIGEST_SHOWN = 12
 """Digits of a digest on pages; the JSON document has all."""
@@ -19,9 +28,14 @@ def elicitation_sentences(elicited: Iterable[ElicitedWeights], by: Mapping[str, 
     """
     for whose, one in [*(("", one) for one in elicited), *((f" of {name}", one) for name, one in by.items())]:
         yield (
-            f"Weights{whose} of {', '.join(one.weights)}: from {len(one.answers)} pairwise answers, SHA-256 "
+            f"Weights{whose} of {', '.join(one.weights)}: from {answers_phrase(one)}, SHA-256 "
             f"{one.digest[:DIGEST_SHOWN]}…; {verdict_phrase(one)}."
         )
+
+
+def answers_phrase(one: ElicitedWeights) -> str:
+    """The number of answers in words."""
+    return f"{len(one.answers)} pairwise answer{'' if len(one.answers) == 1 else 's'}"
 
 
 def verdict_phrase(one: ElicitedWeights) -> str:
@@ -30,7 +44,7 @@ def verdict_phrase(one: ElicitedWeights) -> str:
     if consistency is None:
         return "the answers are orders and ranges, which agree"
     if consistency.is_acceptable is None:
-        return "no answer checks another"
+        return "no ratio checks another" + ("; the orders and ranges agree with them" if consistency.bounds else "")
     return f"the answers are {'consistent enough' if consistency.is_acceptable else 'too inconsistent'}"
 
 
@@ -49,10 +63,18 @@ def consistency_sentences(found: Consistency) -> Iterator[str]:
     Args:
         found: The inconsistency of the ratio answers.
     """
-    if found.index is None:
+    if found.is_contradicted:
         yield (
-            f"No answer checks another: {found.answers} ratios for {found.criteria} criteria. Answer one more, between "
-            "two that are compared with a third."
+            f"The orders and ranges contradict the ratios: the worst is missed by ×{found.bound_factor:.3g} because of "
+            f"them, limit ×{found.greatest_bound_factor:.3g}."
+        )
+        for one in found.beyond_bounds:
+            yield f"{one.answer.words}, while orders and ranges allow {_allowed(one)}."
+    if found.index is None:
+        ratios = f"{found.answers} ratio{'s' if found.answers > 1 else ''}"
+        yield (
+            f"No ratio checks another: {ratios} for {found.criteria} criteria. Answer one more, between two that are "
+            "compared with a third."
         )
         return
     yield (
@@ -67,6 +89,12 @@ def consistency_sentences(found: Consistency) -> Iterator[str]:
     if worst is not None and worst.factor > 1.0 + 1e-9:
         implied = "" if worst.implied is None else f"; the other answers imply {_pair(worst.answer, worst.implied)}"
         yield f"The answer that fits least: {worst.answer.words}, while the weights say {worst.fitted:.3g}{implied}."
+
+
+def _allowed(one: RatioBeyondBounds) -> str:
+    if one.least == 0.0:
+        return f"at most {one.most:.3g}"
+    return f"at least {one.least:.3g}" if math.isinf(one.most) else f"{one.least:.3g} to {one.most:.3g}"
 
 
 def _triad(triad: Triad) -> str:

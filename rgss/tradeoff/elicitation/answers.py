@@ -9,6 +9,9 @@ from dataclasses import dataclass
 from rgss.errors import TradeoffError
 from rgss.tradeoff.problem import ElicitedOrder
 
+GREATEST_SWING_RATIO = 1e9
+"""Greatest ratio of two swings, and the inverse of the least."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PairwiseAnswer:
@@ -24,7 +27,7 @@ class PairwiseAnswer:
         most: The greatest ratio; infinite if only the least is known.
 
     Raises:
-        TradeoffError: The criteria are the same, or the ratios are not a range of positive numbers.
+        TradeoffError: The criteria are the same, or the ratios are no range of positive numbers, or are extreme.
     """
 
     swing_of: str
@@ -39,6 +42,13 @@ class PairwiseAnswer:
             raise TradeoffError(
                 f"the ratio of {self.swing_of!r} and {self.over!r} cannot lie between {self.least:g} and {self.most:g}",
                 hint="give positive numbers, the smaller one first",
+            )
+        ends = [self.least] if math.isinf(self.most) else [self.least, self.most]
+        if not 1.0 / GREATEST_SWING_RATIO <= min(ends) <= max(ends) <= GREATEST_SWING_RATIO:
+            raise TradeoffError(
+                f"the ratio of {self.swing_of!r} and {self.over!r} must be from {1.0 / GREATEST_SWING_RATIO:g} to "
+                f"{GREATEST_SWING_RATIO:g}, got {' to '.join(f'{end:g}' for end in dict.fromkeys(ends))}",
+                hint="leave out a measure whose swing is worth next to nothing",
             )
 
     @property

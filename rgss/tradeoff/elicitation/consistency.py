@@ -11,7 +11,10 @@ from types import MappingProxyType
 import numpy as np
 
 from rgss.tradeoff.elicitation.answers import PairwiseAnswer
+from rgss.tradeoff.elicitation.difference_bounds import implied_bounds, least_missing
 from rgss.tradeoff.elicitation.least_squares import design_matrix, fitted_logs
+
+_ROUNDING = 1e-6
 
 GREATEST_RATIO = 0.10
 """Saaty, *The Analytic Hierarchy Process*, 1980: a matrix with a greater consistency ratio is to be revised."""
@@ -62,6 +65,21 @@ class WorstAnswer:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class RatioBeyondBounds:
+    """A ratio that the orders and ranges exclude.
+
+    Attributes:
+        answer: The answer.
+        least: The least ratio that they allow; 0 without one.
+        most: The greatest; infinite without one.
+    """
+
+    answer: PairwiseAnswer
+    least: float
+    most: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Consistency:
     """Consistency of ratio answers.
 
@@ -75,6 +93,9 @@ class Consistency:
         index_limit: The index above which answers should be revised; exact for complete matrices.
         worst_triad: The least consistent triad of answers; None if there is none.
         worst_answer: The least consistent answer; None without redundant answers.
+        bounds: Number of orders and ranges.
+        bound_factor: By how much more the worst ratio must be missed because of them, at least 1.
+        beyond_bounds: The ratios that they exclude by themselves.
     """
 
     criteria: int
@@ -85,12 +106,27 @@ class Consistency:
     index_limit: float
     worst_triad: Triad | None
     worst_answer: WorstAnswer | None
+    bounds: int = 0
+    bound_factor: float = 1.0
+    beyond_bounds: tuple[RatioBeyondBounds, ...] = ()
+
+    @property
+    def greatest_bound_factor(self) -> float:
+        """The factor above which the answers should be revised: that of one residual at the limit of the index."""
+        return math.exp(math.sqrt(self.index_limit))
+
+    @property
+    def is_contradicted(self) -> bool:
+        """True if orders and ranges contradict the ratios, by however little."""
+        return self.bound_factor > 1.0 + _ROUNDING
 
     @property
     def is_acceptable(self) -> bool | None:
-        """True if the index, and the ratio where there is one, are within their limits; None where nothing checks."""
+        """True if all figures are within their limits; None if no ratio checks another and no bound contradicts one."""
+        if self.bound_factor > self.greatest_bound_factor:
+            return False
         if self.index is None:
-            return None
+            return True if self.is_contradicted else None
         return self.index <= self.index_limit and (self.ratio is None or self.ratio <= GREATEST_RATIO)
 
 
@@ -99,7 +135,7 @@ def consistency_of(names: Sequence[str], answers: Sequence[PairwiseAnswer]) -> C
 
     Args:
         names: The criteria.
-        answers: The answers; bounds are ignored.
+        answers: The answers.
     """
     ratios = [answer for answer in answers if answer.is_ratio]
     named = [name for name in names if any(name in (one.swing_of, one.over) for one in ratios)]
@@ -110,6 +146,7 @@ def consistency_of(names: Sequence[str], answers: Sequence[PairwiseAnswer]) -> C
     fitted = matrix @ fitted_logs(matrix, logs)
     residuals = logs - fitted
     index = float(residuals @ residuals) / checks if checks else None
+    bounds = [answer for answer in answers if not answer.is_ratio]
     return Consistency(
         criteria=len(named),
         answers=len(ratios),
@@ -119,7 +156,23 @@ def consistency_of(names: Sequence[str], answers: Sequence[PairwiseAnswer]) -> C
         index_limit=GREATEST_INDEX.get(len(named), GREATEST_INDEX_BEYOND),
         worst_triad=_worst_triad(named, ratios),
         worst_answer=None if index is None else _worst_answer(named, ratios, residuals, fitted),
+        bounds=len(bounds),
+        bound_factor=least_missing(names, ratios, bounds)[1] / least_missing(names, ratios, ())[1] if bounds else 1.0,
+        beyond_bounds=_beyond_bounds(names, ratios, bounds),
     )
+
+
+def _beyond_bounds(
+    names: Sequence[str], ratios: Sequence[PairwiseAnswer], bounds: Sequence[PairwiseAnswer]
+) -> tuple[RatioBeyondBounds, ...]:
+    lower = implied_bounds(names, bounds)
+    found = []
+    for one in ratios:
+        of, over = names.index(one.swing_of), names.index(one.over)
+        least, most = math.exp(lower[over, of]), math.exp(-lower[of, over])
+        if not least * (1.0 - _ROUNDING) <= one.ratio <= most * (1.0 + _ROUNDING):
+            found.append(RatioBeyondBounds(answer=one, least=least, most=most))
+    return tuple(found)
 
 
 def _saaty_ratio(names: Sequence[str], ratios: Sequence[PairwiseAnswer]) -> float | None:

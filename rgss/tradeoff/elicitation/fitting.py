@@ -12,9 +12,9 @@ from rgss.errors import TradeoffError
 from rgss.tradeoff.elicitation.answers import PairwiseAnswer, connected_parts
 from rgss.tradeoff.elicitation.consistency import consistency_of
 from rgss.tradeoff.elicitation.contradictions import contradiction_of
+from rgss.tradeoff.elicitation.difference_bounds import answer_row, bound_rows, implied_bounds, least_missing
 from rgss.tradeoff.elicitation.elicited_weights import ElicitedWeights, FitMethod
 from rgss.tradeoff.elicitation.least_squares import Array, bounded_fit, design_matrix
-from rgss.tradeoff.milp import solve_linear
 from rgss.tradeoff.problem import WeightBounds
 from rgss.tradeoff.weights import Polytope, WeightSet, centroid
 
@@ -53,7 +53,7 @@ def weights_from_answers(names: Sequence[str], answers: Sequence[PairwiseAnswer]
         factor, weights = _factor(names, answers, logs), _normalised(logs)
     else:
         method = FitMethod.CENTRE
-        logs, factor = _least_missing(names, answers, bounds)
+        logs, factor = least_missing(names, answers, bounds)
         weights = centroid(_agreeing(names, answers, logs))
     low, high = weight_extents(names, answers, factor)
     fits = np.array([weights, *(_normalised(logs) for logs in _fits_without_one(names, measured, bounds))])
@@ -70,7 +70,7 @@ def weights_from_answers(names: Sequence[str], answers: Sequence[PairwiseAnswer]
 
 def _fitted(names: Sequence[str], measured: Sequence[PairwiseAnswer], bounds: Sequence[PairwiseAnswer]) -> Array:
     matrix, logs = design_matrix(names, measured)
-    return bounded_fit(matrix, logs, *_bounds(names, bounds))
+    return bounded_fit(matrix, logs, *bound_rows(names, bounds))
 
 
 def _fits_without_one(
@@ -90,50 +90,10 @@ def _normalised(logs: Array) -> Array:
     return np.asarray(weights / weights.sum(), dtype=np.float64)
 
 
-def _bounds(names: Sequence[str], bounds: Sequence[PairwiseAnswer]) -> tuple[Array, Array]:
-    """Bounds on the logarithms of weights as ``rows u >= limits``."""
-    rows, limits = [], []
-    for answer in bounds:
-        row = design_matrix(names, [answer])[0][0] if math.isfinite(answer.most) else _row(names, answer)
-        rows.append(row)
-        limits.append(math.log(answer.least))
-        if math.isfinite(answer.most):
-            rows.append(-row)
-            limits.append(-math.log(answer.most))
-    return np.array(rows).reshape(-1, len(names)), np.array(limits)
-
-
-def _row(names: Sequence[str], answer: PairwiseAnswer) -> Array:
-    row = np.zeros(len(names))
-    row[names.index(answer.swing_of)], row[names.index(answer.over)] = 1.0, -1.0
-    return row
-
-
 def _factor(names: Sequence[str], answers: Sequence[PairwiseAnswer], logs: Array) -> float:
     """By how much the worst ratio is missed."""
-    missed = [abs(float(_row(names, one) @ logs) - math.log(one.ratio)) for one in answers if one.is_ratio]
+    missed = [abs(float(answer_row(names, one) @ logs) - math.log(one.ratio)) for one in answers if one.is_ratio]
     return math.exp(max(missed, default=0.0))
-
-
-def _least_missing(
-    names: Sequence[str], answers: Sequence[PairwiseAnswer], bounds: Sequence[PairwiseAnswer]
-) -> tuple[Array, float]:
-    """Logarithms of weights that satisfy the bounds and miss all ratios by the least factor, and that factor."""
-    ratios = [answer for answer in answers if answer.is_ratio]
-    rows, limits = _bounds(names, bounds)
-    signed = np.array([sign * _row(names, one) for one in ratios for sign in (1.0, -1.0)]).reshape(-1, len(names))
-    logs = np.array([sign * math.log(one.ratio) for one in ratios for sign in (1.0, -1.0)])
-    found = solve_linear(
-        np.concatenate([np.zeros(len(names)), [1.0]]),
-        np.vstack([np.hstack([signed, -np.ones((len(signed), 1))]), np.hstack([-rows, np.zeros((len(rows), 1))])]),
-        np.concatenate([logs, -limits]),
-        np.concatenate([[1.0], np.zeros(len(names))])[None, :],
-        np.zeros(1),
-        [(None, None)] * len(names) + [(0.0, None)],
-    )
-    if found is None:
-        raise TradeoffError("no weights satisfy all answers", hint="withdraw one of the bounds")
-    return found[:-1], math.exp(float(found[-1]))
 
 
 def _agreeing(names: Sequence[str], answers: Sequence[PairwiseAnswer], logs: Array) -> Polytope:
@@ -143,7 +103,7 @@ def _agreeing(names: Sequence[str], answers: Sequence[PairwiseAnswer], logs: Arr
         replace(one, least=ratio, most=ratio)
         for one in answers
         if one.is_ratio
-        for ratio in [math.exp(float(_row(names, one) @ logs))]
+        for ratio in [math.exp(float(answer_row(names, one) @ logs))]
     ]
     orders = tuple(order for one in (*met, *(one for one in answers if not one.is_ratio)) for order in one.orders())
     rows, limits = WeightBounds(orders=orders).inequalities(names)
@@ -165,18 +125,7 @@ def weight_extents(names: Sequence[str], answers: Sequence[PairwiseAnswer], fact
     Returns:
         Shapes (n,) each.
     """
-    # lower[i, j] is the greatest lower bound of the logarithm of w_j / w_i.
-    lower = np.full((len(names), len(names)), -np.inf)
-    np.fill_diagonal(lower, 0.0)
-    slack = math.log(factor)
-    for answer in answers:
-        one, other = names.index(answer.swing_of), names.index(answer.over)
-        room = slack if answer.is_ratio else 0.0
-        lower[other, one] = max(lower[other, one], math.log(answer.least) - room)
-        if math.isfinite(answer.most):
-            lower[one, other] = max(lower[one, other], -math.log(answer.most) - room)
-    for through in range(len(names)):
-        lower = np.maximum(lower, lower[:, through, None] + lower[None, through, :])
+    lower = implied_bounds(names, answers, factor=factor)
     high = 1.0 / np.exp(lower).sum(axis=1)
     with np.errstate(over="ignore"):
         low = 1.0 / np.exp(-lower).sum(axis=0)

@@ -92,6 +92,10 @@ FINDINGS = [
         "7:43: error: the ratio of 'P_max' and 't_e' cannot lie between 0 and 0",
     ),
     (
+        (*PLAIN, *answers("{swing_of: P_max, over: t_e, ratio: 1e160}")),
+        "7:43: error: the ratio of 'P_max' and 't_e' must be from 1e-09 to 1e+09, got 1e+160",
+    ),
+    (
         (*PLAIN, *answers("{swing_of: S, over: S}")),
         "7:18: error: 'S' is compared with itself",
     ),

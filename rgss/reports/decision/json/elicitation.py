@@ -52,6 +52,16 @@ def _consistency(one: Consistency) -> Plain:
         "ratio": one.ratio,
         "index": one.index,
         "index_limit": one.index_limit,
+        "bound_factor": one.bound_factor,
+        "bound_factor_limit": one.greatest_bound_factor,
+        "beyond_bounds": [
+            {
+                "answer": _answer(beyond.answer),
+                "least": beyond.least,
+                "most": None if math.isinf(beyond.most) else beyond.most,
+            }
+            for beyond in one.beyond_bounds
+        ],
         "worst_triad": None
         if triad is None
         else {

@@ -5,7 +5,12 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Iterator, Mapping
 
-from rgss.reports.decision.answers_in_words import consistency_sentences, method_sentence, verdict_phrase
+from rgss.reports.decision.answers_in_words import (
+    answers_phrase,
+    consistency_sentences,
+    method_sentence,
+    verdict_phrase,
+)
 from rgss.reports.plain_text import aligned_table
 from rgss.tradeoff.elicitation import ElicitedWeights
 
@@ -34,7 +39,7 @@ def weighing_lines(
     for place, (whose, one) in enumerate(groups):
         if place or stated is not None:
             yield ""
-        yield f"Study {study}: weights{whose} from {len(one.answers)} pairwise answers; {verdict_phrase(one)}"
+        yield f"Study {study}: weights{whose} from {answers_phrase(one)}; {verdict_phrase(one)}"
         rows = [
             [name, f"{weight:.3f}", f"{one.low[name]:.3f}", f"{one.high[name]:.3f}"]
             for name, weight in one.weights.items()
