@@ -44,7 +44,9 @@ def decide(
     """Choose the best feasible alternative, prove it, and explain it.
 
     The mixed-integer programs are solved to optimality and the answer is compared with exhaustive enumeration.
-    Of tied alternatives the solver may return any; the decision is the smallest id, or the largest.
+    Of tied alternatives the solver may return any; the decision is one that no other surpasses in the quantities of
+    the valued measures, which may lie beyond the ends of their value functions, and of these the smallest id, or the
+    largest.
 
     Args:
         problem: The trade-off.
@@ -85,9 +87,13 @@ def decide(
     certificate = _certified(problem, enumeration, (), independent, time_limit)
     ties = tuple(int(variant) for variant in enumeration.variants[enumeration.tied])
     ranking = rank(enumeration)
+    surpassed = _surpassed(problem, enumeration)
     if last_of_equals:
         ties = ties[::-1]
         ranking = (*(ranking[: len(ties)][::-1]), *ranking[len(ties) :])
+    ties = tuple(sorted(ties, key=lambda variant: variant in surpassed))
+    equal = sorted(ranking[: len(ties)], key=lambda ranked: ranked.variant in surpassed)
+    ranking = (*equal, *ranking[len(ties) :])
     chosen = ties[0] if ties else None
     runner_up = find_runner_up(enumeration, ranking, ties)
     better, deciding_requirements, better_count = excluded_better(enumeration)
@@ -98,6 +104,7 @@ def decide(
         chosen=chosen,
         runner_up=runner_up,
         ties=ties,
+        surpassed=tuple(variant for variant in ties if variant in surpassed),
         near_ties=near_ties(enumeration, ranking, ties, margin),
         ranking=ranking,
         infeasible=infeasible_alternatives(enumeration),
@@ -115,6 +122,17 @@ def decide(
         ),
         certificate=certificate,
     )
+
+
+def _surpassed(problem: TradeProblem, enumeration: Enumeration) -> frozenset[int]:
+    """The tied alternatives that another of them surpasses in the quantities of the valued measures."""
+    import numpy as np
+
+    from rgss.tradeoff.problem import surpassed_equals
+
+    rows = np.flatnonzero(enumeration.tied)
+    mask = surpassed_equals(enumeration.table, problem.deciding_functions, rows)
+    return frozenset(int(variant) for variant in enumeration.variants[rows[mask]])
 
 
 def best_alternatives(problem: TradeProblem, count: int) -> tuple[Certificate, ...]:

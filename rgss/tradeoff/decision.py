@@ -117,13 +117,16 @@ class Decision:
         objectives: Its objectives, in turn.
         status: Optimal, or infeasible if no alternative meets every requirement; then nothing is chosen and the
             conflicts give the reason.
-        chosen: Among the tied best, the smallest id, or the largest if the study chooses the last of equals.
+        chosen: Among the tied best that none of them surpasses, the smallest id, or the largest if the study chooses
+            the last of equals.
         near_ties: Feasible alternatives that are not tied but come within the practical margin of
             the best, in the order of the ranking.
         runner_up: The next in the ranking that is not tied; if all feasible
             alternatives are tied, the next of these; None if only one is feasible.
-        ties: All feasible alternatives within 1e-9 of the best, by ascending id; the chosen one is
-            the first, and alone where the choice is unique.
+        ties: All feasible alternatives within 1e-9 of the best: those that none of them surpasses, then the others,
+            each by ascending id, or by falling id if the last of equals is chosen. The chosen one is the first.
+        surpassed: The tied alternatives that another of them surpasses: it is at least as good in the quantity of every
+            valued measure and better in one, beyond an end of its value function.
         ranking: The feasible alternatives, best first, equals by ascending id: first the tied,
             which count as equal, then what would be chosen without these, and so on.
         infeasible: The others by ascending id.
@@ -147,6 +150,7 @@ class Decision:
     chosen: int | None
     runner_up: int | None
     ties: tuple[int, ...]
+    surpassed: tuple[int, ...]
     near_ties: tuple[int, ...]
     ranking: tuple[RankedAlternative, ...]
     infeasible: tuple[InfeasibleAlternative, ...]

@@ -139,6 +139,24 @@ def test_a_tie_says_what_could_break_it(made, replicates, measure, words):
     )
 
 
+def test_a_tie_of_different_quantities_says_that_they_are_beyond_an_end(made):
+    row = int(made.robustness.analysis.feasible.argmax())
+    rival = Rival(row=row, probability=1.0, within_margin=True, replicates=None, measure=None, clipped=("t_e", "t_p"))
+    assert list(uncertainty_sentences(with_rivals(made, rival)))[1].endswith(
+        "; their estimates differ in t_e, t_p, but beyond an end of the value function, where no difference is worth "
+        "anything; another worst or best breaks the tie."
+    )
+
+
+def test_a_difference_that_no_replicate_changes_is_said_to_be_fixed(made):
+    row = int(made.robustness.analysis.feasible.argmax())
+    rival = Rival(row=row, probability=0.3, within_margin=True, replicates=28, measure="C_total", fixed=True)
+    assert list(uncertainty_sentences(with_rivals(made, rival)))[1].endswith(
+        "; they differ most in C_total, which no replicate changes; about 28 replicates would show whose value is "
+        "higher."
+    )
+
+
 def test_a_tie_by_feasibility_names_no_number_of_replicates(made):
     row = int(made.robustness.analysis.feasible.argmax())
     rival = Rival(row=row, probability=0.25, within_margin=False, replicates=None, measure="t_e", by_feasibility=True)
@@ -172,7 +190,8 @@ def test_every_page_states_the_rule_of_the_choice(made):
     ruled = dataclasses.replace(made, tolerance=0.05, last_of_equals=True)
     sentence = (
         "Rule: of the variants whose estimates miss no threshold by more than 5 % of it, the one of the highest value "
-        "is chosen; of equals the largest id."
+        "is chosen; of equals one that no other surpasses in the quantities of the valued measures, then the largest "
+        "id."
     )
     assert sentence in list(decision_lines(ruled))
     assert sentence in decision_section(ruled)

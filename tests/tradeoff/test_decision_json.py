@@ -18,6 +18,7 @@ def test_of_a_choice(payload_and_time):
         "chosen": 1,
         "runner_up": 3,
         "ties": [1],
+        "surpassed": [],
         "near_ties": [],
         "ranking": [
             {"variant": 1, "value": 0.5, "objectives": [0.5]},
@@ -89,6 +90,7 @@ def test_of_no_choice(build_problem):
         "chosen": None,
         "runner_up": None,
         "ties": [],
+        "surpassed": [],
         "near_ties": [],
         "ranking": [],
         "infeasible": [

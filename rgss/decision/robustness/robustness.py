@@ -22,7 +22,7 @@ from rgss.decision.robustness.remeasuring import Remeasuring
 from rgss.errors import TradeoffError
 from rgss.studies import Project
 from rgss.tradeoff import AdditiveValue, Decision, TradeProblem
-from rgss.tradeoff.problem import FEWEST_REPLICATES, EvidenceTable, Resamples, bootstrap
+from rgss.tradeoff.problem import FEWEST_REPLICATES, EvidenceTable, Resamples, bootstrap, surpassed_within_classes
 from rgss.tradeoff.programs import (
     enumerate_alternatives,
     orderings_of,
@@ -155,6 +155,7 @@ def analyse_robustness(
         weights=weights,
         values=values,
         feasible=feasible,
+        surpassed=surpassed_within_classes(table, problem.deciding_functions, values, feasible),
         front=parts.compute(Part.PARETO, lambda: pareto_front(values, feasible), ParetoFront(points=())),
         weighting=weighting,
         assumptions=assumed[0],

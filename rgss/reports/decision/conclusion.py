@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from rgss.assessment import SeedGroup
 from rgss.decision.study_decision import Feasibility, RobustnessFindings, StudyDecision
@@ -49,7 +50,10 @@ def rule_sentence(made: StudyDecision) -> str:
         within = f"miss no threshold by more than {share_text(made.tolerance)} of it"
     value = "of the highest value" if made.decision.program == "additive" else f"that {made.decision.program} prefers"
     end = "largest" if made.last_of_equals else "smallest"
-    return f"Rule: of the variants whose estimates {within}, the one {value} is chosen; of equals the {end} id."
+    return (
+        f"Rule: of the variants whose estimates {within}, the one {value} is chosen; of equals one that no "
+        f"other surpasses in the quantities of the valued measures, then the {end} id."
+    )
 
 
 def standing_sentence(made: StudyDecision) -> str:
@@ -136,7 +140,7 @@ def share_text(share: float) -> str:
 def _ties(found: RobustnessFindings, one: ChoiceUncertainty) -> Iterator[str]:
     groups: dict[tuple[object, ...], list[Rival]] = {}
     for rival in one.rivals:
-        key = (round(rival.probability, 3), rival.within_margin, rival.replicates, rival.measure, rival.by_feasibility)
+        key = (round(rival.probability, 3), replace(rival, row=0, probability=0.0))
         groups.setdefault(key, []).append(rival)
     if not groups:
         yield "No other variant is tied with it."
@@ -161,7 +165,17 @@ def _tie(found: RobustnessFindings, members: list[Rival]) -> str:
             "break the tie, and no difference of value does."
         )
     if rival.measure is None:
+        if rival.clipped:
+            return (
+                f"{tied}; their estimates differ in {', '.join(rival.clipped)}, but beyond an end of the value "
+                "function, where no difference is worth anything; another worst or best breaks the tie."
+            )
         return f"{tied}; no estimate differs, so that only a measure in which they differ breaks the tie."
     if rival.replicates is None:
         return f"{tied}; they differ most in {rival.measure}, and no affordable number of replicates separates them."
+    if rival.fixed:
+        return (
+            f"{tied}; they differ most in {rival.measure}, which no replicate changes; about {rival.replicates} "
+            "replicates would show whose value is higher."
+        )
     return f"{tied}; they differ most in {rival.measure}; about {rival.replicates} replicates would separate them."

@@ -45,6 +45,14 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
     within = f", within the tolerance of {share_text(made.tolerance)}" if made.tolerance else ""
     yield Reason(text=f"Variant {decision.chosen} {best} {among} every requirement by the estimates{within}.")
     others = [variant for variant in decision.ties if variant != decision.chosen]
+    if decision.surpassed:
+        names = variants_text(decision.surpassed).capitalize()
+        have = "has" if len(decision.surpassed) == 1 else "have"
+        yield Reason(
+            text=f"{names} {have} the same value, but another of this value is better in a quantity beyond the end of "
+            "its value function, and no worse in any."
+        )
+        others = [variant for variant in others if variant not in decision.surpassed]
     if others:
         names = ", ".join(map(str, others))
         end = "largest" if made.last_of_equals else "smallest"

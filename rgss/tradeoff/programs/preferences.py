@@ -160,6 +160,11 @@ class Preferences(ABC):
         """The value function of a weighted measure."""
         return next(function for function in self.value_functions if function.measure == measure)
 
+    @property
+    def deciding_functions(self) -> tuple[ValueFunction, ...]:
+        """The value functions of the measures with a weight above 0, in the order of the weights."""
+        return tuple(self.value_function(measure) for measure in self.weighting.deciding_measures)
+
     def weight_corners(self) -> NDArray[np.float64]:
         """The corners of the set of weights that agree with the bounds, shape (c, m), in the weights' order.
 

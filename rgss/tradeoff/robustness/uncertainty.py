@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.tradeoff.problem import TIE_TOLERANCE, Array
+from rgss.tradeoff.problem import TIE_TOLERANCE, Array, EvidenceTable
 from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
 
 TIE_PROBABILITY = 0.05
@@ -35,6 +35,9 @@ class Rival:
             no number does, for they do not differ or a demand decides.
         by_feasibility: Whether it is not tied by its value: it is ahead only where the choice is not feasible.
         measure: The measure in whose value they differ most by the estimates; None where they do not differ.
+        fixed: Whether that measure follows from the design alone, so that no replicate changes its difference.
+        clipped: Where no value differs, the measures in whose quantities they differ beyond an end of the value
+            function.
     """
 
     row: int
@@ -43,6 +46,8 @@ class Rival:
     replicates: int | None
     measure: str | None
     by_feasibility: bool = False
+    fixed: bool = False
+    clipped: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -150,6 +155,7 @@ def _rivals(
         either = int((feasible[:, row] | feasible[:, chosen]).sum())
         probability = float(ahead.sum()) / either if either else 0.0
         gaps = weights * (single[row] - single[chosen])
+        measure = _widest(weighting.deciding_measures, gaps)
         difference = float(gaps.sum())
         near = bool(estimated[row]) and abs(difference) <= margin + TIE_TOLERANCE
         if not near and probability < TIE_PROBABILITY:
@@ -166,8 +172,10 @@ def _rivals(
                 probability=probability,
                 within_margin=near,
                 replicates=_replicates_needed(difference, spread, fewest) if counted else None,
-                measure=_widest(weighting.deciding_measures, gaps),
+                measure=measure,
                 by_feasibility=by_feasibility,
+                fixed=measure is not None and measure not in found.table.samples,
+                clipped=() if measure else _different(found.table, weighting.deciding_measures, row, chosen),
             )
         )
     return tuple(sorted(rivals, key=lambda one: -one.probability))
@@ -179,6 +187,16 @@ def _replicates_needed(difference: float, spread: float, replicates: int) -> int
         return None
     needed = math.ceil(replicates * (_Z * spread / abs(difference)) ** 2)
     return None if needed > MOST_MORE else max(needed, replicates)
+
+
+def _different(table: EvidenceTable, measures: tuple[str, ...], row: int, chosen: int) -> tuple[str, ...]:
+    """The measures in whose known quantities two alternatives differ."""
+    pairs = {measure: table.column(measure)[[row, chosen]].tolist() for measure in measures}
+    return tuple(
+        measure
+        for measure, (one, other) in pairs.items()
+        if math.isfinite(one - other) and not math.isclose(one, other, rel_tol=TIE_TOLERANCE)
+    )
 
 
 def _widest(measures: tuple[str, ...], gaps: Array) -> str | None:

@@ -97,6 +97,7 @@ class SequentialEvidence:
         values: Weighted value by the estimates, shape (n,); NaN where a measure is unknown.
         feasible: Mask of the alternatives that meet all conditions by their estimates, within the tolerance, shape
         (n,).
+        value_functions: Value functions of the measures that decide.
         tolerance: Share of a threshold on observed measures by which the choice may violate it.
         last_of_equals: True if the largest id of equals is the choice; the smallest otherwise.
         twins: The group of alternatives with which each shares all trials, for any seed, shape (n,).
@@ -114,6 +115,7 @@ class SequentialEvidence:
     feasible: NDArray[np.bool_]
     twins: NDArray[np.intp]
     levels: NDArray[np.intp] | None = None
+    value_functions: tuple[ValueFunction, ...] = ()
     tolerance: float = 0.0
     last_of_equals: bool = False
 
@@ -179,6 +181,7 @@ class SequentialEvidence:
             feasible=_met(table, admitted) & ~np.isnan(values),
             twins=np.array([(twins or {}).get(each, each) for each in table.variants.tolist()], dtype=np.intp),
             levels=levels,
+            value_functions=problem.deciding_functions,
             tolerance=tolerance,
             last_of_equals=last_of_equals,
         )

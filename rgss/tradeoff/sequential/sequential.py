@@ -25,7 +25,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
 
+import numpy as np
+
 from rgss.measures import Verdict
+from rgss.tradeoff.problem import surpassed_equals
 from rgss.tradeoff.sequential.allocation import leaders, levelled, likely_better, raised_together
 from rgss.tradeoff.sequential.elimination import eliminated, highest_rows, rivals_after_pilot
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
@@ -159,7 +162,9 @@ def _next_replicates(
 
 
 def _chosen(evidence: SequentialEvidence, contenders: tuple[int, ...], *, focused: bool) -> int | None:
-    """The contender of the highest value that is feasible by its estimates; the smallest id of ties, or the largest.
+    """The contender of the highest value that is feasible by its estimates.
+
+    Of ties it is the smallest id, or the largest, of those that no other surpasses in quantities.
 
     Only those with the most replicates count: the estimate of an alternative with fewer is too uncertain. Under
     a budget all count, because the leader is replicated first, and the assessment reads the same estimates.
@@ -167,5 +172,6 @@ def _chosen(evidence: SequentialEvidence, contenders: tuple[int, ...], *, focuse
     rows = [row for row in map(evidence.table.row_of, contenders) if evidence.feasible[row]]
     most = max((evidence.replicates[row] for row in rows), default=0)
     known = [row for row in rows if focused or evidence.replicates[row] == most]
-    best = highest_rows(known, evidence.values.tolist())
+    equal = np.array(highest_rows(known, evidence.values.tolist()), dtype=np.intp)
+    best = equal[~surpassed_equals(evidence.table, evidence.value_functions, equal)].tolist()
     return int(evidence.table.variants[best[-1 if evidence.last_of_equals else 0]]) if best else None

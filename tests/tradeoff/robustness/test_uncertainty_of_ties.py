@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rgss.requirements import Comparison
-from rgss.tradeoff.problem import Threshold
+from rgss.tradeoff.problem import EvidenceTable, Threshold
 from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
 from rgss.tradeoff.robustness.uncertainty import choice_uncertainty
 
@@ -20,7 +20,7 @@ def found_of(totals, feasible):
         totals=totals,
         outcomes=SimpleNamespace(feasible=feasible),
         preferences=SimpleNamespace(weighting=weighting),
-        table=range(totals.shape[1]),
+        table=EvidenceTable.of(np.arange(totals.shape[1]), {"v": totals.mean(axis=0)}),
         as_required=lambda row: feasible[:, row],
     )
 

@@ -132,6 +132,15 @@ def test_who_leads_by_a_few_lucky_trials_gets_as_many_as_the_others(evidence_of)
     assert answer.variant == 2
 
 
+def test_of_equals_beyond_the_end_of_a_value_function_the_better_one_is_the_choice(evidence_of):
+    """As in the decision: all three worths are above 1, of which no more is worth anything."""
+    rows = dict.fromkeys((1, 2, 3), failing(length=4))
+    for last, expected in ((False, 2), (True, 3)):
+        evidence = evidence_of(rows, {1: 1.2, 2: 1.5, 3: 1.5}, last_of_equals=last)
+        answer = next_batch(evidence, replace(RULE, budget=12, cap=4), Progress())
+        assert answer.variant == expected
+
+
 def test_one_finalist_is_refused():
     with pytest.raises(TradeoffError, match="finalists must be at least 2, got 1"):
         SequentialRule(finalists=1)

@@ -67,6 +67,8 @@ def _uncertainty(made: StudyDecision) -> Plain | None:
                 "replicates": rival.replicates,
                 "measure": rival.measure,
                 "by_feasibility": rival.by_feasibility,
+                "fixed": rival.fixed,
+                "clipped": list(rival.clipped),
             }
             for rival in one.rivals
         ],

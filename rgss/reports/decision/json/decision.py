@@ -25,6 +25,7 @@ def decision_to_json(decision: Decision) -> dict[str, object]:
         "chosen": decision.chosen,
         "runner_up": decision.runner_up,
         "ties": list(decision.ties),
+        "surpassed": list(decision.surpassed),
         "near_ties": list(decision.near_ties),
         "ranking": [
             {"variant": ranked.variant, "value": ranked.value, "objectives": list(ranked.objectives)}

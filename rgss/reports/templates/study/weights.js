@@ -26,7 +26,9 @@ const worth = (place, weights) => {
   }
   return value;
 };
-// Same ranking as the trade-off: ties with the best first, by smallest or largest id, then the rest.
+// Same ranking as the trade-off: ties with the best first, of these what an equal surpasses last, by smallest or largest
+// id, then the rest.
+const surpassed = new Set(data.weights.surpassed);
 const ranked = (weights, places) => {
   const found = [];
   for (const place of places) {
@@ -39,6 +41,7 @@ const ranked = (weights, places) => {
     while (end < found.length && found[first].value - found[end].value <= TIE) end += 1;
     const tied = found.slice(first, end).sort((one, other) => variants.id[one.place] - variants.id[other.place]);
     if (first === 0 && data.weights.of_equals === "last") tied.reverse();
+    if (first === 0) tied.sort((one, other) => surpassed.has(one.place) - surpassed.has(other.place));
     tied.forEach((one, index) => { found[first + index] = one; });
     first = end;
   }

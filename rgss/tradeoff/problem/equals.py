@@ -1,0 +1,72 @@
+"""Choice among alternatives of the same value by the quantities beyond the ends of value functions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.tradeoff.problem.alternatives import Array, Mask, classes
+from rgss.tradeoff.problem.dominance import nondominated
+from rgss.tradeoff.problem.evidence_table import EvidenceTable
+from rgss.tradeoff.problem.values import ValueFunction
+
+_DIGITS = 9
+
+
+def surpassed_equals(
+    table: EvidenceTable, value_functions: Sequence[ValueFunction], rows: NDArray[np.intp]
+) -> NDArray[np.bool_]:
+    """Mask of the alternatives, all of the same value, that another of them surpasses.
+
+    Another surpasses it if it is at least as good in the quantity of every valued measure and better in one. A
+    measure of which more is worth more up to a target and less beyond counts by its value.
+
+    Args:
+        table: The alternatives.
+        value_functions: The value functions of the measures that decide.
+        rows: Rows of the alternatives of the same value, shape (k,).
+
+    Returns:
+        Shape (k,).
+    """
+    columns = []
+    for function in value_functions:
+        column = table.column(function.measure)[rows]
+        known = column[np.isfinite(column)]
+        scale = float(np.abs(known).max()) if len(known) else 0.0
+        if len(known) < len(column) or scale == 0.0:
+            continue
+        oriented = column / scale if function.more_is_better else -column / scale
+        if function.more_is_better is None:
+            oriented = function.values_at(column)
+        # Rounded, so that quantities that are equal on paper surpass nothing.
+        columns.append(np.round(oriented, _DIGITS))
+    if not columns or len(rows) <= 1:
+        return np.zeros(len(rows), dtype=np.bool_)
+    return ~nondominated(np.column_stack(columns))
+
+
+def surpassed_within_classes(
+    table: EvidenceTable, value_functions: Sequence[ValueFunction], values: Array, feasible: Mask
+) -> NDArray[np.bool_]:
+    """Mask of the feasible alternatives that a feasible one of the same value in every measure surpasses, shape (n,).
+
+    Such alternatives have the same weighted value under all weights.
+
+    Args:
+        table: The alternatives.
+        value_functions: The value functions of the measures that decide.
+        values: Values in these measures, shape (n, m).
+        feasible: Mask of the feasible alternatives, shape (n,).
+    """
+    found = np.zeros(len(feasible), dtype=np.bool_)
+    rows = np.flatnonzero(feasible)
+    if not len(rows) or not values.shape[1]:
+        return found
+    _, membership = classes(values[rows])
+    for kind in np.flatnonzero(np.bincount(membership) > 1):
+        members = rows[membership == kind]
+        found[members] = surpassed_equals(table, value_functions, members)
+    return found
