@@ -180,11 +180,14 @@ class Plots:
             TradeoffError: It could not be computed.
             EvidenceError: Trials have no evidence.
         """
+        from rgss.reports.decision import no_rival_clause
         from rgss.reports.study_plots import tornado_figure
 
         found = computed_tornado(self.sensitivity())
         if found.lead is None:
-            raise TradeoffError("tornado: the choice has no rival", hint="it needs two designs that meet every demand")
+            raise TradeoffError(
+                f"tornado: {no_rival_clause(found)}", hint="it needs two feasible designs of different value"
+            )
         shown = [_input_bar(bar) for bar in found.moving[:MOST_INPUTS]]
         return tornado_figure(shown, found.lead, self._designs(), len(found.moving) - len(shown))
 

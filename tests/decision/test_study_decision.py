@@ -10,6 +10,7 @@ from rgss.assessment.measuring import measure_variants
 from rgss.decision.robustness import robustness
 from rgss.decision.robustness.parts import NotComputed, Part
 from rgss.decision.study_decision import decide_study
+from rgss.decision.study_decision.findings import robustness_findings
 from rgss.decision.what_if import suppose
 from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
 from rgss.reports.decision.words import score
@@ -37,6 +38,29 @@ def test_the_terminal_and_the_report_word_reasons_and_cautions_once(made):
     assert [f"Caution: {caution}" for caution in part["cautions"]] == [
         one for one in lines if one.startswith("Caution")
     ]
+
+
+def test_a_variant_that_is_tied_at_the_weights_of_the_study_alone_is_no_distant_rival(shipped, made):
+    """The nearest move is of those that are not tied, and is not said to be the smallest that changes the choice."""
+    found = made.robustness.analysis
+    shifts = found.weighting.shifts
+    own = next(shift for shift in shifts if made.decision.chosen in [found.variants[row] for row in shift.rows])
+    other = next(shift for shift in shifts if shift is not own)
+    tied = dataclasses.replace(other, distance=0.0, sum_distance=0.0, nearest=own.nearest, nearest_in_sum=own.nearest)
+    rest = [shift for shift in shifts if shift not in (own, other)]
+    weighting = dataclasses.replace(found.weighting, shifts=(tied, own, *rest))
+    findings = robustness_findings(
+        shipped, dataclasses.replace(found, weighting=weighting), chosen=made.decision.chosen
+    )
+    names = tuple(found.variants[row] for row in other.rows)
+
+    assert findings.tied_by_weights == names
+    assert findings.nearest_move.winners != names
+    told = dataclasses.replace(made, robustness=dataclasses.replace(made.robustness, tied_by_weights=names))
+    for text in ("\n".join(decision_lines(told)), decision_section(told)):
+        assert "At these weights alone variant" in text
+        assert "no smaller move changes the decision" not in text
+        assert "no other variant wins" not in text
 
 
 def test_every_page_has_the_same_figures(made):

@@ -81,8 +81,26 @@ def test_bars_are_drawn_to_scale_within_eighty_columns(tornado):
 def test_a_choice_without_rival(tornado):
     alone = replace(tornado, lead=None, rival=None, bars=())
 
-    assert "variant 1 has no feasible rival." in next(iter(tornado_lines(alone)))
+    assert next(iter(tornado_lines(alone))) == "Tornado: variant 1 has no feasible rival, and so no lead."
     assert tornado_svg(alone) == ""
+    moved = replace(alone, bars=(bar("SYS-001.threshold", end(0.4, None, feasible=False), end(0.6, None), swing=1.0),))
+    assert not any(line.startswith("input") for line in tornado_lines(moved))
+    assert tornado_svg(moved) == ""
+
+
+def test_designs_that_are_tied_with_the_choice_are_named(tornado):
+    near = replace(tornado, tied=(4,))
+    assert next(iter(tornado_lines(near))) == (
+        "Tornado: lead of variant 1 over the best other design that is not tied, as variant 4, 0.1000 as it is "
+        "(variant 2)"
+    )
+    equal = replace(
+        tornado, lead=None, rival=None, tied=(3, 4), bars=(bar("weight.b", end(0.4, -0.05), end(0.6, None)),)
+    )
+    lines = list(tornado_lines(equal))
+    assert lines[0] == "Tornado: every other feasible design is tied with variant 1: variants 3, 4 are worth as much."
+    assert any(line.startswith("weight.b") for line in lines)
+    assert tornado_svg(equal)
 
 
 def test_the_picture_is_well_formed_and_to_scale(tornado):

@@ -83,8 +83,9 @@ class Tornado:
 
     Attributes:
         chosen: The chosen design.
-        rival: Its best rival in the study; None if there is none.
+        rival: Its best rival in the study that is not tied with it; None if there is none.
         lead: Its advantage in weighted value; None without a rival.
+        tied: The designs that are tied with it.
         bars: One for each input, those with the largest swing first; equals in the order of the study.
         without_range: Inputs with the value 0, for which a share of the value is no range.
     """
@@ -94,6 +95,12 @@ class Tornado:
     lead: float | None
     bars: tuple[TornadoBar, ...]
     without_range: tuple[str, ...]
+    tied: tuple[int, ...] = ()
+
+    @property
+    def has_leads(self) -> bool:
+        """Whether there is a lead to draw: over a rival, or over or behind a tied design at an end of an input."""
+        return self.lead is not None or any(end.lead is not None for bar in self.bars for end in (bar.low, bar.high))
 
     @property
     def moving(self) -> tuple[TornadoBar, ...]:
@@ -136,6 +143,7 @@ def tornado_of(
         # The sort is stable: equal swings keep the order of the study.
         bars=tuple(sorted(bars, key=lambda bar: -bar.swing if math.isinf(bar.swing) else -round(bar.swing, 12))),
         without_range=tuple(without),
+        tied=tuple(variants[row] for row in tied if row != chosen),
     )
 
 

@@ -11,6 +11,8 @@ from rgss.decision.study_decision.limit_moves import LimitMoves, limit_moves
 from rgss.measures import MeasureKind
 from rgss.studies import Project
 
+_NO_DISTANCE = 1e-9
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WeightMove:
@@ -51,8 +53,10 @@ class RobustnessFindings:
     Attributes:
         analysis: The analyses, with the reason for each part that was not computed.
         contenders: The closest rivals.
-        nearest_move: The least move of weights that changes the choice; None if there is none, or
-            it was not computed.
+        nearest_move: The least move of weights at which a variant that is not tied becomes one of the best; None if
+            there is none, or it was not computed.
+        tied_by_weights: The variants that are worth as much as the choice at these weights alone, so that the least
+            move of weights towards what they are better in lets them win.
         limits: The moves of limits that change the choice.
         decisive: The assumptions that change the choice within the scanned values.
         harmless: Ids of the assumptions that do not.
@@ -66,6 +70,7 @@ class RobustnessFindings:
     analysis: Robustness
     contenders: tuple[Contender, ...]
     nearest_move: WeightMove | None
+    tied_by_weights: tuple[int, ...]
     limits: tuple[LimitMoves, ...]
     decisive: tuple[AssumptionFinding, ...]
     harmless: tuple[str, ...]
@@ -84,12 +89,13 @@ class RobustnessFindings:
         return tuple(self.analysis.variants[row] for row in rows)
 
 
-def robustness_findings(project: Project, found: Robustness) -> RobustnessFindings:
+def robustness_findings(project: Project, found: Robustness, *, chosen: int | None) -> RobustnessFindings:
     """The findings of an analysis.
 
     Args:
         project: The project with its study.
         found: The analysis.
+        chosen: The choice; None if there is none.
     """
     followed = [one for one in found.assumptions if one.range is not None]
     shown = {measure.id for measure in project.measures.of_kind(MeasureKind.EFFECTIVENESS)}
@@ -98,6 +104,7 @@ def robustness_findings(project: Project, found: Robustness) -> RobustnessFindin
         analysis=found,
         contenders=contenders_of(found),
         nearest_move=_nearest_move(found),
+        tied_by_weights=_tied_by_weights(found, chosen),
         limits=limit_moves(found),
         decisive=tuple(one for one in followed if one.range is not None and not one.range.always),
         harmless=tuple(one.number.id for one in followed if one.range is not None and one.range.always),
@@ -113,8 +120,7 @@ def robustness_findings(project: Project, found: Robustness) -> RobustnessFindin
 
 def _nearest_move(found: Robustness) -> WeightMove | None:
     shifts = () if found.weighting is None else found.weighting.shifts or ()
-    # The first shift belongs to the choice itself.
-    others = [shift for shift in shifts[1:] if shift.distance > 0.0]
+    others = [shift for shift in shifts if shift.distance > _NO_DISTANCE]
     if not others:
         return None
     nearest = min(others, key=lambda shift: (shift.sum_distance, shift.rows))
@@ -124,6 +130,12 @@ def _nearest_move(found: Robustness) -> WeightMove | None:
         after=dict(zip(found.measures, nearest.nearest_in_sum.tolist(), strict=True)),
         winners=tuple(found.variants[row] for row in nearest.rows),
     )
+
+
+def _tied_by_weights(found: Robustness, chosen: int | None) -> tuple[int, ...]:
+    shifts = () if found.weighting is None else found.weighting.shifts or ()
+    here = [[found.variants[row] for row in shift.rows] for shift in shifts if shift.distance <= _NO_DISTANCE]
+    return tuple(sorted(variant for rows in here if chosen not in rows for variant in rows))
 
 
 def _corner(found: Robustness) -> Mapping[str, float]:

@@ -231,7 +231,7 @@ def study_decision(
         last_of_equals=project.study.trade_off.last_of_equals,
         double_counted=double_counting(project),
         shared_parts=shared_measures(project),
-        robustness=None if found is None else robustness_findings(project, found),
+        robustness=None if found is None else robustness_findings(project, found, chosen=decision.chosen),
         sensitivity=None if found is None else analyse_sensitivity(project, measured, decision, found, problem=problem),
         elicited=project.study.trade_off.elicited,
         elicited_by=project.study.trade_off.elicited_by,

@@ -19,6 +19,7 @@ from rgss.reports.decision.conclusion import (
     standing_sentence,
     uncertainty_sentences,
 )
+from rgss.reports.decision.sensitivity_sentences import tied_by_weights_sentence
 from rgss.reports.decision.words import UNKNOWN, amount, ids_text, moves_text, score, variants_text
 from rgss.trace.views import share_in_words
 
@@ -138,8 +139,10 @@ def _deciding(made: StudyDecision, found: RobustnessFindings) -> Iterator[str]:
     shares = "; ".join(_shares(made, found))
     if shares:
         yield f"{shares[0].upper()}{shares[1:]}."
-    move = found.nearest_move
-    if move is not None:
+    move, tied = found.nearest_move, found.tied_by_weights
+    if tied:
+        yield tied_by_weights_sentence(tied)
+    elif move is not None:
         yield (
             f"Moving {move.moved:.3f} of weight ({moves_text(move.before, move.after)}) lets "
             f"{variants_text(move.winners)} win; no smaller move changes the decision."

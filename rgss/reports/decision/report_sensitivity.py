@@ -10,6 +10,7 @@ from rgss.reports.decision.sensitivity_sentences import (
     beaten_sentences,
     bend_sentences,
     kept_groups,
+    no_rival_clause,
     range_sentence,
 )
 from rgss.reports.decision.words import UNKNOWN, amount, ids_text, score, variants_text
@@ -32,6 +33,9 @@ def sensitivity_part(found: Sensitivity | None) -> Plain | None:
             "chosen": tornado.chosen,
             "lead": score(tornado.lead),
             "rival": tornado.rival,
+            "tied": list(tornado.tied),
+            "no_rival": no_rival_clause(tornado) if tornado.lead is None else None,
+            "has_leads": tornado.has_leads,
             "rows": [_row(bar) for bar in tornado.moving],
             "still": [bar.id for bar in tornado.still],
             "without_range": list(tornado.without_range),

@@ -124,3 +124,29 @@ def _flip(bend: BentValue, end: BentEnd, word: str) -> str:
     half = "" if end.flip_halfway is None else f" (half of the value at {amount(end.flip_halfway, bend.unit)})"
     wins = f"{ids_text(end.flip_winners)} win" if len(end.flip_winners) > 1 else f"{ids_text(end.flip_winners)} wins"
     return f"Bent {word}{tolerance}{half}, {what} lets another design win: {wins}."
+
+
+def tied_by_weights_sentence(variants: tuple[int, ...]) -> str:
+    """Sentence on variants that are worth as much as the choice at the weights of the study alone.
+
+    Args:
+        variants: Their ids.
+    """
+    are, they = ("is", "it is") if len(variants) == 1 else ("are", "they are")
+    names = variants_text(variants)
+    return (
+        f"At these weights alone {names} {are} worth as much: the least move of weights towards what {they} better in "
+        "changes the choice."
+    )
+
+
+def no_rival_clause(tornado: Tornado) -> str:
+    """Clause on a choice without a lead over another design: it is alone, or all feasible designs are tied with it.
+
+    Args:
+        tornado: The sensitivity of the choice.
+    """
+    if tornado.tied:
+        tied = f"{variants_text(tornado.tied)} {'is' if len(tornado.tied) == 1 else 'are'}"
+        return f"every other feasible design is tied with variant {tornado.chosen}: {tied} worth as much"
+    return f"variant {tornado.chosen} has no feasible rival, and so no lead"

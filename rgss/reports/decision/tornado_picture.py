@@ -17,7 +17,7 @@ _LEFT, _RIGHT = 330.0, 930.0
 
 
 def tornado_svg(tornado: Tornado) -> str:
-    """Picture of the bars; empty if no input moves the lead.
+    """Picture of the bars; empty if no input moves the lead, or there is none.
 
     Args:
         tornado: The sensitivity of a choice.
@@ -26,7 +26,7 @@ def tornado_svg(tornado: Tornado) -> str:
         An ``svg`` element without scripts, references or style attributes.
     """
     bars = tornado.moving[:MOST_BARS]
-    if not bars:
+    if not bars or not tornado.has_leads:
         return ""
     base = tornado.lead or 0.0
     leads = [end.lead for bar in bars for end in (bar.low, bar.high) if end.lead is not None]

@@ -32,6 +32,7 @@ def tornado_to_json(tornado: Tornado) -> Plain:
         "chosen": tornado.chosen,
         "rival": tornado.rival,
         "lead": tornado.lead,
+        "tied": list(tornado.tied),
         "inputs": [_bar(bar) for bar in tornado.bars],
         "without_range": list(tornado.without_range),
     }

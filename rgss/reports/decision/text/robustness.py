@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from rgss.decision.robustness import Part, WeightRobustness, not_computed_lines
 from rgss.decision.study_decision import LimitMove, RobustnessFindings, StudyDecision
+from rgss.reports.decision.sensitivity_sentences import tied_by_weights_sentence
 from rgss.reports.decision.text.assumptions import assumption_lines
 from rgss.reports.decision.text.contenders import contender_lines
 from rgss.reports.decision.words import UNKNOWN, amount, moves_text, variants_text
@@ -47,6 +48,10 @@ def _weights(found: RobustnessFindings, weighting: WeightRobustness) -> Iterator
     move = found.nearest_move
     if weighting.shifts is None:
         yield "Weights: the nearest that change the choice were not computed."
+    elif found.tied_by_weights:
+        yield f"Weights: {tied_by_weights_sentence(found.tied_by_weights)}"
+        if move is not None:
+            yield f"Of the others {variants_text(move.winners)} can win, by moving {move.moved:.3f} of weight."
     elif move is None:
         yield f"Weights: no other variant wins for any {'elicited ' if weighting.elicited else ''}weights."
     else:

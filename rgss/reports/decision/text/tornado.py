@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rgss.decision.sensitivity import Tornado, TornadoBar, TornadoEnd
+from rgss.reports.decision.sensitivity_sentences import no_rival_clause
 from rgss.reports.decision.words import UNKNOWN, amount, score, variants_text
 from rgss.reports.plain_text import aligned_table
 
@@ -22,16 +23,18 @@ def tornado_lines(tornado: Tornado) -> Iterator[str]:
     Args:
         tornado: The sensitivity of a choice.
     """
-    if tornado.lead is None:
-        yield f"Tornado: variant {tornado.chosen} has no feasible rival."
-    else:
-        yield (
-            f"Tornado: lead of variant {tornado.chosen} over the best other design, {score(tornado.lead)} as it is "
-            f"(variant {tornado.rival})"
-        )
     moving = tornado.moving
-    yield from _bars(tornado, moving[:MOST_BARS])
-    if len(moving) > MOST_BARS:
+    if tornado.lead is None:
+        yield f"Tornado: {no_rival_clause(tornado)}."
+    else:
+        other = f" that is not tied, as {variants_text(tornado.tied)}," if tornado.tied else ","
+        yield (
+            f"Tornado: lead of variant {tornado.chosen} over the best other design{other} {score(tornado.lead)} as it "
+            f"is (variant {tornado.rival})"
+        )
+    if tornado.has_leads:
+        yield from _bars(tornado, moving[:MOST_BARS])
+    if tornado.has_leads and len(moving) > MOST_BARS:
         yield f"And {len(moving) - MOST_BARS} more that move it less (--json has them)."
     if tornado.still:
         yield f"{len(tornado.still)} more inputs move nothing within their ranges (--json names them)."
