@@ -88,7 +88,7 @@ class PartComputer:
     def compute(self, part: Part, function: Callable[[], Result], otherwise: Result) -> Result:
         """A part, or its substitute if it cannot be computed.
 
-        Only errors with a reason for the user, and a lack of memory, are recorded. All others are
+        Only errors with a reason for the user, a lack of memory, and numbers too large are recorded. All others are
         bugs and propagate.
 
         Args:
@@ -104,6 +104,11 @@ class PartComputer:
             self.missing[part] = NotComputed(
                 reason="it needs more memory than there is",
                 remedy="decide between fewer variants, or give the process more memory",
+            )
+        except OverflowError:
+            self.missing[part] = NotComputed(
+                reason="the quantities of a measure are too large to compute with",
+                remedy="give the measure a greater unit",
             )
         return otherwise
 

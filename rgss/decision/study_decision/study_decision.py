@@ -50,6 +50,7 @@ class StudyDecision:
         practical_margin: Differences in value below this are of no practical meaning.
         tolerance: Share of a threshold on what trials observe by which the choice may miss it.
         last_of_equals: True if the largest id of equals is chosen; otherwise the smallest.
+        shown_feasible: True if verdicts decide whether a variant meets a requirement; otherwise estimates.
         double_counted: Valued measures of which one contains the other.
         shared_parts: Valued measures that depend on measures in common.
         robustness: Near alternatives, and changes that would change the decision; None if not analysed.
@@ -94,6 +95,7 @@ class StudyDecision:
     seeds: tuple[SeedGroup, ...] = ()
     tolerance: float = 0.0
     last_of_equals: bool = False
+    shown_feasible: bool = False
 
     @property
     def is_final(self) -> bool:
@@ -229,6 +231,7 @@ def study_decision(
         practical_margin=project.study.trade_off.practical_margin,
         tolerance=project.study.trade_off.tolerance,
         last_of_equals=project.study.trade_off.last_of_equals,
+        shown_feasible=project.study.trade_off.shown_feasible,
         double_counted=double_counting(project),
         shared_parts=shared_measures(project),
         robustness=None if found is None else robustness_findings(project, found, chosen=decision.chosen),

@@ -14,7 +14,13 @@ if TYPE_CHECKING:
     from rgss.reports.decision.report_sensitivity import sensitivity_part
     from rgss.reports.decision.sensitivity_sentences import no_rival_clause
     from rgss.reports.decision.sentences import cautions, certificate_sentence, gap_sentence, reasons
-    from rgss.reports.decision.text import decision_lines, question_lines, screening_lines, weighing_lines
+    from rgss.reports.decision.text import (
+        decision_lines,
+        question_lines,
+        screening_lines,
+        usable_resamples_sentence,
+        weighing_lines,
+    )
     from rgss.reports.decision.tornado_picture import tornado_svg
     from rgss.reports.decision.until_decided import open_paragraph, until_decided_summary
     from rgss.reports.decision.words import ids_text, quantity_text, variants_text

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from rgss.assessment import SeedGroup
 from rgss.decision.study_decision import Feasibility, RobustnessFindings, StudyDecision
-from rgss.reports.decision.words import ids_text, variants_text
+from rgss.reports.decision.words import basis_text, ids_text, variants_text
 from rgss.trace.views import share_in_words
 from rgss.tradeoff.robustness import ChoiceUncertainty, Rival
 
@@ -30,7 +30,8 @@ def headline(made: StudyDecision) -> str:
         f"{open_} {'is' if open_ == 1 else 'are'} open{by}, {infeasible} infeasible."
     )
     if made.decision.chosen is None or found.chosen is None:
-        return f"No variant is chosen: none meets every requirement by its estimates; {counts}"
+        basis = basis_text(shown_feasible=made.shown_feasible)
+        return f"No variant is chosen: none meets every requirement by its {basis}; {counts}"
     words = {
         Feasibility.FEASIBLE: "is chosen and shown to meet every requirement",
         Feasibility.OPEN: "is chosen by its estimates, which do not show yet that it meets every requirement",
@@ -50,9 +51,10 @@ def rule_sentence(made: StudyDecision) -> str:
         within = f"miss no threshold by more than {share_text(made.tolerance)} of it"
     value = "of the highest value" if made.decision.program == "additive" else f"that {made.decision.program} prefers"
     end = "largest" if made.last_of_equals else "smallest"
+    which = f"that are shown to {within}" if made.shown_feasible else f"whose estimates {within}"
     return (
-        f"Rule: of the variants whose estimates {within}, the one {value} is chosen; of equals one that no "
-        f"other surpasses in the quantities of the valued measures, then the {end} id."
+        f"Rule: of the variants {which}, the one {value} is chosen; of equals one that no other surpasses in the "
+        f"quantities of the valued measures, then the {end} id."
     )
 
 

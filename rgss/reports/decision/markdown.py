@@ -20,7 +20,7 @@ from rgss.reports.decision.conclusion import (
     uncertainty_sentences,
 )
 from rgss.reports.decision.sensitivity_sentences import tied_by_weights_sentence
-from rgss.reports.decision.words import UNKNOWN, amount, ids_text, moves_text, score, variants_text
+from rgss.reports.decision.words import UNKNOWN, amount, basis_text, ids_text, moves_text, score, variants_text
 from rgss.trace.views import share_in_words
 
 BEGIN = "<!-- decision: written by `rgss trade --section --into FILE`; do not edit -->"
@@ -36,7 +36,8 @@ def decision_section(made: StudyDecision) -> str:
     parts = [BEGIN, ""]
     found = made.robustness
     if made.comparison is None:
-        parts += [f"No variant of study `{made.study}` meets every requirement by its estimates.", ""]
+        basis = basis_text(shown_feasible=made.shown_feasible)
+        parts += [f"No variant of study `{made.study}` meets every requirement by its {basis}.", ""]
     elif found is not None:
         parts += [*_choice(made, made.comparison), ""]
         parts += [*_deciding(made, found), ""]
@@ -96,9 +97,10 @@ def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:
     others = decision.ties[1:]
     ties = f" ({variants_text(others)} {'is' if len(others) == 1 else 'are'} as good)" if others else ""
     within = f", within the tolerance of {share_text(made.tolerance)}" if made.tolerance else ""
+    basis = basis_text(shown_feasible=made.shown_feasible)
     yield (
         f"**Variant {decision.chosen}** is chosen{ties} from {made.variants} variants with {made.trials} trials; "
-        f"{decision.counts.feasible} of them meet every requirement by their estimates{within}."
+        f"{decision.counts.feasible} of them meet every requirement by their {basis}{within}."
     )
     yield ""
     standing = (headline(made), standing_sentence(made), rule_sentence(made))

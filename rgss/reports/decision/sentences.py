@@ -9,7 +9,7 @@ from rgss.decision.study_decision import StudyDecision
 from rgss.measures import ModelGap
 from rgss.reports.decision.conclusion import share_text
 from rgss.reports.decision.flat_sentences import flat_sentences
-from rgss.reports.decision.words import amount, ids_text, variants_text
+from rgss.reports.decision.words import amount, basis_text, ids_text, variants_text
 from rgss.trace.views import share_in_words, value_in_words
 from rgss.tradeoff import Agreement, Check, CheckKind, ConflictSurvival, DecisionStatus, PortfolioDecision
 from rgss.tradeoff.programs import Certificate
@@ -35,15 +35,14 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
         made: The decision, by which a variant is chosen.
     """
     decision = made.decision
-    best = (
-        "has the highest value"
-        if decision.program == "additive"
-        else f"is the choice of the {decision.program} program"
-    )
+    is_additive = decision.program == "additive"
+    best = "has the highest value" if is_additive else f"is the choice of the {decision.program} program"
     feasible = decision.counts.feasible
-    among = "is the one variant that meets" if feasible == 1 else f"of the {feasible} variants that meet"
+    among = f"{best} of the {feasible} variants that meet" if feasible > 1 else "is the one variant that meets"
+    limits = " and every limit of the program" if decision.program == "epsilon_constraint" else ""
     within = f", within the tolerance of {share_text(made.tolerance)}" if made.tolerance else ""
-    yield Reason(text=f"Variant {decision.chosen} {best} {among} every requirement by the estimates{within}.")
+    basis = basis_text(shown_feasible=made.shown_feasible)
+    yield Reason(text=f"Variant {decision.chosen} {among} every requirement{limits} by the {basis}{within}.")
     others = [variant for variant in decision.ties if variant != decision.chosen]
     if decision.surpassed:
         names = variants_text(decision.surpassed).capitalize()
@@ -66,15 +65,18 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
     if decision.excluded_better:
         count = decision.counts.excluded_better
         ids = ids_text(one.variant for one in decision.excluded_better)
+        would = "would be worth more" if is_additive else "would be preferred by the program"
+        variants, violate = ("variant", "violates") if count == 1 else ("variants", "violate")
         yield Reason(
-            text=f"{count} variant{'s' if count > 1 else ''} would be worth more but violate a requirement: {ids}",
+            text=f"{count} {variants} {would} but {violate} a requirement: {ids}",
             details=tuple(
                 f"{each.requirement} ({decision.demands[each.requirement]}) excludes {each.excluded} of them"
                 for each in decision.deciding_requirements
             ),
         )
     else:
-        yield Reason(text="No requirement excludes a variant of higher value.")
+        preferred = "of higher value" if is_additive else "that the program would prefer"
+        yield Reason(text=f"No requirement excludes a variant {preferred}.")
     close = [
         f"{limit.requirement} ({limit.demand}) at {amount(limit.statistic, limit.unit)}, "
         f"{share_in_words(limit.margin)} inside"
@@ -139,11 +141,12 @@ def certificate_sentence(certificate: Certificate) -> str:
     Args:
         certificate: The certificate of a decision.
     """
+    count = certificate.alternatives
+    enumeration = f"enumeration of {'the one variant' if count == 1 else f'all {count} variants'}"
     compared = {
-        Agreement.AGREED: f"enumeration of all {certificate.alternatives} variants agrees",
-        Agreement.DISAGREED: f"enumeration of all {certificate.alternatives} variants DISAGREES",
-        Agreement.NOT_COMPARED: f"enumeration of all {certificate.alternatives} variants decides, the solver gave "
-        "no answer in its time",
+        Agreement.AGREED: f"{enumeration} agrees",
+        Agreement.DISAGREED: f"{enumeration} DISAGREES",
+        Agreement.NOT_COMPARED: f"{enumeration} decides, the solver gave no answer in its time",
         Agreement.NOT_ENUMERATED: "not enumerated",
     }[certificate.enumeration_agrees]
     gap = value_in_words(certificate.gap)
@@ -190,10 +193,13 @@ def noise_sentence(survival: ConflictSurvival | None) -> str:
     """Method by which the survival of conflicts under noise was computed.
 
     Args:
-        survival: The survival; None if there is one replicate of each variant.
+        survival: The survival; None if no measure has two replicates.
     """
     if survival is None:
-        return "Whether a conflict survives noise: unknown, it needs two replicates of each variant."
+        return (
+            "Whether a conflict survives noise: no measure of the requirements has two replicates; measures that "
+            "follow from the design alone have no noise."
+        )
     draws = f"all {survival.resamples}" if survival.exact else f"{survival.resamples:,}"
     return (
         f"Survives noise: the share of {draws} resamples of the replicates in which the conflict remains; "

@@ -32,6 +32,15 @@ def ids_text(variants: Iterable[int], *, longest: int = LONGEST_IDS) -> str:
     return ", ".join(parts[:longest]) + more
 
 
+def basis_text(*, shown_feasible: bool) -> str:
+    """What decides whether a variant meets a requirement: its estimates, or verdicts on them.
+
+    Args:
+        shown_feasible: Whether verdicts decide.
+    """
+    return "verdicts" if shown_feasible else "estimates"
+
+
 def variants_text(variants: Sequence[int]) -> str:
     """``variant 28``, ``variants 28–30``, or ``nothing``."""
     if not variants:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from rgss.assessment import VariantMeasures
 from rgss.decision.robustness import MeasureEffects, StudyEffects
+from rgss.reports.decision import usable_resamples_sentence
 from rgss.reports.plain_numbers import Plain, plain_number, plain_numbers
 
 
@@ -49,6 +50,7 @@ def _effects(one: MeasureEffects) -> Plain:
         "designs": one.designs,
         "left_out": list(one.left_out),
         "mean": None if analysis is None else plain_number(analysis.mean),
+        "note": "" if analysis is None else usable_resamples_sentence(analysis),
         "main": [
             {
                 "factor": term.factors[0],

@@ -27,6 +27,9 @@ MOST_AT_ONCE = 1_000_000
 """So many estimates are split into effects at once, 8 MB: designs times resamples."""
 
 _NO_VARIANCE = 1e-18
+LEAST_USED = 0.9
+"""Least share of usable resamples for which intervals are given."""
+
 _DUST = 1e-12
 
 
@@ -69,8 +72,9 @@ class FactorialAnalysis:
         total_sum_of_squares: Between all designs.
         first_order: The Sobol index of each factor alone: its main effect's share.
         total_order: The share of all terms that a factor takes part in, to the highest order.
-        used: The share of the resamples in which every design had an estimate, and on which the
-            intervals are valid; 1 where none is lost, 0 without replicates.
+        used: The share of the resamples in which every design had an estimate; 1 where none is lost, 0 without
+            replicates. The intervals are of these, and missing where the share is below `LEAST_USED`: resamples that
+            give each design an estimate differ less among themselves than all do.
     """
 
     mean: float
@@ -136,7 +140,7 @@ def factorial_effects(
     for term in terms:
         if len(term) <= order:
             low = high = share_low = share_high = None
-            if noise is not None:
+            if noise is not None and noise.used >= LEAST_USED:
                 low, high = noise.interval_of(noise.parts[term])
                 ends = noise.interval_of(noise.shares[term])
                 share_low, share_high = float(ends[0]), float(ends[1])

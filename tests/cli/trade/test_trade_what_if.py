@@ -97,7 +97,10 @@ def test_conflicts_and_whether_they_survive_noise(rgss, with_evidence):
         in told.output
     )
     one = rgss("trade", "--brief", "--replicates", "1", *CONFLICTING, "--project", with_evidence)
-    assert "(Whether a conflict survives noise: unknown, it needs two replicates of each variant)" in one.output
+    assert (
+        "(Whether a conflict survives noise: no measure of the requirements has two replicates; measures that follow "
+        "from the design alone have no noise)" in one.output
+    )
 
 
 def test_what_drops_variants(rgss, with_evidence):

@@ -136,7 +136,34 @@ def test_resamples_without_an_estimate_are_counted():
     )
 
     assert found.used == pytest.approx(0.75)
+    # The two that remain are too few: with others the interval would be another.
+    assert (found.effects[0].low, found.effects[0].share_low) == (None, None)
+
+
+def test_intervals_are_given_where_nearly_all_resamples_have_estimates():
+    """A design that lacks k of six replicates has an estimate in 1 - (k / 6)^6 of the resamples."""
+    replicates = np.full((2, 2, 6), 2.0) + np.arange(6)
+    replicates[1, 1, :2] = np.nan
+    resamples = bootstrap(6, draws=2000, generator=np.random.default_rng(0))
+    found = factorial_effects(
+        np.nanmean(replicates, axis=2),
+        list("ab"),
+        resampled=resamples.means(replicates),
+        probabilities=resamples.probabilities,
+    )
+
+    assert found.used == pytest.approx(1 - (2 / 6) ** 6, abs=0.02)
     assert found.effects[0].low is not None
+    sparse = replicates.copy()
+    sparse[1, 1, :5] = np.nan
+    few = factorial_effects(
+        np.nanmean(sparse, axis=2),
+        list("ab"),
+        resampled=resamples.means(sparse),
+        probabilities=resamples.probabilities,
+    )
+    assert few.used == pytest.approx(1 - (5 / 6) ** 6, abs=0.02)
+    assert few.effects[0].low is None
 
 
 def test_a_measure_that_is_level():

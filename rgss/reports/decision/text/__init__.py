@@ -6,7 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.reports.decision.text.decision import certificate_lines, portfolio_lines
-    from rgss.reports.decision.text.effects import effects_lines
+    from rgss.reports.decision.text.effects import effects_lines, usable_resamples_sentence
     from rgss.reports.decision.text.page import decision_lines
     from rgss.reports.decision.text.robustness import robustness_lines
     from rgss.reports.decision.text.screening import screening_lines

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from rgss.reports.decision.sentences import noise_sentence
-from rgss.reports.decision.words import UNKNOWN, moved_limit
+from rgss.reports.decision.words import UNKNOWN, basis_text, moved_limit
 from rgss.reports.plain_text import aligned_table
 from rgss.trace.views import share_in_words
 from rgss.tradeoff import Conflicts, Decision, LimitChange
@@ -13,13 +13,14 @@ from rgss.tradeoff import Conflicts, Decision, LimitChange
 MOST_LISTED = 6
 
 
-def conflict_lines(decision: Decision) -> Iterator[str]:
+def conflict_lines(decision: Decision, *, shown_feasible: bool) -> Iterator[str]:
     """Lines on the variants that each requirement excludes, on conflicts, and on the cheapest repairs.
 
     Args:
         decision: A decision without a choice.
+        shown_feasible: Whether verdicts decide what is feasible.
     """
-    yield "No variant meets every requirement by its estimates."
+    yield f"No variant meets every requirement by its {basis_text(shown_feasible=shown_feasible)}."
     conflicts = decision.conflicts
     if conflicts is None:
         return

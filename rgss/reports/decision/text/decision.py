@@ -22,7 +22,7 @@ def choice_lines(made: StudyDecision) -> Iterator[str]:
         made: The decision.
     """
     if made.comparison is None:
-        yield from conflict_lines(made.decision)
+        yield from conflict_lines(made.decision, shown_feasible=made.shown_feasible)
         yield headline(made)
         return
     yield headline(made)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from rgss.decision.robustness import MeasureEffects
 from rgss.reports.plain_text import aligned_table
 from rgss.trace.views import share_in_words, value_in_words
-from rgss.tradeoff.robustness import Effect
+from rgss.tradeoff.robustness import LEAST_USED, Effect, FactorialAnalysis
 
 LEAST_INTERACTION = 0.005
 """Least share of a shown interaction; --json has the others."""
@@ -44,9 +44,25 @@ def _of_levels(title: str, one: MeasureEffects) -> Iterator[str]:
     yield from aligned_table(["factor", "share", "level", "effect", "interval of 95 %"], rows, right=(3,))
     if analysis.rest >= LEAST_INTERACTION:
         yield f"Interactions of three and more factors: {share_in_words(analysis.rest)}"
-    if 0.0 < analysis.used < 1.0 - 1e-9:
-        share = share_in_words(analysis.used)
-        yield f"Intervals are of the {share} of resamples that leave every design a success."
+    if note := usable_resamples_sentence(analysis):
+        yield note
+
+
+def usable_resamples_sentence(analysis: FactorialAnalysis) -> str:
+    """Sentence on the resamples of which the intervals are; empty if they are of all, or there are none.
+
+    Args:
+        analysis: The effects on a measure.
+    """
+    if not 0.0 < analysis.used < 1.0 - 1e-9:
+        return ""
+    share = share_in_words(analysis.used)
+    if analysis.used < LEAST_USED:
+        return (
+            f"No intervals: only {share} of the resamples of the replicates leave every design a success, too few for "
+            f"intervals of these ({share_in_words(LEAST_USED)}); more replicates give them."
+        )
+    return f"Intervals are of the {share} of resamples that leave every design a success."
 
 
 def _sampled(title: str, one: MeasureEffects) -> Iterator[str]:

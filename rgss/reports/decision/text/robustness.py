@@ -108,7 +108,11 @@ def _reversals(found: RobustnessFindings) -> str:
     if found.is_missing(Part.STRETCHED):
         return f"{none} Of values stretched over the sample it was not computed."
     count = len(analysis.stretched)
-    would = f"{count} removals would reverse ranks" if count else "no removal would reverse ranks either"
+    would = (
+        f"{count} removal{'s' if count > 1 else ''} would reverse ranks"
+        if count
+        else "no removal would reverse ranks either"
+    )
     return f"{none} Had values been stretched over the sample, {would}."
 
 

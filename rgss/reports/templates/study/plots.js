@@ -301,7 +301,7 @@ const startEffects = () => {
     const one = current();
     if (!one) { note.textContent = "No factor varies."; return; }
     const joint = one.interactions.map((term) => `${term.factors.join(" × ")} ${percent(term.share)}`).join(", ");
-    note.textContent = `Over ${one.designs} designs${one.left_out.length ? `, without ${one.left_out.join(", ")}, which lack the measure` : ""}; ${one.main.length ? "in brackets the share of the differences between designs" : "the share of the differences between designs that each factor explains alone"}.${joint ? ` Interactions: ${joint}.` : ""}`;
+    note.textContent = `Over ${one.designs} designs${one.left_out.length ? `, without ${one.left_out.join(", ")}, which lack the measure` : ""}; ${one.main.length ? "in brackets the share of the differences between designs" : "the share of the differences between designs that each factor explains alone"}.${joint ? ` Interactions: ${joint}.` : ""}${one.note ? ` ${one.note}` : ""}`;
   };
   choice.addEventListener("change", () => { tell(); redraw(); update(); });
   const first = shownEffects.find((one) => measureOf.get(one.measure).weight !== null && measureOf.get(one.measure).from_trials) || shownEffects[0];
