@@ -83,8 +83,8 @@ def test_an_equal_that_another_surpasses_is_named(made):
 
 def test_quantities_without_noise_are_not_said_to_lack_replicates():
     assert noise_sentence(None) == (
-        "Whether a conflict survives noise: no measure of the requirements has two replicates; measures that follow from "
-        "the design alone have no noise."
+        "Whether a conflict survives noise: no measure of the requirements has two replicates; measures that follow "
+        "from the design alone have no noise."
     )
 
 
