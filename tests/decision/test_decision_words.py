@@ -74,8 +74,8 @@ def test_an_equal_that_another_surpasses_is_named(made):
     texts = [one.text for one in reasons(equal)]
     assert texts[1:3] == [
         (
-            "Variant 2 has the same value, but another of this value is better in a quantity beyond the end of its value "
-            "function, and no worse in any."
+            "Variant 2 has the same value, but another of this value is better in a quantity beyond the end of its "
+            "value function, and no worse in any."
         ),
         "Variant 1 has the same value; the smallest id is chosen.",
     ]

@@ -105,7 +105,7 @@ def robustness_findings(project: Project, found: Robustness, *, chosen: int | No
         contenders=contenders_of(found),
         nearest_move=_nearest_move(found),
         tied_by_weights=_tied_by_weights(found, chosen),
-        limits=limit_moves(found),
+        limits=limit_moves(found, chosen=chosen),
         decisive=tuple(one for one in followed if one.range is not None and not one.range.always),
         harmless=tuple(one.number.id for one in followed if one.range is not None and one.range.always),
         simulated=tuple(one.number.id for one in found.assumptions if one.simulated and one.columns),

@@ -45,16 +45,18 @@ class LimitMoves:
     tighter: LimitMove | None
 
 
-def limit_moves(found: Robustness) -> tuple[LimitMoves, ...]:
+def limit_moves(found: Robustness, *, chosen: int | None) -> tuple[LimitMoves, ...]:
     """The moves of each limit.
 
     Args:
         found: The robustness of the decision, with the prices of the requirements.
+        chosen: The choice, which is not changed by a move after which it is still one of the best; None without one.
     """
-    return tuple(_moves(found, price) for price in found.prices)
+    row = None if chosen is None else found.variants.index(chosen)
+    return tuple(_moves(found, price, row) for price in found.prices)
 
 
-def _moves(found: Robustness, price: RequirementPrice) -> LimitMoves:
+def _moves(found: Robustness, price: RequirementPrice, chosen: int | None) -> LimitMoves:
     condition = price.condition
     at_least = condition.sense is Comparison.AT_LEAST
     steps = changes_of_best(price.steps)
@@ -67,11 +69,14 @@ def _moves(found: Robustness, price: RequirementPrice) -> LimitMoves:
         step = steps[other]
         return LimitMove(limit=limit, winners=tuple(found.variants[row] for row in step.best), value=step.value)
 
+    looser = next((at for at in range(place - 1, -1, -1) if chosen not in steps[at].best), None)
+    tighter = next((at for at in range(place + 1, len(steps)) if chosen not in steps[at].best), None)
+
     return LimitMoves(
         requirement=condition.requirement,
         demand=condition.demand,
         unit=condition.limit_unit,
         at_least=at_least,
-        looser=move(steps[place - 1].tightest, place - 1) if place > 0 else None,
-        tighter=move(here.tightest, place + 1) if place + 1 < len(steps) else None,
+        looser=None if looser is None else move(steps[looser].tightest, looser),
+        tighter=None if tighter is None else move(steps[tighter - 1].tightest, tighter),
     )
