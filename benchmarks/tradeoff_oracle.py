@@ -36,6 +36,8 @@ from rgss.tradeoff import (
 )
 
 TIE = 1e-9
+DIGITS = 6
+"""Quantities of equals that agree to so many digits of the largest count as equal."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +57,34 @@ def expected(problem: TradeProblem) -> Expected:
     if not feasible:
         return Expected((), violated, None)
     tied, objective = _best(problem, feasible)
-    return Expected(tuple(one.variant for one in tied), violated, objective)
+    return Expected(tuple(one.variant for one in chosen_first(problem, tied)), violated, objective)
+
+
+def chosen_first(problem: TradeProblem, tied: list[Alternative]) -> list[Alternative]:
+    """The tied by their ids, those last that another of them surpasses: as good in each quantity, and better in one."""
+    names = [name for name, weight in problem.weighting.weights.items() if weight > 0.0]
+
+    def goods(one: Alternative) -> list[float]:
+        found = []
+        for name in names:
+            function, quantity = _function(problem, name), one.measures[name]
+            largest = max(abs(other.measures[name] or 0.0) for other in tied) or 1.0
+            if isinstance(function, TargetValue):
+                found.append(round(value_at(function, quantity or 0.0), DIGITS))
+            else:
+                share = round((quantity or 0.0) / largest, DIGITS)
+                found.append(share if function.best > function.worst else -share)  # type: ignore[attr-defined]
+        return found
+
+    rows = {one.variant: goods(one) for one in tied}
+    surpassed = {
+        one
+        for one, row in rows.items()
+        if any(
+            all(more >= less for more, less in zip(other, row, strict=True)) and other != row for other in rows.values()
+        )
+    }
+    return sorted(tied, key=lambda one: (one.variant in surpassed, one.variant))
 
 
 def violations(problem: TradeProblem, one: Alternative) -> set[str]:

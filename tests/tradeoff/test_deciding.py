@@ -101,7 +101,7 @@ def random_problem(rng, build_problem):
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_agreement_with_exact_enumeration(seeded, build_problem, seed):
+def test_agreement_with_exact_enumeration(seeded, build_problem, oracle, seed):
     rng = seeded(seed)
     for _ in range(20):
         problem = random_problem(rng, build_problem)
@@ -122,7 +122,8 @@ def test_agreement_with_exact_enumeration(seeded, build_problem, seed):
             assert decision.conflicts is not None
             continue
         best = max(feasible.values())
-        tied = sorted(variant for variant, value in feasible.items() if value >= best - TIE)
+        equal = [one for one in problem.alternatives if feasible.get(one.variant, -1) >= best - TIE]
+        tied = [one.variant for one in oracle.chosen_first(problem, equal)]
         below = sorted((-value, variant) for variant, value in feasible.items() if value < best - TIE)
         assert decision.status is DecisionStatus.OPTIMAL
         assert decision.conflicts is None

@@ -12,7 +12,7 @@ from rgss.tradeoff.problem.dominance import nondominated
 from rgss.tradeoff.problem.evidence_table import EvidenceTable
 from rgss.tradeoff.problem.values import ValueFunction
 
-_DIGITS = 9
+_DIGITS = 6
 
 
 def surpassed_equals(
