@@ -106,7 +106,9 @@ def compare(own: Content, foreign: Content, assumed: ImportDefaults) -> tuple[El
     changes += [_removal(row) for row in gone]
     findings += _dangling(known.keys() | seen.keys(), foreign)
     if findings:
-        raise refusal_of(findings)
+        # What was lost of an element may be why it lacks something.
+        lines = {finding.line for finding in findings}
+        raise refusal_of([*findings, *(loss for loss in foreign.losses if loss.line in lines)])
     return tuple(change for change in changes if change.kind is not ChangeKind.CHANGED or change.attributes)
 
 

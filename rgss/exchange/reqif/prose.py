@@ -6,7 +6,8 @@ import re
 from typing import Any
 
 from rgss.errors import DefinitionError
-from rgss.exchange.reqif.rich_text import PlainText, plain_text
+from rgss.exchange.plain_forms import PlainText
+from rgss.exchange.reqif.rich_text import plain_text
 
 _NO_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _BREAK = "<xhtml:br/>"

@@ -11,6 +11,7 @@ import re
 from dataclasses import dataclass, field
 from typing import Any
 
+from rgss.exchange.plain_forms import PlainText, omitted, shifted_text
 from rgss.findings import shown
 
 _BLOCKS = frozenset(
@@ -21,29 +22,12 @@ _DELETED = frozenset({"del", "s", "strike"})
 _FOREIGN = frozenset({"applet", "audio", "canvas", "iframe", "img", "input", "math", "svg", "video"})
 _HIDDEN = frozenset({"head", "script", "style", "template", "title"})
 _CELLS = frozenset({"td", "th"})
-_ORDINALS = frozenset({"st", "nd", "rd", "th"})
-_MARKS = frozenset("™®©°ªº*†‡")
-_LOWERED = str.maketrans("0123456789+-=()aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
 _STRUCK = re.compile(r"text-decoration[^;]*:[^;]*line-through", re.IGNORECASE)
 _SHIFTED = re.compile(r"vertical-align\s*:\s*(super|sub)\b", re.IGNORECASE)
 _GONE = re.compile(r"display\s*:\s*none|visibility\s*:\s*hidden", re.IGNORECASE)
-_SIMPLE = re.compile(r"[+\-\u2212]?\w+(?:\.\d+)?", re.ASCII)
 _BETWEEN_CELLS = " | "
 _LETTERED = re.compile(r"list-style(?:-type)?\s*:[^;]*\b(lower|upper)-(?:alpha|latin)", re.IGNORECASE)
 _LETTERS = "abcdefghijklmnopqrstuvwxyz"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PlainText:
-    """A rich text without its markup.
-
-    Attributes:
-        text: The text.
-        losses: Content that is not in the text, one phrase each.
-    """
-
-    text: str
-    losses: tuple[str, ...]
 
 
 def plain_text(node: Any) -> PlainText:
@@ -105,15 +89,13 @@ class _Reader:
         if name in _HIDDEN:
             return
         if name in _DELETED or _STRUCK.search(style) or _GONE.search(style):
-            gone = " ".join("".join(node.itertext()).split())
-            if gone:
-                what = "hidden" if _GONE.search(style) else "struck-out"
-                self.losses.append(f"the {what} text {shown(gone)} is omitted")
+            loss = omitted("".join(node.itertext()), "hidden" if _GONE.search(style) else "struck-out")
+            self.losses += [loss] if loss else []
             return
         shift = _SHIFTED.search(style)
         raised = name == "sup" or (shift is not None and shift[1].lower() == "super")
         if raised or name == "sub" or shift is not None:
-            self.parts.append(self.shifted(node, raised=raised))
+            self.parts.append(shifted_text(self.apart(node), raised=raised))
         elif name == "br":
             self.parts.append("\n")
         elif name == "object" or name in _FOREIGN:
@@ -178,16 +160,6 @@ class _Reader:
         inner = _Reader(losses=self.losses)
         inner.children(node)
         return "".join(inner.parts).strip()
-
-    def shifted(self, node: Any, *, raised: bool) -> str:
-        text = self.apart(node)
-        if not text or (raised and (text in _ORDINALS or set(text) <= _MARKS)):
-            return text
-        if not raised:
-            lowered = text.translate(_LOWERED)
-            return lowered if not set(text) & set(lowered) else f"_{text}" if _SIMPLE.fullmatch(text) else f"_({text})"
-        plain = text.replace("\u2212", "-")
-        return f"^{plain}" if _SIMPLE.fullmatch(text) else f"^({plain})"
 
     def link(self, node: Any) -> None:
         text, target = self.apart(node), (node.get("href") or "").strip()

@@ -6,7 +6,9 @@ import io
 import warnings
 import zipfile
 import zlib
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +17,10 @@ from rgss.errors import DefinitionError, DocumentError
 from rgss.exchange.attributes import ATTRIBUTES, Form, Part
 from rgss.exchange.content import Content, Row
 from rgss.exchange.files import LARGEST_FILE_BYTES, problem, read_bytes
+from rgss.exchange.tables.formatted_cells import FormattedCell, SheetReader
 from rgss.exchange.tables.heads import MOST_COLUMNS, MOST_ROWS, PARTS, columns_of, found_columns, table_content
 from rgss.exchange.xml_guard import require_plain_xml
-from rgss.findings import Finding
+from rgss.findings import Finding, Severity
 
 _MOST_MEMBERS = 1_000
 _WIDE, _NARROW = 60.0, 18.0
@@ -53,12 +56,15 @@ def excel_bytes(content: Content) -> bytes:
 def read_excel(path: Path) -> Content:
     """Read requirements from a workbook; the columns of a sheet may be in any order.
 
+    Exponents and indices get their plain form; struck-out text is omitted and reported.
+
     Args:
         path: The file, with the sheets ``stakeholder`` and ``system``.
 
     Raises:
         DefinitionError: The package openpyxl is not installed.
-        DocumentError: The file is not a workbook, would unpack to too much, or has other sheets or columns.
+        DocumentError: The file is not a workbook, would unpack to too much, or has other sheets or columns,
+            or merged cells.
     """
     _require_openpyxl()
     from openpyxl import load_workbook
@@ -67,19 +73,20 @@ def read_excel(path: Path) -> Content:
     content = read_bytes(path)
     _require_harmless(content, file)
     findings: list[Finding] = []
+    losses: list[Finding] = []
     rows: list[Row] = []
     try:
         with warnings.catch_warnings():
             # openpyxl warns of unknown formatting, which is not read here.
             warnings.simplefilter("ignore")
-            workbook = load_workbook(io.BytesIO(content), read_only=True)
+            workbook = load_workbook(io.BytesIO(content), read_only=True, rich_text=True)
             names = workbook.sheetnames
             missing = [part.value for part in PARTS if part.value not in names]
             if missing:
                 message = f"there is no sheet {' and no sheet '.join(map(repr, missing))}"
                 raise DocumentError([problem(file, "sheet", message, hint=f"sheets: {', '.join(names)}")])
             for part in PARTS:
-                rows += _rows(file, workbook[part.value], part, findings)
+                rows += _rows(file, SheetReader(workbook, part.value), part, findings, losses)
     except DocumentError:
         raise
     except Exception:  # noqa: BLE001, RUF100 - a damaged workbook breaks openpyxl in many ways
@@ -87,7 +94,7 @@ def read_excel(path: Path) -> Content:
         raise DocumentError([problem(file, "syntax", message, hint="save it again as .xlsx")]) from None
     others = [name for name in names if name not in [part.value for part in PARTS]]
     notes = [f"the sheet {name!r} is not imported" for name in others]
-    return table_content(file, rows, findings, notes)
+    return table_content(file, rows, findings, notes, losses)
 
 
 def _require_openpyxl() -> None:
@@ -113,42 +120,73 @@ def _require_harmless(content: bytes, file: str) -> None:
         raise DocumentError([problem(file, "syntax", "is not an Excel file (.xlsx), or a damaged one")]) from None
 
 
-def _rows(file: str, sheet: Any, part: Part, findings: list[Finding]) -> Iterator[Row]:
+def _rows(file: str, sheet: SheetReader, part: Part, findings: list[Finding], losses: list[Finding]) -> Iterator[Row]:
     where = f"sheet {part.value!r}: "
-    # The stated size of a sheet may be wrong.
-    sheet.reset_dimensions()
     columns: Mapping[str, int] | None = None
-    for number, cells in enumerate(sheet.iter_rows(max_row=MOST_ROWS + 2, max_col=MOST_COLUMNS + 1), start=1):
+    numbers: list[int] = []
+    for number, cells in sheet.rows():
         if number > MOST_ROWS + 1:
             findings.append(problem(file, "size", f"{where}more than {MOST_ROWS} rows", line=number))
             return
-        texts = [_text(file, cell, f"{where}row {number}", findings) for cell in cells]
+        # A row that the file omits is empty; the first one has the names of the columns, in whatever formatting.
         if columns is None:
-            columns = found_columns(file, texts, columns_of(part), where=where)
-            continue
-        if any(text.strip() for text in texts):
-            yield Row(
-                part=part,
-                cells={name: texts[at - 1] if at <= len(texts) else "" for name, at in columns.items()},
-                line=number,
-                columns=columns,
-            )
+            columns = found_columns(file, _heads(cells) if number == 1 else [], columns_of(part), where=where)
+        if number > 1:
+            yield from _row(file, cells, part, Row(part=part, cells={}, line=number, columns=columns), findings, losses)
+            numbers.append(number)
     if columns is None:
-        found_columns(file, [], columns_of(part), where=where)
+        columns = found_columns(file, [], columns_of(part), where=where)
+    findings += _merged(file, sheet, columns, numbers, where)
 
 
-def _text(file: str, cell: Any, where: str, findings: list[Finding]) -> str:
-    value, kind = cell.value, getattr(cell, "data_type", "n")
-    if value is None:
-        return ""
-    if kind in ("f", "e", "d"):
-        what = {"f": "a formula", "e": "an error", "d": "a date"}[kind]
+def _heads(cells: list[FormattedCell]) -> list[str]:
+    texts = {cell.column: cell.unformatted() for cell in cells if cell.column <= MOST_COLUMNS + 1}
+    return [texts.get(column, "") for column in range(1, max(texts, default=0) + 1)]
+
+
+def _row(
+    file: str, cells: list[FormattedCell], part: Part, row: Row, findings: list[Finding], losses: list[Finding]
+) -> Iterator[Row]:
+    where = f"sheet {part.value!r}: row {row.line}"
+    held = {cell.column: cell for cell in cells if cell.value is not None and cell.column <= MOST_COLUMNS + 1}
+    lost = {column: loss for column, cell in held.items() if (loss := cell.text().losses)}
+    texts = {column: _text(file, cell, where, row.line, findings) for column, cell in held.items()}
+    named = row.columns["id"]
+    if named in lost and not texts[named].strip():
+        message = f"{where}: {held[named].unformatted().strip()} is struck out, and the row is omitted"
+        losses.append(problem(file, "loss", message, line=row.line, column=named, severity=Severity.WARNING))
+        return
+    for name, column in row.columns.items():
+        for phrase in lost.get(column, ()):
+            message = f"{texts.get(named, '').strip()}: {name}: {phrase}"
+            losses.append(problem(file, "loss", message, line=row.line, column=column, severity=Severity.WARNING))
+    if any(text.strip() for text in texts.values()):
+        yield replace(row, cells={name: texts.get(column, "") for name, column in row.columns.items()})
+
+
+def _text(file: str, cell: FormattedCell, where: str, line: int, findings: list[Finding]) -> str:
+    text = cell.text()
+    if cell.kind in ("f", "e", "d") and not text.losses:
+        what = {"f": "a formula", "e": "an error", "d": "a date"}[cell.kind]
         message = f"{where}: the cell holds {what}, not a text"
-        findings.append(problem(file, "value", message, line=cell.row, column=cell.column, hint="write it as text"))
+        findings.append(problem(file, "value", message, line=line, column=cell.column, hint="write it as text"))
         return ""
-    if isinstance(value, bool):
-        return str(value).lower()
-    return str(value)
+    return text.text
+
+
+def _merged(
+    file: str, sheet: SheetReader, columns: Mapping[str, int], numbers: list[int], where: str
+) -> Iterator[Finding]:
+    """Merged cells of several rows or attributes, of which only the first has the text."""
+    for first_row, first_column, last_row, last_column in sheet.merged:
+        rows = numbers[bisect_left(numbers, first_row) : bisect_right(numbers, last_row)]
+        names = [name for name, column in columns.items() if first_column <= column <= last_column]
+        if rows and names and len(rows) * len(names) > 1:
+            what = " and ".join(map(repr, names))
+            lines = f"row {rows[0]}" if len(rows) == 1 else f"rows {rows[0]} to {rows[-1]}"
+            message = f"{where}{lines}: the cells of {what} are merged, and only the first has the text"
+            hint = "unmerge them, and fill in each"
+            yield problem(file, "merged", message, line=rows[0], column=first_column, hint=hint)
 
 
 def _write_sheet(sheet: Any, part: Part, rows: list[Row]) -> None:

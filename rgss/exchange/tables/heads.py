@@ -66,7 +66,13 @@ def found_columns(file: str, heads: Sequence[str], wanted: Sequence[str], *, whe
     return {name: number for number, name in enumerate(names, start=1)}
 
 
-def table_content(file: str, rows: Iterable[Row], findings: Sequence[Finding], notes: Sequence[str] = ()) -> Content:
+def table_content(
+    file: str,
+    rows: Iterable[Row],
+    findings: Sequence[Finding],
+    notes: Sequence[str] = (),
+    losses: Sequence[Finding] = (),
+) -> Content:
     """The rows of tables as the content of a file.
 
     Raises:
@@ -75,4 +81,4 @@ def table_content(file: str, rows: Iterable[Row], findings: Sequence[Finding], n
     listed = tuple(rows)
     if findings:
         raise refusal_of(findings)
-    return Content(rows=listed, whole=frozenset(PARTS), notes=tuple(notes), file=file)
+    return Content(rows=listed, whole=frozenset(PARTS), notes=tuple(notes), losses=tuple(losses), file=file)
