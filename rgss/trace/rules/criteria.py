@@ -109,12 +109,18 @@ def _criteria(model: TraceModel) -> Iterator[tuple[Requirement, Criterion]]:
 
 
 def _equal(quantity: TextQuantity, criterion: Criterion) -> bool:
+    """True if a quantity may be the threshold, in one of its readings."""
+    if quantity.currency not in ("", "USD"):
+        # Thresholds are in US dollars; there are no exchange rates.
+        return False
     try:
-        value = quantity.value * conversion_factor(quantity.unit, criterion.unit)
+        factor = conversion_factor(quantity.unit, criterion.unit)
     except QuantityError:
         # Units with an offset zero, such as degrees Celsius, cannot be compared by a factor.
         return False
-    return math.isclose(value, criterion.threshold, rel_tol=1e-9, abs_tol=1e-12)
+    return any(
+        math.isclose(value * factor, criterion.threshold, rel_tol=1e-9, abs_tol=1e-12) for value in quantity.values
+    )
 
 
 RULES: tuple[ModelRule, ...] = (
@@ -165,7 +171,10 @@ RULES: tuple[ModelRule, ...] = (
     ModelRule(
         id="trace.contradicting-number",
         severity=Severity.ERROR,
-        explanation="Where a requirement's text states a number of its criterion's dimension, it is the threshold.",
+        explanation=(
+            "Where a requirement's text states a number of its criterion's dimension, it is the threshold; an amount "
+            "in another currency is not. A number is read whole, and '1,500' or '1 500' in each of its meanings."
+        ),
         check=_contradicting_numbers,
     ),
     ModelRule(

@@ -5,21 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
 
-from rgss.errors import QuantityError
-from rgss.quantities import dimension
+from rgss.trace.sentences.numbers import NOT_WITHIN, NUMBER, readings
+from rgss.trace.sentences.units import ANY_CURRENCY, CURRENCIES, unit_of
 
 _DIGIT = re.compile(r"\d")
-_NUMBER = re.compile(
-    r"""(?<![\w.-])                                                  # not inside UR10, KG-2 or 4.3.1
-        (?P<number>[+-]?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:[eE][+-]?\d{1,3})?)
-        (?![\d.,]*\d)
-        (?:\s?(?P<unit>[A-Za-zµμ°%$][A-Za-z0-9µμ°%$/^*·]*))?""",
+_QUANTITY = re.compile(
+    rf"""(?:(?<![\w.])(?P<currency>{ANY_CURRENCY})\s?|{NOT_WITHIN})
+        (?P<number>{NUMBER})
+        (?(currency)(?P<rate>/[A-Za-z]+)?|(?:\s?(?P<unit>[A-Za-zµμ°%$€£¥Ω\u2126](?:\^-\d|[A-Za-z0-9µμ°%$€£¥Ω\u2126/^*·⋅⁻¹²³⁴])*))?)""",
     re.VERBOSE,
 )
-_PROSE = frozenset({"a", "are", "as", "at", "has", "in"})
-"""Words that are also the names of units, and far more often are just words."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,15 +24,17 @@ class TextQuantity:
 
     Attributes:
         text: The quantity as it is written, with its unit.
-        value: Its magnitude.
-        unit: Its unit; ``"1"`` for a pure number.
+        values: The magnitudes that it may have, the most likely first: ``1,500`` may be 1500 or 1.5.
+        unit: Its unit, with US dollars in place of any currency; ``"1"`` for a pure number.
+        currency: Code of its currency; empty if it has none.
         start: Where it starts in the sentence.
         end: Where it ends there, its unit included.
     """
 
     text: str
-    value: float
+    values: tuple[float, ...]
     unit: str
+    currency: str
     start: int
     end: int
 
@@ -45,22 +43,19 @@ def quantities_in(sentence: str) -> Iterator[TextQuantity]:
     """Find the numbers of a sentence that are written in digits, each with its unit if it has one."""
     if _DIGIT.search(sentence) is None:
         return
-    for match in _NUMBER.finditer(sentence):
-        number, unit = match["number"], match["unit"] or ""
-        if unit in _PROSE or not is_unit(unit):
-            unit = ""
-        text = match[0] if unit else number
-        start = match.start()
+    for match in _QUANTITY.finditer(sentence):
+        before = match["currency"]
+        found = unit_of(f"{before}{match['rate'] or ''}" if before else match["unit"] or "")
+        end = match.end() if found else match.end("number")
+        unit, currency = found or (("USD", CURRENCIES[before]) if before else ("1", ""))
+        values = readings(match.groupdict(), is_money=bool(currency), is_pure=unit == "1")
+        if not values:
+            continue
         yield TextQuantity(
-            text=text, value=float(number.replace(",", "")), unit=unit or "1", start=start, end=start + len(text)
+            text=sentence[match.start() : end],
+            values=values,
+            unit=unit,
+            currency=currency,
+            start=match.start(),
+            end=end,
         )
-
-
-@lru_cache(maxsize=4096)
-def is_unit(text: str) -> bool:
-    """True if a text is the name of a unit, or a product or quotient of such names."""
-    try:
-        dimension(text)
-    except QuantityError:
-        return False
-    return True

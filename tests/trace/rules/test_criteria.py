@@ -188,3 +188,57 @@ def test_pure_numbers_agree_with_pure_thresholds(project, text, threshold, agree
 def test_a_unit_with_an_offset_zero_agrees_with_none(project):
     project.change("P", unit="K").edit("system.yaml", '"800 g"', '"293 K"').edit("system.yaml", "0.8 kg", "20 degC")
     assert [finding.rsplit(" ", 1)[1] for finding in project.findings()] == ["[trace.contradicting-number]"]
+
+
+@pytest.mark.parametrize(
+    ("text", "threshold", "agrees"),
+    [
+        ("0,5 kg", "5 kg", False),
+        ("0,5 kg", "0.5 kg", True),
+        ("2,5 kg", "5 kg", False),
+        ("2,5 kg", "2.5 kg", True),
+        ("5 × 10^2 g", "2 g", False),
+        ("5 × 10^2 g", "0.5 kg", True),
+        ("5 x 10^-1 kg", "0.5 kg", True),
+        ("1 500 g", "1.5 kg", True),
+        ("1 500 g", "5 kg", False),
+        ("1\u00a0500 g", "1.5 kg", True),
+        ("1\u00a0500 g", "0.5 kg", False),
+        ("1\u202f500 g", "1.5 kg", True),
+        ("1,500 kg", "1.5 kg", True),
+        ("1,500 kg", "1500 kg", True),
+        ("1,500 kg", "500 kg", False),
+        ("10³ g", "1 kg", True),
+        ("1.500.000 g", "5 kg", True),
+        ("1/2 kg", "0.5 kg", True),
+        ("10^6 cycles of 0.8 kg", "0.8 kg", True),
+    ],
+)
+def test_a_number_is_compared_as_a_whole(project, text, threshold, agrees):
+    project.edit("system.yaml", "0.8 kg", text).edit("system.yaml", "800 g", threshold)
+    assert project.rules() == ([] if agrees else ["trace.contradicting-number"])
+
+
+@pytest.mark.parametrize(("text", "agrees"), [("10^6 cycles", True), ("10⁶ cycles", True), ("10^5 cycles", False)])
+def test_a_count_is_compared_with_a_pure_threshold(project, text, agrees):
+    project.change("P", unit="1").edit("system.yaml", '"800 g"', "1000000").edit("system.yaml", "0.8 kg", text)
+    assert project.rules() == ([] if agrees else ["trace.contradicting-number"])
+
+
+@pytest.mark.parametrize(
+    ("text", "agrees"),
+    [
+        ("at least 43000 USD", True),
+        ("at least USD 43,000", True),
+        ("at least $43000", True),
+        ("at least $43k", True),
+        ("at least USD 90000", False),
+        ("at least 90000 EUR", False),
+        ("at least 43000 EUR", False),
+        ("at least 43000 USD, which were 40000 EUR", True),
+    ],
+)
+def test_money_is_compared_with_its_currency(project, text, agrees):
+    project.change("P", unit="USD").edit("system.yaml", "800 g", "43000 USD")
+    project.edit("system.yaml", "at least 0.8 kg", text)
+    assert project.rules() == ([] if agrees else ["trace.contradicting-number"])

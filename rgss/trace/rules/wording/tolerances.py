@@ -72,6 +72,9 @@ RULES: tuple[SentenceRule, ...] = (
         passing=(
             "The RGSS shall have a total cost of at most 43,000 USD.",
             "The gripper shall hold a 0.2 kg cup.",
+            "The serving robot shall carry 2 cups.",
+            "The connector shall have 8 pins.",
+            "The controller shall count 10^3 pulses.",
             "The arm shall accelerate between 3 and 5 m/s^2.",
             "The table shall have a height of 740 mm ± 5 mm.",
             "The table shall have a height of 740 mm with a tolerance of 5 mm.",

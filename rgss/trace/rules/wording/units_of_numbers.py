@@ -62,7 +62,9 @@ def _needs_no_unit(sentence: Sentence, quantity: TextQuantity, element: Worded) 
     if counted is not None and counted["word"].lower() not in FUNCTION_WORDS:
         return True
     criterion = element.criterion if isinstance(element, Requirement) else None
-    return criterion is not None and criterion.unit == "1" and math.isclose(criterion.threshold, quantity.value)
+    if criterion is None or criterion.unit != "1":
+        return False
+    return any(math.isclose(criterion.threshold, value) for value in quantity.values)
 
 
 RULES: tuple[SentenceRule, ...] = (
@@ -87,6 +89,12 @@ RULES: tuple[SentenceRule, ...] = (
             "The cell shall fit on a table of at most 2 × 3 m.",
             "The gripper shall weigh at most 3 kg.",
             "The gripper shall have 3 fingers.",
+            "The gripper shall endure at least 10^6 cycles.",
+            "The gripper shall endure at least 10⁶ cycles.",
+            "The gripper shall run for at least 10 000 h.",
+            "The sensor shall have a resistance of at least 50 Ω.",
+            "The gripper shall cost at most $43000.",
+            "The gripper shall cost at most 43,000 EUR.",
             "The arm shall reach station 3 of the line.",
             "The arm shall comply with ISO 10218 part 1.",
             "The cell shall keep the rules of EN 60204-1.",
