@@ -26,6 +26,11 @@ def type_identifier(type_name: str) -> str:
     return identifier("object type", type_name)
 
 
+def relation_type_identifier(kind: str) -> str:
+    """The identifier of a type of relations."""
+    return identifier("relation type", kind)
+
+
 def data_type_identifier(type_name: str, attribute: Attribute) -> str:
     """The identifier of the data type of an attribute."""
     if attribute.form is Form.CHOICE:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections import ChainMap
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -42,10 +44,10 @@ def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Par
     file = str(path)
     content = read_bytes(path, limit=LARGEST_REQIF_BYTES)
     if not is_archive(content):
-        return _content(content, file, known or {}, part)
-    read = [
-        (name, _content(member, f"{file} ({name})", known or {}, part)) for name, member in reqif_members(content, file)
-    ]
+        (only,) = _contents([("", content)], file, known or {}, part)
+        return only
+    members = list(reqif_members(content, file))
+    read = list(zip((name for name, _ in members), _contents(members, file, known or {}, part), strict=True))
     return Content(
         rows=tuple(replace(row, file=each.file) for _, each in read for row in each.rows),
         measures=tuple({measure[0]: measure for _, each in read for measure in each.measures}.values()),
@@ -56,34 +58,77 @@ def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Par
     )
 
 
-def _content(content: bytes, file: str, known: Mapping[str, Part], part: Part | None) -> Content:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _OpenFile:
+    """A file whose objects are read, and whose relations may name objects of the other files of its archive."""
+
+    file: str
+    content: bytes
+    core: Any
+    reader: ObjectReader
+    objects: dict[str, ForeignObject]
+
+
+def _contents(
+    members: Sequence[tuple[str, bytes]], file: str, known: Mapping[str, Part], part: Part | None
+) -> list[Content]:
+    """The contents of files that belong together."""
+    opened = [_opened(content, f"{file} ({name})" if name else file, known, part) for name, content in members]
+    objects = {name: each for one in opened for name, each in one.objects.items()}
+    identifiers = frozenset(each.identifier for one in opened for each in one.core.spec_objects or [])
+    relations = [RelationReader(one.core, ChainMap(one.objects, objects), identifiers) for one in opened]
+    parents: dict[str, str] = {}
+    links: dict[tuple[str, str], list[str]] = {}
+    for one, reader in zip(opened, relations, strict=True):
+        with _described(one.content, one.file):
+            parents = {**reader.containment(), **parents}
+            for place, others in reader.links().items():
+                links[place] = list(dict.fromkeys((*links.get(place, ()), *others)))
+        findings = [problem(one.file, "relation", each, line=line) for line, each in reader.broken]
+        if findings:
+            raise refusal_of(findings)
+    return [_content(one, reader, parents, links) for one, reader in zip(opened, relations, strict=True)]
+
+
+def _opened(content: bytes, file: str, known: Mapping[str, Part], part: Part | None) -> _OpenFile:
     require_plain_xml(content, file)
     bundle = _parsed(content, file)
     core = getattr(bundle.core_content, "req_if_content", None)
     if core is None:
         raise DocumentError([problem(file, "empty", "has no content of ReqIF")])
+    with _described(content, file):
+        reader = ObjectReader(bundle, known, part)
+        objects = reader.read(core.spec_objects or [])
+    return _OpenFile(file=file, content=content, core=core, reader=reader, objects=objects)
+
+
+@contextmanager
+def _described(content: bytes, file: str) -> Iterator[None]:
+    """Turns the errors of the library, on a file that departs from the schema, into one that describes the file."""
     try:
-        objects = ObjectReader(bundle, known, part)
-        found = objects.read(core.spec_objects or [])
-        relations = RelationReader(core, found)
-        parents = relations.containment()
-        links = relations.links()
+        yield
     except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
         raise _unreadable(content, file, error) from None
-    findings = [problem(file, "relation", each, line=line) for line, each in relations.broken]
-    if findings:
-        raise refusal_of(findings)
-    rows = [each for each in found.values() if each.part is not None or each.type_name != MEASURE]
+
+
+def _content(
+    one: _OpenFile,
+    relations: RelationReader,
+    parents: Mapping[str, str],
+    links: Mapping[tuple[str, str], Sequence[str]],
+) -> Content:
+    found = one.objects.values()
+    rows = [each for each in found if each.part is not None or each.type_name != MEASURE]
     return Content(
         rows=tuple(_row(each, links, parents, relations.stated) for each in rows),
-        measures=tuple((each.id, each.cells.get("text", "")) for each in found.values() if each.type_name == MEASURE),
-        whole=frozenset(objects.own_parts),
-        notes=(*objects.notes(), *relations.notes()),
+        measures=tuple((each.id, each.cells.get("text", "")) for each in found if each.type_name == MEASURE),
+        whole=frozenset(one.reader.own_parts),
+        notes=(*one.reader.notes(), *relations.notes()),
         losses=tuple(
-            problem(file, "loss", message, line=line, severity=Severity.WARNING)
-            for line, message in sorted((*objects.lost, *relations.lost))
+            problem(one.file, "loss", message, line=line, severity=Severity.WARNING)
+            for line, message in sorted((*one.reader.lost, *relations.lost))
         ),
-        file=file,
+        file=one.file,
     )
 
 
@@ -132,14 +177,16 @@ def _row(
 ) -> Row:
     cells = dict(each.cells)
     names = {attribute.name: attribute for attribute in ATTRIBUTES.get(each.part, ())} if each.part else {}
-    cells.update(_linked(each, links, stated & names.keys()))
+    # What another file of the archive or a relation states is taken over, and no other link removed for it.
+    linked = {name for name in names if (each.id, name) in links}
+    cells.update(_linked(each, links, (stated & names.keys()) | linked))
     if "parent" in names and (each.is_ours or each.id in parents):
         cells["parent"] = parents.get(each.id, "")
     return Row(part=each.part, cells=cells, line=each.line)
 
 
 def _linked(
-    each: ForeignObject, links: Mapping[tuple[str, str], Sequence[str]], names: set[str] | frozenset[str]
+    each: ForeignObject, links: Mapping[tuple[str, str], Sequence[str]], names: Collection[str]
 ) -> Iterator[tuple[str, str]]:
     for name in sorted(names):
         yield name, "; ".join(links.get((each.id, name), ()))

@@ -3,42 +3,60 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any, NamedTuple
 
 from rgss.exchange.attributes import Part
+from rgss.exchange.reqif.identifiers import relation_type_identifier
 from rgss.exchange.reqif.objects import ForeignObject, UnsoundObjectError
 from rgss.exchange.reqif.vocabulary import ACTOR, INCLUDE, MEASURE, relation_name
 from rgss.requirements import LinkKind
 
-_TURNED: Mapping[str, str] = {LinkKind.SATISFY.value: "satisfied_by", LinkKind.VERIFY.value: "measure"}
-_SYSTEM: Mapping[str, str] = {LinkKind.DERIVE.value: "derived_from", LinkKind.TRACE.value: "traces"}
-_BEHAVIOUR: Mapping[str, str] = {
-    LinkKind.ALLOCATE.value: "allocated_to",
-    LinkKind.REFINE.value: "refines",
-    INCLUDE: "includes",
-    ACTOR: "actors",
+_ANY_REQUIREMENT = (Part.STAKEHOLDER, Part.SYSTEM)
+
+
+class _LinkRule(NamedTuple):
+    """The attribute that states a relation, and what the relation may connect."""
+
+    attribute: str
+    sources: tuple[Part | None, ...]
+    targets: tuple[Part | None, ...]
+
+
+# A measure has no part.
+_RULES: Mapping[str, _LinkRule] = {
+    LinkKind.SATISFY.value: _LinkRule("satisfied_by", (Part.BLOCK, Part.BEHAVIOUR), (Part.SYSTEM,)),
+    LinkKind.VERIFY.value: _LinkRule("measure", (None,), (Part.SYSTEM,)),
+    LinkKind.DERIVE.value: _LinkRule("derived_from", (Part.SYSTEM,), _ANY_REQUIREMENT),
+    LinkKind.TRACE.value: _LinkRule("traces", (Part.SYSTEM,), _ANY_REQUIREMENT),
+    LinkKind.ALLOCATE.value: _LinkRule("allocated_to", (Part.BEHAVIOUR,), (Part.BLOCK,)),
+    LinkKind.REFINE.value: _LinkRule("refines", (Part.BEHAVIOUR,), (Part.BEHAVIOUR, *_ANY_REQUIREMENT)),
+    INCLUDE: _LinkRule("includes", (Part.BEHAVIOUR,), (Part.BEHAVIOUR,)),
+    ACTOR: _LinkRule("actors", (Part.BEHAVIOUR,), (Part.BLOCK,)),
 }
+_TURNED = (LinkKind.SATISFY.value, LinkKind.VERIFY.value)
+"""Relations that the element at their target states."""
 
 
 class RelationReader:
     """Reader of relations, with a list of what could not be imported."""
 
-    def __init__(self, core: Any, objects: Mapping[str, ForeignObject]) -> None:
+    def __init__(self, core: Any, objects: Mapping[str, ForeignObject], identifiers: Collection[str]) -> None:
         """Create a reader of a file.
 
         Args:
             core: The content of the file as read by the library.
-            objects: Its objects by their identifiers.
+            objects: The objects that it may name, by their identifiers.
+            identifiers: The identifiers of all such objects, including those that are not imported.
         """
-        self._core, self._objects = core, objects
+        self._core, self._objects, self._all = core, objects, identifiers
         self._types = {
             each.identifier: each.long_name or each.identifier
             for each in core.spec_types or []
             if type(each).__name__ == "ReqIFSpecRelationType"
         }
-        self._all = {each.identifier for each in core.spec_objects or []}
         self._left: Counter[str] = Counter()
+        """Number of relations that are not imported, by the identifier of their type."""
         self.broken: list[tuple[int, str]] = []
         """Line and message of each relation to a missing object."""
         self.lost: list[tuple[int, str]] = []
@@ -46,10 +64,18 @@ class RelationReader:
 
     @property
     def stated(self) -> frozenset[str]:
-        """The attributes that the file states completely, since it has a type for their relation."""
-        kinds = {relation_name(name) for name in self._types.values()}
-        tables = (_TURNED, _SYSTEM, _BEHAVIOUR)
-        return frozenset(name for table in tables for kind, name in table.items() if kind in kinds)
+        """The attributes that the file states completely, since it has a type for their relation.
+
+        A type of another tool whose relations are not all imported has another meaning there. To be read after `links`.
+        """
+        found: dict[str, bool] = {}
+        for each, name in self._types.items():
+            kind = relation_name(name)
+            if kind is not None and kind in _RULES:
+                is_whole = not self._left[each] or each == relation_type_identifier(kind)
+                attribute = _RULES[kind].attribute
+                found[attribute] = found.get(attribute, True) and is_whole
+        return frozenset(attribute for attribute, is_whole in found.items() if is_whole)
 
     def links(self) -> dict[tuple[str, str], list[str]]:
         """The ids that an attribute of an element names, in the file's order."""
@@ -66,10 +92,10 @@ class RelationReader:
             source, target = self._objects.get(each.source), self._objects.get(each.target)
             place = None if source is None or target is None else _place(relation_name(kind), source, target)
             if place is None or source is None or target is None:
-                self._left[kind] += 1
+                self._left[each.relation_type_ref] += 1
             elif place[1]:
                 known = found.setdefault(place, [])
-                other = source.id if place[0] == target.id and place[1] in _TURNED.values() else target.id
+                other = source.id if relation_name(kind) in _TURNED else target.id
                 if other not in known:
                     known.append(other)
         return found
@@ -99,7 +125,10 @@ class RelationReader:
 
     def notes(self) -> Iterator[str]:
         """Notes on content that was not imported."""
-        for kind, count in sorted(self._left.items()):
+        left: Counter[str] = Counter()
+        for each, count in self._left.items():
+            left[self._types[each]] += count
+        for kind, count in sorted(left.items()):
             yield f"{count} relations of type {kind!r} are not imported: rgss has no such link between such elements"
 
 
@@ -117,13 +146,11 @@ def _place(kind: str | None, source: ForeignObject, target: ForeignObject) -> tu
     """The element and the attribute that state a relation; no attribute if another attribute implies it."""
     if kind is None:
         return None
-    if kind in _TURNED and target.part is Part.SYSTEM:
-        fits = (source.type_name == MEASURE) == (kind == LinkKind.VERIFY.value)
-        return (target.id, _TURNED[kind]) if fits else None
-    if source.part is Part.SYSTEM and kind in _SYSTEM:
-        return source.id, _SYSTEM[kind]
-    if source.part is Part.BEHAVIOUR and kind in _BEHAVIOUR:
-        return source.id, _BEHAVIOUR[kind]
-    if source.part is Part.BEHAVIOUR and kind == LinkKind.TRACE.value:
+    if kind == LinkKind.TRACE.value and source.part is Part.BEHAVIOUR:
         return source.id, ""
-    return None
+    rule = _RULES.get(kind)
+    if rule is None or source.part not in rule.sources or target.part not in rule.targets:
+        return None
+    if (source.type_name == MEASURE) != (kind == LinkKind.VERIFY.value):
+        return None
+    return (target if kind in _TURNED else source).id, rule.attribute

@@ -18,6 +18,7 @@ from rgss.exchange.reqif.identifiers import (
     choice_identifier,
     data_type_identifier,
     object_identifier,
+    relation_type_identifier,
     type_identifier,
 )
 from rgss.exchange.reqif.prose import as_xhtml, escaped
@@ -160,7 +161,7 @@ def _spec_types(models: Any) -> Iterator[Any]:
     yield _object_type(models, MEASURE, MEASURE, _MEASURE_ATTRIBUTES)
     for relation in RELATIONS:
         yield models.ReqIFSpecRelationType(
-            identifier=identifier("relation type", relation), last_change=NO_TIME, long_name=relation
+            identifier=relation_type_identifier(relation), last_change=NO_TIME, long_name=relation
         )
     yield models.ReqIFSpecificationType(
         identifier=identifier("specification type"),
@@ -236,7 +237,7 @@ def _relations(models: Any, rows: Sequence[Row]) -> Iterator[Any]:
             yield models.ReqIFSpecRelation(
                 identifier=identifier("relation", kind, source, target),
                 last_change=NO_TIME,
-                relation_type_ref=identifier("relation type", kind),
+                relation_type_ref=relation_type_identifier(kind),
                 source=object_identifier(source),
                 target=object_identifier(target),
             )

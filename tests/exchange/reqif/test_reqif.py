@@ -33,18 +33,6 @@ def exported(project, tmp_path):
     return path
 
 
-@pytest.fixture
-def as_xml(tmp_path):
-    """A file with some text of its own."""
-
-    def written(text):
-        path = tmp_path / "foreign.reqif"
-        path.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
-        return path
-
-    return written
-
-
 @pytest.fixture(scope="module")
 def schema():
     folder = Path(reqif.__file__).parent / "reqif_schema"
