@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import codecs
-import shutil
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -16,6 +15,7 @@ from rgss.exchange.attributes import ATTRIBUTES, Part
 from rgss.exchange.comparison import ChangeKind, ElementChange
 from rgss.exchange.content import part_of
 from rgss.exchange.files import read_bytes
+from rgss.exchange.project_copy import copy_of_folders
 from rgss.requirements import RequirementSet
 from rgss.studies import REQUIREMENT_PARTS
 
@@ -99,11 +99,13 @@ def rehearsed(
         files: The changes.
         check: Function that loads the project in a folder, and raises its errors.
         folders: The folders of the project that loading needs.
+
+    Raises:
+        DefinitionError: The copy cannot be written.
     """
     with tempfile.TemporaryDirectory(prefix="rgss-import-") as name:
         copy = Path(name)
-        for each in folders:
-            shutil.copytree(folder / each, copy / each)
+        copy_of_folders(folder, copy, folders)
         for file in files:
             if file.new is None:
                 (copy / file.name).unlink()

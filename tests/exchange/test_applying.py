@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -127,6 +128,42 @@ def test_a_rehearsal_is_held_in_a_copy(project, before):
     folders = []
     rehearsed(project.folder, files, folders.append, folders=["requirements"])
     assert not folders[0].exists()
+
+
+def test_what_loading_does_not_read_is_no_part_of_a_rehearsal(project, tmp_path):
+    scenes, outside = project.folder / "scenes", tmp_path / "outside"
+    (scenes / "inner").mkdir(parents=True)
+    outside.mkdir()
+    (outside / "mesh.stl").write_text("mesh", encoding="utf-8")
+    (scenes / "inner" / "a.yaml").write_text("a", encoding="utf-8")
+    (scenes / "dangling").symlink_to("nowhere")
+    (scenes / "inner" / "loop").symlink_to("..")
+    (scenes / "project").symlink_to("..")
+    (scenes / "itself").symlink_to("itself")
+    (scenes / "file").symlink_to("inner/a.yaml")
+    (scenes / "folder").symlink_to(outside)
+    os.mkfifo(scenes / "pipe")
+    files = project.plan(changed(project.content, "SYS-1", owner="boss"))
+    found = {}
+
+    def check(copy):
+        for path in sorted((copy / "scenes").rglob("*")):
+            if path.is_file():
+                assert not path.is_symlink()
+                found[path.relative_to(copy).as_posix()] = path.read_text(encoding="utf-8")
+        assert load_requirements(copy / "requirements").requirement("SYS-1").owner == "boss"
+
+    rehearsed(project.folder, files, check, folders=["requirements", "scenes", "studies"])
+    assert found == {"scenes/file": "a", "scenes/folder/mesh.stl": "mesh", "scenes/inner/a.yaml": "a"}
+
+
+def test_a_copy_that_cannot_be_written_is_said_in_one_line(project, monkeypatch):
+    def full(source, target):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("shutil.copyfileobj", full)
+    with pytest.raises(DefinitionError, match=r"in which an import is checked, cannot be written: No space left"):
+        rehearsed(project.folder, (), lambda copy: None, folders=["requirements"])
 
 
 def test_a_file_that_changed_in_the_meantime_is_left_alone(project, before):
