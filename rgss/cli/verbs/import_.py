@@ -40,7 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Report and, on request, apply; 1 if changes are not applied, or something of the file is not taken over."""
+    """Report and, on request, apply; 1 if the project then differs from the file, or content of it is lost."""
     from rgss.cli.import_report import print_report, report_as_json
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
@@ -71,8 +71,16 @@ def run(options: argparse.Namespace) -> int:
     else:
         print_report(changes, foreign)
         print(_outcome(changes, foreign, files, options))
-    taken = foreign.rows or foreign.measures
-    return FINDINGS if not taken or foreign.losses or (changes and not options.apply) else CLEAN
+    return CLEAN if _is_taken_over(changes, foreign, options) else FINDINGS
+
+
+def _is_taken_over(changes: Sequence[ElementChange], foreign: Content, options: argparse.Namespace) -> bool:
+    """True if the project states what the file states, and nothing of it is lost."""
+    from rgss.exchange import ChangeKind
+
+    taken = bool(foreign.rows or foreign.measures) and not foreign.losses
+    done = options.apply and (options.remove or all(change.kind is not ChangeKind.REMOVED for change in changes))
+    return taken and bool(done or not changes)
 
 
 def _import_defaults(options: argparse.Namespace) -> Any:
@@ -134,12 +142,13 @@ def _outcome(
         return "No changes." if taken else f"Nothing of the file was imported: {why}."
     counts = {kind: sum(change.kind is kind for change in changes) for kind in ChangeKind}
     said = ", ".join(f"{count} {kind.value}" for kind, count in counts.items())
-    if not options.apply:
-        return f"{said}; nothing is written (--apply writes it)."
     gone = counts[ChangeKind.REMOVED]
+    if not options.apply:
+        written = "--apply writes it" + (f", and keeps what the file lacks without --remove: {gone}" if gone else "")
+        return f"{said}; nothing is written ({written})."
     kept = f"; what the file lacks is kept: {gone} (--remove removes it)" if gone and not options.remove else ""
-    written = [file.name for file in files if file.new is not None]
+    names = [file.name for file in files if file.new is not None]
     removed = [file.name for file in files if file.new is None]
-    into = [f"written into {', '.join(written)}"] if written else []
+    into = [f"written into {', '.join(names)}"] if names else []
     into += [f"removed the empty {', '.join(removed)}"] if removed else []
     return f"{said}; {'; '.join(into) or 'nothing to write'}{kept}."

@@ -126,7 +126,14 @@ def test_a_file_of_strictdoc_is_taken_in_and_a_reqif_of_ours_takes_it_out_again(
     assert "added system SUP-2" in told.output
     assert "note: the attribute 'ReqIF.Name' is not imported" in told.output
     assert rgss("import", "reqif", strictdoc, "--project", folder).status == 0
+    shown = rgss("import", "reqif", exports / "rgss.reqif", "--project", folder)
+    assert shown.status == 1
+    assert shown.output.splitlines()[-1] == (
+        "0 added, 2 removed, 0 changed; nothing is written (--apply writes it, and keeps what the file lacks without "
+        "--remove: 2)."
+    )
     kept = rgss("import", "reqif", exports / "rgss.reqif", "--project", folder, "--apply")
+    assert kept.status == 1
     assert kept.output.splitlines()[-1] == (
         "0 added, 2 removed, 0 changed; nothing to write; what the file lacks is kept: 2 (--remove removes it)."
     )
@@ -262,3 +269,23 @@ def test_what_a_text_loses_is_a_finding(rgss, folder, exports, tmp_path):
     assert loss.endswith("the attachment 'a.png' is omitted [exchange.loss]")
     assert last == "No changes."
     assert [each["message"].endswith("'a.png' is omitted") for each in as_json.document["losses"]] == [True]
+
+
+def test_the_status_says_whether_the_project_states_what_the_file_states(rgss, folder, exports, tmp_path):
+    """Also where one change is applied and other elements are kept."""
+    rows = list(csv.DictReader(io.StringIO((exports / "rgss.csv").read_text(encoding="utf-8-sig"), newline="")))
+    named = {name for row in rows for key in ("parent", "derived_from", "traces") for name in row[key].split("; ")}
+    last = next(row for row in reversed(rows) if row["id"] not in named)
+    rows.remove(last)
+    rows[0]["owner"] = "somebody else"
+    path = tmp_path / "fewer.csv"
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, rows[0])
+        writer.writeheader()
+        writer.writerows(rows)
+
+    first = rgss("import", "csv", path, "--project", folder, "--apply")
+    second = rgss("import", "csv", path, "--project", folder, "--apply")
+    assert (first.status, second.status) == (1, 1)
+    assert "1 removed, 1 changed; written into" in first.output
+    assert "1 removed, 0 changed; nothing to write" in second.output
