@@ -66,6 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(arguments: Sequence[str] | None) -> int:
+    options: argparse.Namespace | None = None
     try:
         options = command_line().parse_args(arguments)
         with _page(options):
@@ -73,10 +74,13 @@ def _run(arguments: Sequence[str] | None) -> int:
             if sys.stdout is not None:
                 # Flushed here, where a failure can still be reported, and not at the exit of the interpreter.
                 sys.stdout.flush()
+        if status == BAD_INPUT:
+            _report_interrupted_import(options)
         return status
     except DocumentError as error:
         for finding in error.findings:
             _print_error(str(finding))
+        _report_interrupted_import(options)
         return BAD_INPUT
     except (SimulationError, MotionError, DriverError, StorageError) as error:
         _print_error(f"rgss: {error}")
@@ -97,6 +101,19 @@ def _run(arguments: Sequence[str] | None) -> int:
         printed = error.filename is None and error.errno in _UNWRITABLE
         _print_error(f"rgss: the output cannot be written: {error.strerror}" if printed else f"rgss: {error}")
         return RUN_FAILED
+
+
+def _report_interrupted_import(options: argparse.Namespace | None) -> None:
+    """Report an import that was killed while it wrote, which may be why the project cannot be read."""
+    from rgss.exchange import was_interrupted
+    from rgss.studies import find_project
+
+    try:
+        folder = None if options is None else find_project(options.project)
+    except RgssError:
+        return
+    if folder is not None and was_interrupted(folder):
+        _print_error("rgss: an import into this project was interrupted (`rgss import` undoes what it has written)")
 
 
 def _page(options: argparse.Namespace) -> AbstractContextManager[object]:

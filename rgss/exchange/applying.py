@@ -15,6 +15,7 @@ from rgss.exchange.attributes import ATTRIBUTES, Part
 from rgss.exchange.comparison import ChangeKind, ElementChange
 from rgss.exchange.content import part_of
 from rgss.exchange.files import read_bytes
+from rgss.exchange.journal import journal_of
 from rgss.exchange.project_copy import copy_of_folders
 from rgss.requirements import RequirementSet
 from rgss.studies import REQUIREMENT_PARTS
@@ -117,6 +118,8 @@ def rehearsed(
 def written(folder: Path, files: Sequence[FileChange]) -> None:
     """Write the changes; if one file cannot be written, those before it are restored.
 
+    What is written when the process is killed is undone by `undone`.
+
     Args:
         folder: The project.
         files: The changes.
@@ -127,18 +130,21 @@ def written(folder: Path, files: Sequence[FileChange]) -> None:
     for file in files:
         if read_bytes(folder / file.name) != file.old:
             raise DefinitionError(f"{file.name} has changed in the meantime", hint="import again")
+    if not files:
+        return
     done: list[FileChange] = []
-    try:
-        for file in files:
-            if file.new is None:
-                _removed(folder / file.name)
-            else:
-                write_output(folder / file.name, file.new, replace_source=True)
-            done.append(file)
-    except BaseException:
-        for file in done:
-            write_output(folder / file.name, file.old, replace_source=True)
-        raise
+    with journal_of(folder, {file.name: (file.old, file.new) for file in files}):
+        try:
+            for file in files:
+                if file.new is None:
+                    _removed(folder / file.name)
+                else:
+                    write_output(folder / file.name, file.new, replace_source=True)
+                done.append(file)
+        except BaseException:
+            for file in done:
+                write_output(folder / file.name, file.old, replace_source=True)
+            raise
 
 
 def _removed(path: Path) -> None:

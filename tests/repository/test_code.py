@@ -28,6 +28,7 @@ OWN_WRITERS = {
     "rgss/documents/output_files.py",
     "rgss/physics/engine.py",
     "rgss/exchange/applying.py",
+    "rgss/exchange/journal.py",
     "rgss/exchange/project_copy.py",
     "rgss/studies/robot_project/draft.py",
     "rgss/studies/robot_project/drafted_gripper.py",

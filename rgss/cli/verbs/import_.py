@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -45,12 +46,15 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
     from rgss.errors import DefinitionError, DocumentError
-    from rgss.exchange import compare, content_of, planned, rehearsed, written
+    from rgss.exchange import compare, content_of, planned, rehearsed, undone, written
     from rgss.studies import FOLDERS, find_project, load_project
 
     if options.remove and not options.apply:
         raise DefinitionError("--remove goes with --apply", hint="without --apply nothing is written")
     folder = find_project(options.project)
+    restored = undone(folder)
+    if restored:
+        print(f"an import that was interrupted is undone in {', '.join(restored)}", file=sys.stderr)
     project = load_project(folder, options.study)
     assumed = _import_defaults(options)
     foreign = _read(project, options, assumed.part)

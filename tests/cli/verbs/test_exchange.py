@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import csv
 import io
+import json
 import re
 import zipfile
 from pathlib import Path
@@ -289,3 +291,25 @@ def test_the_status_says_whether_the_project_states_what_the_file_states(rgss, f
     assert (first.status, second.status) == (1, 1)
     assert "1 removed, 1 changed; written into" in first.output
     assert "1 removed, 0 changed; nothing to write" in second.output
+
+
+def test_an_interrupted_import_is_named_and_undone(rgss, folder, table):
+    """The journal is that of an import that was killed after its first file."""
+    path = folder / "requirements" / "stakeholder.yaml"
+    old, new = path.read_bytes(), b"requirements: []\n"
+    coded = [base64.b64encode(content).decode("ascii") for content in (old, new)]
+    path.write_bytes(new)
+    (folder / ".rgss").mkdir(exist_ok=True)
+    (folder / ".rgss" / "import.json").write_text(
+        json.dumps({"requirements/stakeholder.yaml": coded}), encoding="utf-8"
+    )
+
+    told = rgss("check", "--project", folder)
+    assert told.status == 2
+    assert told.errors.splitlines()[-1] == (
+        "rgss: an import into this project was interrupted (`rgss import` undoes what it has written)"
+    )
+    told = rgss("import", "csv", table(), "--project", folder)
+    assert (told.status, told.output) == (0, "No changes.\n")
+    assert told.errors == "an import that was interrupted is undone in requirements/stakeholder.yaml\n"
+    assert path.read_bytes() == old
