@@ -12,8 +12,11 @@ from rgss.findings import Severity
 from rgss.trace.rules.rule import Flaw, SentenceRule, Worded
 from rgss.trace.sentences import Sentence, TermList, words_of
 
-# "shall be" with a participle, and an adverb before or between them.
-_BE = re.compile(r"(?:not\s+)?(?:\w+ly\s+)?be\s+(?:not\s+)?(?:\w+ly\s+)?(?P<word>[a-z]+)\b", re.IGNORECASE)
+# "shall be", "shall get" or "shall have been" with a participle, and an adverb before or between them.
+_BE = re.compile(
+    r"(?:not\s+)?(?:\w+ly\s+)?(?P<verb>be|get|have\s+(?:\w+ly\s+)?been)\s+(?:not\s+)?(?:\w+ly\s+)?(?P<word>[a-z]+)\b",
+    re.IGNORECASE,
+)
 
 
 _PARTICIPLES = frozenset(
@@ -29,16 +32,21 @@ _PARTICIPLES = frozenset(
 # "be red" and "be able to" are no passive; the second has a rule of its own.
 _NO_PARTICIPLES = frozenset(words_of("designed intended required allowed permitted expected supposed red rated"))
 
+# "get stuck" is what an arm does by itself.
+_BY_ITSELF = frozenset({"lost", "stuck"})
+
 
 def _passive(sentence: Sentence, terms: TermList, _: Worded) -> Iterator[Flaw]:
     match = _BE.match(sentence.response)
     if match is None:
         return
-    word = match["word"].lower()
+    word, verb = match["word"].lower(), " ".join(match["verb"].lower().split())
+    if verb == "get" and word in _BY_ITSELF:
+        return
     is_participle = word in _PARTICIPLES or (len(word) > 4 and word.endswith("ed"))
     if is_participle and word not in _NO_PARTICIPLES and word not in terms.terms:
         yield Flaw(
-            message=f"says 'shall be {word}', which leaves open who does it",
+            message=f"says 'shall {verb} {word}', which leaves open who does it",
             hint="make the one who acts the subject, with a verb in the active voice",
         )
 
@@ -57,9 +65,14 @@ RULES: tuple[SentenceRule, ...] = (
             "When an order arrives, the cup shall be automatically moved to the table.",
             "The record shall be written to the store.",
             "The arm shall be kept clear of the table.",
+            "The cup shall get cleaned.",
+            "The model shall have been validated.",
+            "The model shall have automatically been checked.",
         ),
         passing=(
             "The scene shall be red.",
+            "The finger shall get wet.",
+            "The arm shall have a red mark.",
             "The arm shall be parallel to the table within 0.1 deg.",
             "The manual shall be in English.",
             "The person shall press the stop button.",

@@ -1,10 +1,11 @@
-"""Rules that look for phrases and nothing else; a further one is an entry here.
+"""Rules that look for phrases or signs and nothing else; a further one is an entry here.
 
 Numbers are those of the INCOSE *Guide to Writing Requirements*, version 3.1.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -12,23 +13,28 @@ from rgss.findings import Severity
 from rgss.trace.rules.rule import Flaw, SentenceRule, Worded
 from rgss.trace.sentences import Sentence, TermList, listed, phrases
 
+# Between numbers an ellipsis is a range.
+_ELLIPSIS = re.compile(r"(?:\.{3}|…)(?!\.*\s?[+\-\u2212]?\d)")
 
-def _phrase_rule(*, flaw: str, hint: str, in_response: bool = False, **entry: Any) -> SentenceRule:
+
+def _phrase_rule(
+    *, flaw: str, hint: str, in_response: bool = False, signs: re.Pattern[str] | None = None, **entry: Any
+) -> SentenceRule:
     """Rule violated by each sentence with one of its terms.
 
     Args:
         flaw: The problem, as a text after "says" and the terms found.
         hint: How to resolve it.
         in_response: Look after 'shall' only.
+        signs: Signs that violate it too.
         entry: The other attributes of the rule.
     """
 
     def find(sentence: Sentence, terms: TermList, _: Worded) -> Iterator[Flaw]:
-        if terms.is_absent(sentence):
-            return
+        sign = None if signs is None else signs.search(sentence.text)
         found = listed(terms.find(sentence, start=sentence.response_start if in_response else 0))
-        if found:
-            yield Flaw(message=f"says {found}{flaw}", hint=hint)
+        if found or sign is not None:
+            yield Flaw(message=f"says {found or repr(sign and sign[0])}{flaw}", hint=hint)
 
     return SentenceRule(find=find, **entry)
 
@@ -41,6 +47,7 @@ RULES: tuple[SentenceRule, ...] = (
         meaning="open ends",
         flaw=", which has no end",
         hint="name each of them, or make requirements of them",
+        signs=_ELLIPSIS,
         terms=phrases("""
             among other things, among others, and more besides, and others, and similar, and so forth, and so
             on, and the like, and the rest, and what not, but not limited to, e.g, et al, et cetera, etc, for
@@ -54,8 +61,13 @@ RULES: tuple[SentenceRule, ...] = (
             "The cell shall serve tableware, including but not limited to cups.",
             "The cell shall serve tableware such as cups.",
             "The cell shall serve tableware, e.g. cups.",
+            "The script shall write PDF, PNG, ...",
+            "The script shall write PDF, PNG, … files.",
         ),
-        passing=('The script shall end the search with the outcome "budget spent, and so on".',),
+        passing=(
+            "The sensor shall accept between 1 ... 5 V.",
+            'The script shall end the search with the outcome "budget spent, and so on".',
+        ),
     ),
     _phrase_rule(
         id="wording.R10",
@@ -105,28 +117,5 @@ RULES: tuple[SentenceRule, ...] = (
             "The all-terrain base shall carry the arm.",
             "The brakes shall hold the arm at each pose.",
         ),
-    ),
-    _phrase_rule(
-        id="wording.TBD",
-        severity=Severity.ERROR,
-        explanation="A requirement has nothing that is still to be determined, resolved or confirmed.",
-        meaning="marks of unresolved values",
-        flaw="",
-        hint="decide it, or keep the requirement out until it is decided",
-        terms=phrases("""
-            FIXME, TBA, TBC, TBD, TBR, TBS, TODO, XXX, fixme, t.b.a, t.b.c, t.b.d, tba, tbc, tbd, tbr, tbs, to
-            be agreed, to be announced, to be clarified, to be confirmed, to be decided, to be defined, to be
-            determined, to be resolved, to be specified, yet to be *
-        """),
-        breaking=(
-            "The gripper shall hold TBD cups.",
-            "The gripper shall hold TBD kg.",
-            "The gripper shall hold a mass to be determined.",
-            "The gripper shall hold 3 kg (TBC).",
-            "The gripper shall hold tbd kg.",
-            "The gripper shall hold T.B.D. kg.",
-            "The gripper shall hold a mass yet to be agreed.",
-        ),
-        passing=('The page shall mark a missing value by "TBD".',),
     ),
 )

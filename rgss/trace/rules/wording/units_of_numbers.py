@@ -28,7 +28,7 @@ FUNCTION_WORDS = frozenset(
     )
 )
 # "between 3 and 5 kg", "3 to 5 kg", "2, 4 or 6 kg", "2 × 3 m": the unit stands behind the last number.
-_RANGE = re.compile(r"\s*(?:,|to\b|and\b|or\b|through\b|–|-|×|x\b|±|\+/-|:|/|\*)\s*[+-]?\d", re.IGNORECASE)
+_RANGE = re.compile(r"\s*(?:,|to\b|and\b|or\b|through\b|–|-|×|x\b|±|\+/-|:|/|\*|~|\.{3}|…)\s*[+-]?\d", re.IGNORECASE)
 # What a quantity stands behind. Behind another word a number is a name: station 3, joint 6, ISO 9001, SYS-012.
 _INTRODUCTIONS = frozenset(
     words_of(

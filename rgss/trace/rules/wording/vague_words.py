@@ -14,7 +14,7 @@ from rgss.trace.sentences import Match, Sentence, TermList, listed, phrases
 
 # Vague where a number follows; otherwise about an axis, around a table, close to a grasp.
 _BEFORE_NUMBERS = phrases("""
-    about, around, circa, close to, roughly
+    about, approx, around, ca, circa, close to, roughly
 """)
 # Not vague where one of these words follows.
 _CLEAR_BEFORE = {"rather": ("than",), "normally": ("open", "closed")}
@@ -34,13 +34,16 @@ _VAGUE = phrases("""
     suitably, timely, tolerable, typical, typically, undue, unduly, unreasonable, unreasonably, user-friendly,
     usual, usually, various, versatile, very, with ease, without difficulty, world-class
 """)
-_NUMBER_NEXT = re.compile(r"\s*[~±]?\d")
+_NUMBER_NEXT = re.compile(r"\.?\s*[~±]?[$€£¥]?\d")
+# Behind a number it is the sign of a range.
+_ABOUT = re.compile(r"(?<![\w%°])(?<!\d\s)[~∼≈≃≅]\s?[$€£¥]?\d")
 
 
 def _vague(sentence: Sentence, terms: TermList, _: Worded) -> Iterator[Flaw]:
-    if terms.is_absent(sentence):
-        return
     found = listed(match for match in terms.find(sentence) if _is_vague(sentence, match))
+    sign = None if found else _ABOUT.search(sentence.text)
+    if sign is not None:
+        found = repr(sign[0][0])
     if found:
         yield Flaw(message=f"says {found}, which is vague", hint="say how much, how many, or which")
 
@@ -67,6 +70,10 @@ RULES: tuple[SentenceRule, ...] = (
             "The gripper shall hold several cups.",
             "The gripper shall hold many cups.",
             "The gripper shall weigh about 3 kg.",
+            "The gripper shall weigh approx. 3 kg.",
+            "The gripper shall weigh ca. 3 kg.",
+            "The gripper shall weigh at most ~3 kg.",
+            "The gripper shall weigh ≈ 3 kg.",
             "The arm shall stop around 5 mm before the table.",
             "The cell shall have adequate light.",
             "The arm shall move some cups.",
@@ -83,6 +90,7 @@ RULES: tuple[SentenceRule, ...] = (
         ),
         passing=(
             "The gripper shall close to a firm grasp.",
+            "The pump shall deliver between 2~3 l/min.",
             "The gripper shall close around the cup.",
             "The joint shall rotate about the vertical axis.",
             "The arm shall use a finger rather than a hook.",
