@@ -57,6 +57,8 @@ class _Reader:
     letters: list[str] = field(default_factory=list)
     """Letters that number each enclosing list; empty for numbers."""
     literal: bool = False
+    bulleted: int = 0
+    """Number of the parts up to the last bullet, behind which the first paragraph of its item continues the line."""
 
     def children(self, node: Any) -> None:
         self.say(node.text)
@@ -77,10 +79,10 @@ class _Reader:
             self.parts.append(said)
 
     def at_line_start(self) -> bool:
-        return not self.parts or self.parts[-1].endswith("\n")
+        return len(self.parts) == self.bulleted or self.parts[-1].endswith("\n")
 
-    def break_line(self) -> None:
-        if not self.at_line_start():
+    def break_line(self, *, of_list: bool = False) -> None:
+        if not self.at_line_start() or (of_list and self.parts and not self.parts[-1].endswith("\n")):
             self.parts.append("\n")
 
     def element(self, node: Any) -> None:
@@ -116,7 +118,8 @@ class _Reader:
             self.children(node)
 
     def block(self, node: Any, name: str) -> None:
-        self.break_line()
+        of_list = name in ("ul", "ol", "li")
+        self.break_line(of_list=of_list)
         if name in ("ul", "ol"):
             start = node.get("start") or "1"
             first = int(start) if re.fullmatch(r"-?\d{1,6}", start) else 1
@@ -127,12 +130,13 @@ class _Reader:
             self.letters.pop()
         elif name == "li":
             self.parts.append(_INDENT * max(0, len(self.counters) - 1) + self.bullet(node.get("value") or ""))
+            self.bulleted = len(self.parts)
             self.children(node)
         else:
             before, self.literal = self.literal, self.literal or name == "pre"
             self.children(node)
             self.literal = before
-        self.break_line()
+        self.break_line(of_list=of_list)
 
     def bullet(self, value: str) -> str:
         if not self.counters or self.counters[-1] is None:

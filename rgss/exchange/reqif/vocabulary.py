@@ -13,6 +13,8 @@ from rgss.requirements import LinkKind
 TOOL = "rgss"
 MEASURE = "Measure"
 INCLUDE, ACTOR = "include", "actor"
+NO_TIME = "2000-01-01T00:00:00Z"
+"""Time of the last change, which ReqIF requires; it is unknown, and the time of writing would change the bytes."""
 
 TYPE_NAMES: Mapping[Part, str] = MappingProxyType(
     {

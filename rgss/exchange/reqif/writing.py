@@ -11,6 +11,7 @@ from rgss.errors import DefinitionError
 from rgss.exchange.attributes import ATTRIBUTES, Attribute, Form, Part
 from rgss.exchange.cells import ids_in
 from rgss.exchange.content import Content, Row
+from rgss.exchange.reqif.hierarchy import hierarchies
 from rgss.exchange.reqif.identifiers import (
     FLAG,
     STRING,
@@ -26,6 +27,7 @@ from rgss.exchange.reqif.vocabulary import (
     ACTOR,
     INCLUDE,
     MEASURE,
+    NO_TIME,
     RELATIONS,
     TOOL,
     TYPE_NAMES,
@@ -35,9 +37,6 @@ from rgss.exchange.reqif.vocabulary import (
     long_name,
 )
 from rgss.requirements import LinkKind
-
-NO_TIME = "2000-01-01T00:00:00Z"
-"""Time of the last change, which ReqIF requires; it is unknown, and the time of writing would change the bytes."""
 
 # A quarter of the file is indentation. Texts have no line break before a "<", see `as_xhtml`.
 _INDENTATION = re.compile(r">\n +<")
@@ -59,7 +58,8 @@ def reqif_text(content: Content, *, title: str) -> str:
         title: The title in the header.
 
     Raises:
-        DefinitionError: The package reqif is not installed, or a text has a character that XML does not allow.
+        DefinitionError: The package reqif is not installed, a text has a character that XML does not allow, or
+            elements are nested deeper than an import reads.
     """
     models = _library()
     measures = dict(content.measures)
@@ -266,8 +266,8 @@ def _specifications(models: Any, rows: Sequence[Row], measures: Sequence[str]) -
         inner: dict[str, list[str]] = {}
         for row in mine:
             inner.setdefault(row.cells.get("parent", ""), []).append(row.id)
-        yield _specification(models, part.value, title, _hierarchies(models, part.value, inner, "", 1))
-    yield _specification(models, MEASURE, MEASURE, _hierarchies(models, MEASURE, {"": list(measures)}, "", 1))
+        yield _specification(models, part.value, title, hierarchies(models, part.value, inner))
+    yield _specification(models, MEASURE, MEASURE, hierarchies(models, MEASURE, {"": list(measures)}))
 
 
 def _specification(models: Any, name: str, title: str, children: list[Any]) -> Any:
@@ -278,18 +278,3 @@ def _specification(models: Any, name: str, title: str, children: list[Any]) -> A
         specification_type=identifier("specification type"),
         children=children,
     )
-
-
-def _hierarchies(models: Any, name: str, inner: dict[str, list[str]], parent: str, level: int) -> list[Any]:
-    return [
-        models.ReqIFSpecHierarchy(
-            identifier=identifier("hierarchy", name, each),
-            last_change=NO_TIME,
-            spec_object=object_identifier(each),
-            level=level,
-            editable=None,
-            is_table_internal=None,
-            children=_hierarchies(models, name, inner, each, level + 1) if each in inner else None,
-        )
-        for each in inner.get(parent, [])
-    ]

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import random
 import re
+from dataclasses import replace
 
 import pytest
 
-from rgss.errors import RgssError
+from rgss.errors import DefinitionError, RgssError
 from rgss.exchange.attributes import Part
 from rgss.exchange.content import Content, Row
 from rgss.exchange.reqif import read_reqif, reqif_text
@@ -187,3 +188,22 @@ def test_many_requirements_come_back(read, count):
     assert reqif_text(foreign, title="t") == text
     # Thirty thousand of them are to fit into what is read.
     assert len(text) / count < 128 * 1024 * 1024 / 30_000
+
+
+def nested(count):
+    rows = many(count).rows
+    return Content(
+        rows=tuple(
+            replace(row, cells={**row.cells, "parent": f"R-{number - 1}" if number else ""})
+            for number, row in enumerate(rows)
+        )
+    )
+
+
+def test_what_is_exported_is_not_nested_deeper_than_an_import_reads(read):
+    content = nested(121)
+    assert len(read(reqif_text(content, title="t")).rows) == 121
+    with pytest.raises(DefinitionError, match="R-120 contains elements that are nested more than 121 deep"):
+        reqif_text(nested(122), title="t")
+    with pytest.raises(DefinitionError, match="nested more than 121 deep"):
+        reqif_text(nested(5000), title="t")

@@ -31,6 +31,10 @@ def plain(markup, *, exact=False):
         ('a<span style="vertical-align:sub">i</span>', "aᵢ"),
         ("<b>The</b> <i>arm</i> <u>shall</u> stop.", "The arm shall stop."),
         ("<ul><li>one</li><li>two</li></ul>", "- one\n- two"),
+        ("<ul><li><p>p1</p><p>p2</p></li><li><div>q</div></li></ul>", "- p1\np2\n- q"),
+        ("<ol>\n<li>\n<p>one</p>\n</li>\n<li><p></p>two</li></ol>end", "1. one\n2. two\nend"),
+        ("<ul><li></li><li><ul><li>inner</li></ul></li></ul>end", "-\n-\n  - inner\nend"),
+        ("<ul><li><table><tr><td>a</td><td>b</td></tr></table></li></ul>", "- a | b"),
         (
             "of:<ol><li>one</li><li>two<ul><li>inner</li></ul></li><li>three</li></ol>",
             "of:\n1. one\n2. two\n  - inner\n3. three",
