@@ -79,6 +79,7 @@ def test_a_number_is_read_whole(sentence, values, unit):
         ("1.500.000 h", []),
         ("joints 1,2,3", []),
         ("1/2 kg", ["1"]),
+        ("0:25 min", ["1"]),
         ("3\u22125 kg", ["1"]),
         ("channels 1, 2 and 3 m", ["1", "1", "m"]),
         ("2 × 3 m", ["1", "m"]),
