@@ -46,4 +46,6 @@ def confirmation_trials(projects: Iterable[Project], store: EvidenceStore) -> fr
 
 def _without_physics(inputs: Mapping[str, Any]) -> str:
     settings = {name: value for name, value in inputs[_SETTINGS].items() if name != _PHYSICS}
-    return digest({**inputs, _SETTINGS: settings})
+    # Trials do not depend on the name of the scene.
+    scene = {name: value for name, value in inputs["scene"].items() if name != "id"}
+    return digest({**inputs, _SETTINGS: settings, "scene": scene})

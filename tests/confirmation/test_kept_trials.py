@@ -48,6 +48,12 @@ def test_trials_of_another_state_of_the_study_are_not(shipped, store, record_of)
     assert confirmation_trials([shipped, other], store) == keys
 
 
+def test_the_name_of_the_scene_is_no_state_of_the_study(shipped, store, record_of):
+    keys = {put(store, spec, record_of) for spec in specs_with(shipped)}
+    renamed = replace(shipped, scene=replace(shipped.scene, id="lab"))
+    assert confirmation_trials([renamed], store) == keys == {key_of(spec) for spec in specs_with(renamed)}
+
+
 def test_seeds_before_the_first_are_not(shipped, store, record_of):
     keys = {put(store, spec, record_of) for spec in specs_with(shipped)}
     later = replace(shipped, study=replace(shipped.study, seed=9))

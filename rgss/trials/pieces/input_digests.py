@@ -17,19 +17,25 @@ from typing import Any
 from rgss.documents import digest
 from rgss.evidence import Fidelity
 from rgss.motion import Objective
-from rgss.scenes import ObjectShape, Robot, Scene, SceneObject, Workpiece, centre_of_mass
+from rgss.scenes import Robot
 from rgss.tasks import TaskProgram
 from rgss.trials.code import ENTRIES, versions_of
-from rgss.trials.conditions import Conditions, conditions_of
+from rgss.trials.conditions import conditions_of
 from rgss.trials.payload_bench import BenchSpec, bench_of
-from rgss.trials.pieces.plain_values import to_plain
+from rgss.trials.pieces.plain_values import to_plain, without
+from rgss.trials.pieces.scene_digests import (
+    ARM_RATES,
+    choice_digest,
+    geometry_digest,
+    physics_digest,
+    true_values_digest,
+)
 from rgss.trials.plants import JointController
 from rgss.trials.timing_settings import TimingSettings
 from rgss.trials.trial_spec import TrialSpec
 
 # Trials of a study share most of their inputs; each digest is computed once.
 _KEPT = 512
-_RATES = ("speed_rad_s", "acceleration_rad_s2")
 _JOINED_KEPT = 8192
 # Settings of a step that affect its execution.
 _EXECUTED = ("reached_rad", "control", "firm_above_n", "firm_s", "opened_m", "near")
@@ -71,8 +77,8 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
     used = _version_digests(tuple(sorted(versions.items())))
     conditions = conditions_of(spec)
     plan = _joined(
-        _geometry_digest(conditions.perceived_scene),
-        *_choice_digest(conditions),
+        geometry_digest(conditions.perceived_scene),
+        *choice_digest(conditions),
         _digest_of(spec.gripper.geometry),
         _digest_of(spec.planned_by),
         _potential_digest(spec),
@@ -91,8 +97,8 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
     execution = _joined(
         timing,
         _digest_of(conditions.true_gripper),
-        _physics_digest(conditions.true_scene),
-        _true_values_digest(conditions),
+        physics_digest(conditions.true_scene),
+        true_values_digest(conditions),
         _digest_of(spec.settings.physics),
         _digest_of(spec.settings.control),
         *_controller_digest(spec),
@@ -118,57 +124,6 @@ def bench_digest(spec: BenchSpec, versions: Mapping[str, str]) -> str:
     return _bench_digest(spec, _version_digests(tuple(sorted(versions.items())))["bench"])
 
 
-def physics_inputs(scene: Scene) -> dict[str, Any]:
-    """Inputs of a scene that only the physics needs, without colours."""
-    workpiece = scene.workpiece
-    return {
-        "id": scene.id,
-        "gravity_m_s2": scene.gravity_m_s2,
-        "frictions": [body.friction for body in scene.bodies],
-        "workpiece": [
-            workpiece.mass_kg,
-            workpiece.friction,
-            workpiece.force_limit_n,
-            workpiece.force_window_s,
-            workpiece.landing_limit_m_s,
-        ],
-        "place": [
-            scene.place.radius_m,
-            scene.place.largest_tilt_rad,
-            scene.place.largest_drop_m,
-            scene.place.largest_drag_m,
-        ],
-        "torques_n_m": [joint.torque_n_m for joint in scene.robot.joints],
-        **_stated_inertia(workpiece),
-        # Colours of the other objects are not inputs.
-        **({"others": [_object_inputs(one) for one in scene.others]} if scene.others else {}),
-        **({"places": [to_plain(place) for place in scene.places]} if scene.places else {}),
-    }
-
-
-def _object_inputs(one: SceneObject) -> dict[str, Any]:
-    inputs: dict[str, Any] = to_plain(one)
-    del inputs["workpiece"]["colour"], inputs["grasp"]  # the grasp is a result of the other inputs
-    return inputs
-
-
-def _stated_inertia(workpiece: Workpiece) -> dict[str, Any]:
-    """Stated mass properties that differ from those of a homogeneous shape."""
-    if workpiece.gyration_m2 is None and not any((*workpiece.centre_of_mass_across_m, workpiece.rolling_resistance_m)):
-        return {}
-    stated = [workpiece.gyration_m2, workpiece.centre_of_mass_across_m, workpiece.rolling_resistance_m]
-    return {"inertia": stated}
-
-
-def _choice_digest(conditions: Conditions) -> tuple[str, ...]:
-    """Digest of the non-geometric inputs of the choice of a grasp; empty for a stated grasp."""
-    workpiece = conditions.perceived_scene.workpiece
-    if conditions.scene.task.candidates is None:
-        return ()
-    frictions = [workpiece.friction, conditions.design_gripper.grip_coefficient(1.0)]
-    return (digest([to_plain(workpiece.grasps), list(centre_of_mass(workpiece)), frictions]),)
-
-
 def _potential_digest(spec: TrialSpec) -> float:
     """Digest of gravity for a planner that minimises mechanical work; planning does not depend on it otherwise."""
     needs_gravity = spec.planned_by.objective is Objective.MECHANICAL_WORK
@@ -190,7 +145,7 @@ def _stated(settings: TimingSettings | JointController) -> tuple[str, ...]:
 @lru_cache(maxsize=_KEPT)
 def _task_digest(task: TaskProgram) -> str:
     """Digest of the steps of a task without settings that affect only its execution; its name is not an input."""
-    steps = [[type(step).__name__, _without(to_plain(step), _EXECUTED)] for step in task.steps]
+    steps = [[type(step).__name__, without(to_plain(step), _EXECUTED)] for step in task.steps]
     return digest([to_plain(task.start), steps])
 
 
@@ -209,10 +164,6 @@ def _stated_in_steps(task: TaskProgram) -> tuple[tuple[str, str], ...]:
     plain = {step.name: to_plain(step) for step in task.steps}
     stated = {name: {key: one[key] for key in _EXECUTED if one.get(key) is not None} for name, one in plain.items()}
     return tuple((name, digest(values)) for name, values in stated.items() if values)
-
-
-def _without(values: dict[str, Any], names: tuple[str, ...]) -> dict[str, Any]:
-    return {name: value for name, value in values.items() if name not in names}
 
 
 @lru_cache(maxsize=_KEPT)
@@ -239,62 +190,7 @@ def _bench_digest(spec: BenchSpec, versions: str) -> str:
 
 
 @lru_cache(maxsize=_KEPT)
-def _physics_digest(scene: Scene) -> str:
-    return digest(physics_inputs(scene))
-
-
-def _true_values_digest(conditions: Conditions) -> str:
-    """Digest of the true values that planning does not use, and of the properties that the robot assumes."""
-    true, assumed = conditions.true_scene.workpiece, conditions.scene.workpiece
-    return digest(
-        {
-            "pose": to_plain(true.pose),
-            "centre_of_mass_m": true.centre_of_mass_m,
-            "assumed": [assumed.mass_kg, assumed.friction, conditions.design_gripper.friction],
-            "sensor": [conditions.sensor_noise_n, conditions.sensor_offset_n, conditions.sensor_delay_s],
-            "joint_offsets_rad": list(conditions.joint_offsets_rad),
-        }
-    )
-
-
-@lru_cache(maxsize=_KEPT)
 def _rates_digest(robot: Robot) -> str:
     """Digest of the arm's speed and acceleration limits, the further inputs of timing."""
-    joints = [[getattr(joint, name) for name in _RATES] for joint in robot.joints]
+    joints = [[getattr(joint, name) for name in ARM_RATES] for joint in robot.joints]
     return digest([joints, robot.tool_acceleration_m_s2])
-
-
-@lru_cache(maxsize=_KEPT)
-def _geometry_digest(scene: Scene) -> str:
-    """Digest of the scene's inputs of planning: poses, shapes and joint ranges."""
-    robot = to_plain(scene.robot)
-    for name in ("payload_kg", "tool_speed_m_s", "tool_acceleration_m_s2", "calibration"):
-        del robot[name]
-    for joint in robot["joints"]:
-        for name in _RATES:
-            del joint[name]
-        del joint["torque_n_m"]
-    geometry = {
-        "robot": robot,
-        "bodies": [{"id": body.id, "shape": _shape(body.shape), "pose": to_plain(body.pose)} for body in scene.bodies],
-        "workpiece": {
-            "id": scene.workpiece.id,
-            "shape": _shape(scene.workpiece.shape),
-            "pose": to_plain(scene.workpiece.pose),
-        },
-        "supports": [scene.support, scene.place_support],
-        "place": to_plain(scene.place.offset_m or scene.place.centre_m),
-        "task": _waypoints(scene),
-        **({"others": [_object_inputs(one) for one in scene.others]} if scene.others else {}),
-        **({"places": [to_plain(place) for place in scene.places]} if scene.places else {}),
-    }
-    return digest(geometry)
-
-
-def _waypoints(scene: Scene) -> dict[str, Any]:
-    task: dict[str, Any] = to_plain(scene.task)
-    return task if scene.task.is_yaw_free else _without(task, ("is_yaw_free",))
-
-
-def _shape(shape: ObjectShape) -> dict[str, Any]:
-    return {"kind": type(shape).__name__, **to_plain(shape)}

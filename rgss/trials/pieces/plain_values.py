@@ -25,3 +25,13 @@ def to_plain(value: Any) -> Any:
     if isinstance(value, Mapping):
         return {key: to_plain(item) for key, item in value.items()}
     return value
+
+
+def without(values: dict[str, Any], names: tuple[str, ...]) -> dict[str, Any]:
+    """Plain values without some names.
+
+    Args:
+        values: The values by name.
+        names: The names to omit.
+    """
+    return {name: value for name, value in values.items() if name not in names}

@@ -207,6 +207,7 @@ DIGESTING = {
     "rgss.trials.pieces.plain_values",
     "rgss.trials.code.code_fingerprint",
     "rgss.trials.pieces.input_digests",
+    "rgss.trials.pieces.scene_digests",
     "rgss.trials.code.canonical_syntax",
     # Whether a trial has a bench, and which, is an input of its digest.
     "rgss.trials.payload_bench.of_trial",

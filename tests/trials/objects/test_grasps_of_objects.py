@@ -9,14 +9,10 @@ import pytest
 
 from rgss.evidence import Failure, Fidelity
 from rgss.scenes import (
-    Approach,
     Box,
     Cylinder,
-    GraspCandidates,
     NamedPlace,
-    PlaceRegion,
     Pose,
-    SceneObject,
     finger_pads,
 )
 from rgss.scenes.uncertainty import Constant, Uncertainty, UncertainValue
@@ -29,26 +25,7 @@ from rgss.trials.route import route_of
 from rgss.trials.scene_check import SceneProblemKind, reach_problems
 from rgss.trials.second_engine import mujoco_settings
 from tests.trials.hands.gripper_files import gripper_of
-
-CARTON, TIN = Box(size_m=(0.05, 0.04, 0.09)), Cylinder(radius_m=0.03, height_m=0.06)
-CANDIDATES = GraspCandidates(approaches=(Approach.ABOVE,), heights=3, yaws=8, samples=24)
-STEPS = """
-task: two
-steps:
-  - for_each:
-      objects: [{objects}]
-      steps:
-        - move: {{to: grasp_approach}}
-        - move: {{to: grasp, mode: straight}}
-        - grip: {{}}
-        - wait: {{duration: 100 ms}}
-        - check: {{name: has_it, held: true}}
-        - move: {{to: lift, mode: straight}}
-        - move: {{to: place_approach}}
-        - move: {{to: place, mode: straight}}
-        - release: {{}}
-        - move: {{to: place_approach, mode: straight, name: retreat}}
-"""
+from tests.trials.objects.two_objects import CANDIDATES, CARTON, TIN, on_top
 
 BY_THE_BUFFER = """
 task: by_the_buffer
@@ -69,46 +46,6 @@ steps:
   - release: {}
   - move: {name: retreat, to: place_approach, mode: straight}
 """
-
-
-def on_the_ground(pose, shape, *, foot_m, aside_m=0.0):
-    x, y, _ = pose.position_m
-    return replace(pose, position_m=(x + aside_m, y, foot_m + shape.half_height_m))
-
-
-@pytest.fixture(scope="module")
-def with_two(spec_of, tmp_path_factory):
-    """Makes the nominal trial of a variant with a carton and a tin beside it."""
-
-    def make(variant=65, order="cup, tin", tin=TIN, aside_m=-0.15, **carton):
-        spec = spec_of(variant)
-        scene = spec.scene
-        own, foot_m = scene.workpiece, scene.workpiece.pose.position_m[2] - scene.workpiece.shape.half_height_m
-        x, y, z = scene.place.centre_m
-        centred = {"centre_of_mass_m": 0.0, "gyration_m2": None}
-        carton = replace(
-            own, shape=CARTON, pose=on_the_ground(own.pose, CARTON, foot_m=foot_m), **{**centred, **carton}
-        )
-        other = replace(own, id="tin", shape=tin, pose=on_the_ground(own.pose, tin, foot_m=foot_m, aside_m=aside_m))
-        further = SceneObject(
-            workpiece=replace(other, mass_kg=0.15, **centred),
-            support=scene.support,
-            place=PlaceRegion(centre_m=(x - 0.15, y, z), radius_m=0.02, largest_tilt_rad=0.1),
-            place_support=scene.place_support,
-        )
-        path = tmp_path_factory.mktemp("task") / "two.yaml"
-        path.write_text(STEPS.format(objects=order.replace("cup", own.id)), encoding="utf-8")
-        return replace(
-            spec,
-            scene=replace(scene, workpiece=carton, others=(further,), task=replace(scene.task, candidates=CANDIDATES)),
-            task=load_task(path).program,
-            settings=replace(spec.settings, planning=replace(spec.settings.planning, moves=())),
-            planner="RRTConnect",
-            planner_settings=None,
-            planning_limit_s=8.0,
-        )
-
-    return make
 
 
 @pytest.mark.parametrize(("variant", "order"), [(65, "cup, tin"), (65, "tin, cup"), (5, "cup, tin")])
@@ -284,13 +221,6 @@ def test_another_object_that_topples_is_not_said_to_be_touched(with_two):
     assert record.failure is Failure.NOT_UPRIGHT
     assert record.failed_phase == f"{spec.scene.workpiece.id}.move_to_grasp_approach"
     assert record.failure_detail.startswith("tin toppled by itself: it is tilted by ")
-
-
-def on_top(scene, *, of):
-    """The scene with the tin's place on the carton, at an offset in its frame."""
-    (tin,) = scene.others
-    place = replace(tin.place, offset_m=(0.004, -0.002)).on(scene.workpiece.pose, CARTON.size_m[2] / 2)
-    return replace(scene, others=(replace(tin, place=place, place_support=of),))
 
 
 @pytest.mark.parametrize("variant", [65, 5])

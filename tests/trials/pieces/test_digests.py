@@ -22,6 +22,7 @@ from rgss.trials.pieces import input_digests
 from rgss.trials.pieces.input_digests import digests_of
 from rgss.trials.plants import ControlMode
 from rgss.trials.plants.control import ControlSettings
+from tests.fixtures.perturbation import paths_of, perturbed
 
 PLANNED = {"plan", "timing", "execution", "trial"}
 LATER = PLANNED - {"plan"}
@@ -68,6 +69,12 @@ def with_settings(spec, part, **changes):
 
 CHANGES = {
     "variant": (set(), lambda spec: replace(spec, variant=1)),
+    "name of the scene": (set(), lambda spec: with_scene(spec, id="lab")),
+    # Details of failures contain it.
+    "name of the gripper": (
+        PLANNED,
+        lambda spec: with_gripper(spec, geometry=replace(spec.gripper.geometry, id="another")),
+    ),
     "colour of a body": (set(), lambda spec: with_body(spec, colour=(0.0, 0.0, 0.0, 1.0))),
     "colour of the workpiece": (set(), lambda spec: with_workpiece(spec, colour=(0.0, 0.0, 0.0, 1.0))),
     "planning limit": ({"trial"}, lambda spec: replace(spec, planning_limit_s=3.0)),
@@ -212,32 +219,16 @@ def test_only_contact_knows_a_bench(spec_of, fidelity):
     assert other.execution != digests_of(spec, VERSIONS).execution
 
 
-def test_everything_in_a_scene_but_its_colours_is_an_input(spec_of):
+def test_everything_in_a_scene_but_its_name_and_its_colours_is_an_input(spec_of):
     spec = spec_of()
     missed = [
-        path for path, scene in perturbed(spec.scene) if not changed(spec, replace(spec, scene=scene)) & {"trial"}
+        path
+        for path in paths_of(spec.scene)
+        if not changed(spec, replace(spec, scene=perturbed(spec.scene, {path}))) & {"trial"}
     ]
 
-    assert {path.rsplit(".", 1)[-1] for path in missed} == {"colour"}
-    assert len(missed) == 4 * (len(spec.scene.bodies) + 1)
-
-
-def perturbed(value, path="scene"):
-    """Every copy of a value in which one number or text somewhere in it is another."""
-    if dataclasses.is_dataclass(value):
-        for field in dataclasses.fields(value):
-            for inner, other in perturbed(getattr(value, field.name), f"{path}.{field.name}"):
-                yield inner, replace(value, **{field.name: other})
-    elif isinstance(value, tuple):
-        for index, item in enumerate(value):
-            for inner, other in perturbed(item, path):
-                yield inner, (*value[:index], other, *value[index + 1 :])
-    elif isinstance(value, str):
-        yield path, value + "x"
-    elif value is None:  # not set: the design sets it
-        return
-    else:
-        yield path, value + 0.001
+    assert {re.sub(r"\[\d+\]$", "", path).rsplit(".", 1)[-1] for path in missed} == {"colour", "id"}
+    assert len(missed) == 4 * (len(spec.scene.bodies) + 1) + len(["scene.id"])
 
 
 def test_a_mesh_of_the_robot_is_an_input_of_everything_that_is_planned(spec_of):
