@@ -12,7 +12,9 @@ from rgss.measures.mean_limits import mean_limits
 CONFIDENCE = 0.95
 """Confidence level of an interval; each limit fails with at most half of the remaining probability."""
 
-_TAIL = (1.0 - CONFIDENCE) / 2.0
+TAIL = (1.0 - CONFIDENCE) / 2.0
+"""Probability beyond each limit of an interval."""
+
 _DIGITS = 12
 
 
@@ -63,7 +65,7 @@ def mean_estimate(
     """
     if not values:
         return Estimate.unknown(unit)
-    low, high = mean_limits(values, least=least, most=most, tail=_TAIL)
+    low, high = mean_limits(values, least=least, most=most, tail=TAIL)
     return Estimate(value=math.fsum(values) / len(values), unit=unit, low=low, high=high, n=len(values))
 
 
@@ -90,7 +92,7 @@ def _proportion_limits(successes: int, trials: int) -> tuple[float, float]:
     low, high = 0.0, 1.0
     # Rounded, so that differences of processors in the last bits have no effect.
     if successes > 0:
-        low = float(f"{float(betaincinv(successes, trials - successes + 1, _TAIL)):.{_DIGITS}g}")
+        low = float(f"{float(betaincinv(successes, trials - successes + 1, TAIL)):.{_DIGITS}g}")
     if successes < trials:
-        high = float(f"{float(betaincinv(successes + 1, trials - successes, 1.0 - _TAIL)):.{_DIGITS}g}")
+        high = float(f"{float(betaincinv(successes + 1, trials - successes, 1.0 - TAIL)):.{_DIGITS}g}")
     return low, high

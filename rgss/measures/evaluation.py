@@ -9,9 +9,9 @@ from rgss.errors import DefinitionError
 from rgss.measures.definitions import Estimator, InputSymbol, Measure, MeasureSet, Population
 from rgss.measures.estimates import Estimate, mean_estimate, proportion_estimate
 from rgss.measures.functions import FUNCTIONS, Value
-from rgss.measures.possible_values import possible_ranges
+from rgss.measures.possible_values import possible_ranges, symbol_ranges
 from rgss.measures.ranges import Range
-from rgss.measures.ratios import ratio_values
+from rgss.measures.ratios import quotients, ratio_estimate
 
 Observed = float | int | None | Sequence[float | int | None]
 """Recorded metric of a trial."""
@@ -52,7 +52,8 @@ def evaluate(
     rows = [trial_values(measure_set, design=design, trial=trial) for trial in trials]
     successes = [trial.get("success") == 1 for trial in trials]
     # An interval of fewer trials has declared bounds alone.
-    possible = possible_ranges(measure_set, design) if len(rows) > 1 else {}
+    ranges = symbol_ranges(measure_set, design) if len(rows) > 1 else {}
+    possible = possible_ranges(measure_set, ranges) if ranges else {}
     estimates: dict[str, Estimate] = {}
     for measure in measure_set.measures:
         rule = measure.estimate
@@ -60,12 +61,12 @@ def evaluate(
             estimates[measure.id] = Estimate.exact(design[measure.id] / measure.si_per_unit, measure.unit)
             continue
         counted = [row for row, success in zip(rows, successes, strict=True) if success or rule.over is Population.ALL]
-        values = (
-            ratio_values(measure, counted)
-            if rule.statistic is Estimator.RATIO
-            else [_summarised(measure, row) for row in counted]
-        )
-        known = [value for value in values if value is not None]
+        if rule.statistic is Estimator.RATIO:
+            _require_declared(measure, quotients(measure, counted), variant)
+            within = _bounds(measure, possible.get(measure.id, Range()))
+            estimates[measure.id] = ratio_estimate(measure, counted, ranges=ranges, within=within)
+            continue
+        known = [value for row in counted if (value := _summarised(measure, row)) is not None]
         if rule.statistic is Estimator.MEAN and _is_of_design(measure_set, measure):
             estimates[measure.id] = _same(measure, known, variant)
         elif rule.statistic is Estimator.PROPORTION:
@@ -97,6 +98,26 @@ def _same(measure: Measure, known: Sequence[float], variant: int) -> Estimate:
 
 def _mean(measure: Measure, known: Sequence[float], possible: Range, variant: int) -> Estimate:
     """Mean of a measure's values, with bounds that are declared or follow from its definition or its unit."""
+    _require_declared(measure, known, variant)
+    least, most = measure.least, measure.most
+    # One trial has no variance, so only a declared bound gives an interval.
+    if len(known) > 1:
+        if least is None and measure.is_never_negative and min(known) >= 0.0:
+            least = 0.0
+        least = possible.low if least is None and math.isfinite(possible.low) else least
+        most = possible.high if most is None and math.isfinite(possible.high) else most
+    return mean_estimate(known, measure.unit, least=least, most=most)
+
+
+def _bounds(measure: Measure, possible: Range) -> Range:
+    """Range of a quotient: the declared bounds, or those that follow from its definition."""
+    return Range(
+        low=possible.low if measure.least is None else measure.least,
+        high=possible.high if measure.most is None else measure.most,
+    )
+
+
+def _require_declared(measure: Measure, known: Sequence[float], variant: int) -> None:
     for value in known:
         if (measure.least is not None and value < measure.least) or (measure.most is not None and value > measure.most):
             raise DefinitionError(
@@ -104,15 +125,6 @@ def _mean(measure: Measure, known: Sequence[float], possible: Range, variant: in
                 "outside the bounds that the measure declares",
                 hint="correct 'least' and 'most' of its estimate in the measures file",
             )
-    least, most = measure.least, measure.most
-    # One trial has no variance, so only a declared bound gives an interval.
-    if len(known) > 1:
-        if least is None and measure.is_never_negative and min(known) >= 0.0:
-            least = 0.0
-        if measure.estimate is None or measure.estimate.statistic is not Estimator.RATIO:
-            least = possible.low if least is None and math.isfinite(possible.low) else least
-            most = possible.high if most is None and math.isfinite(possible.high) else most
-    return mean_estimate(known, measure.unit, least=least, most=most)
 
 
 def design_values(measure_set: MeasureSet, *, fixed: Mapping[str, float | str], variant: int) -> dict[str, float]:

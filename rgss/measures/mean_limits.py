@@ -58,18 +58,30 @@ def _upper_limit(seen: tuple[float, ...], bound: float, tail: float) -> float:
     mean = math.fsum(each / count for each in seen)
     if bound <= seen[0]:
         return bound
-    probability = _exact_tail if count <= MOST_EXACT else _saddlepoint_tail
     # By the Brunn-Minkowski inequality this power of the tail is concave: regula falsi needs few steps.
     power = 1.0 / count
 
     def height(limit: float) -> float:
-        return float(probability(seen, bound, limit) ** power - tail**power)
+        return float(tail_probability(seen, bound, limit) ** power - tail**power)
 
-    found = _root(height, mean, bound, below=-(tail**power))
+    found = falling_root(height, mean, bound, below=-(tail**power))
     return max(mean, float(f"{found:.{_DIGITS}g}"))
 
 
-def _root(height: Callable[[float], float], low: float, high: float, *, below: float) -> float:
+def tail_probability(seen: Sequence[float], bound: float, limit: float) -> float:
+    """Probability that the mean of some values and an upper bound with uniform weights exceeds a limit.
+
+    The limit of `mean_limits` is where it is the tail: a mean is rejected at that level where it is less.
+
+    Args:
+        seen: The values in ascending order.
+        bound: An upper bound.
+        limit: The limit.
+    """
+    return (_exact_tail if len(seen) <= MOST_EXACT else _saddlepoint_tail)(seen, bound, limit)
+
+
+def falling_root(height: Callable[[float], float], low: float, high: float, *, below: float) -> float:
     """Root of a decreasing function by the Illinois variant of regula falsi.
 
     Args:
@@ -98,8 +110,8 @@ def _root(height: Callable[[float], float], low: float, high: float, *, below: f
     return 0.5 * (low + high)
 
 
-def _exact_tail(seen: tuple[float, ...], bound: float, limit: float) -> float:
-    """Probability that the mean with uniform weights exceeds a limit.
+def _exact_tail(seen: Sequence[float], bound: float, limit: float) -> float:
+    """The probability exactly.
 
     Uniform weights are exponential variables divided by their sum, so it is the probability that ``Σ a_i E_i`` of the
     values above the limit, with ``a_i = x_i - limit``, exceeds ``Σ b_j E_j`` of those below. Exponential variables are
@@ -117,7 +129,7 @@ def _exact_tail(seen: tuple[float, ...], bound: float, limit: float) -> float:
     return chances[-1] if above else 0.0
 
 
-def _saddlepoint_tail(seen: tuple[float, ...], bound: float, limit: float) -> float:
+def _saddlepoint_tail(seen: Sequence[float], bound: float, limit: float) -> float:
     """The same probability by the Lugannani-Rice formula (1980), for many values."""
     import numpy as np
 

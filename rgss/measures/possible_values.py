@@ -11,8 +11,24 @@ from rgss.measures.functions import FUNCTIONS
 from rgss.measures.ranges import Range
 
 
-def possible_ranges(measure_set: MeasureSet, design: Mapping[str, float]) -> dict[str, Range]:
+def possible_ranges(measure_set: MeasureSet, ranges: Mapping[str, Range]) -> dict[str, Range]:
     """Range of every measure's values in trials of a design, each in the measure's unit.
+
+    Args:
+        measure_set: The measures.
+        ranges: Result of `symbol_ranges`.
+    """
+    found = {}
+    for measure in measure_set.evaluation_order:
+        one = ranges[measure.id]
+        if measure.summary is not None:
+            one = FUNCTIONS[measure.summary.value].range(one)
+        found[measure.id] = one.times(Range.of_number(1.0 / measure.si_per_unit))
+    return found
+
+
+def symbol_ranges(measure_set: MeasureSet, design: Mapping[str, float]) -> dict[str, Range]:
+    """Range of every symbol's values in trials of a design, in SI.
 
     Args:
         measure_set: The measures, with the ranges of metrics.
@@ -22,15 +38,10 @@ def possible_ranges(measure_set: MeasureSet, design: Mapping[str, float]) -> dic
     for symbol in measure_set.inputs:
         if symbol.from_trial:
             ranges[symbol.id] = replace(measure_set.metric_ranges.get(symbol.metric, Range()), length=symbol.length)
-    found = {}
     for measure in measure_set.evaluation_order:
         if measure.from_trials:
             ranges[measure.id] = range_of(measure.expression.root, ranges)
-        one = ranges[measure.id]
-        if measure.summary is not None:
-            one = FUNCTIONS[measure.summary.value].range(one)
-        found[measure.id] = one.times(Range.of_number(1.0 / measure.si_per_unit))
-    return found
+    return ranges
 
 
 def range_of(node: Node, ranges: Mapping[str, Range]) -> Range:

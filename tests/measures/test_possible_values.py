@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from rgss.measures import MeasureSet, Range, evaluate
 from rgss.measures.expressions import Expression
 from rgss.measures.parsing import parse_expression
-from rgss.measures.possible_values import possible_ranges, range_of
+from rgss.measures.possible_values import possible_ranges, range_of, symbol_ranges
 
 Loader = Callable[..., MeasureSet]
 Writer = Callable[..., str]
@@ -123,11 +123,12 @@ def test_ranges_are_in_the_unit_of_the_measure_after_its_summary(load_entries: L
             "share": Range(low=0.0, high=1.0),
         },
     )
-    found = possible_ranges(bounded, {"g": 10.0, "m": 1.0, "v": 3.0})
+    design = {"g": 10.0, "m": 1.0, "v": 3.0}
+    found = possible_ranges(bounded, symbol_ranges(bounded, design))
     assert (found["near"].low, found["near"].high) == pytest.approx((0.0, 15_000.0))
     assert (found["whole"].low, found["whole"].high, found["whole"].length) == (0.0, 10.0, None)
     assert (found["half"].low, found["half"].high) == pytest.approx((0.0, 7_500.0))
-    assert possible_ranges(measures, {"g": 10.0, "m": 1.0, "v": 3.0})["near"] == Range()
+    assert possible_ranges(measures, symbol_ranges(measures, design))["near"] == Range()
 
 
 def test_an_interval_stays_within_what_is_possible(load_entries: Loader, entry: Writer) -> None:
