@@ -21,8 +21,10 @@ if TYPE_CHECKING:
     import pint
 
 _LONGEST_TEXT = 60
+# A unit may begin with a reciprocal, "90 1/h" or "90 /h"; its 1 is separated from the number.
 _QUANTITY = re.compile(
-    r"\s*(?P<number>[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)\s*(?P<unit>[A-Za-zµμ°%$(].*)?"
+    r"\s*(?P<number>[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)\s*"
+    r"(?P<unit>(?P<per>(?:(?<=\s)1\s*)?/\s*)?[A-Za-zµμ°%$(].*)?"
 )
 
 # Units are products and quotients of names with small integer exponents, grouped at most once: matched texts are safe
@@ -55,7 +57,7 @@ def parse_quantity(text: str, unit: str) -> float:
     if match is None:
         example = "a number, such as 0.5" if unit == "1" else f'a number and a unit, such as "1 {unit}"'
         raise QuantityError(f"{shown(text)} is not a quantity", hint=f"write {example}")
-    number, written = match["number"], (match["unit"] or "").strip()
+    number, written = match["number"], _written_unit(match)
     if not written and unit != "1":
         raise QuantityError(f"{shown(text)} has no unit", hint=f'write "{number} {unit}"')
     if unit == "1" and written not in ("", "%"):
@@ -73,6 +75,21 @@ def parse_quantity(text: str, unit: str) -> float:
             f"{shown(text)} is too small to be distinguished from zero", hint="write 0 if zero is meant"
         )
     return value
+
+
+def written_unit(text: str) -> str | None:
+    """Unit of a quantity as written, empty for a number alone; None if the text is not a quantity.
+
+    Args:
+        text: The text, such as ``"120 mm"`` or ``"90 /h"``, whose unit is ``"1/h"``.
+    """
+    match = _QUANTITY.fullmatch(text) if len(text) <= _LONGEST_TEXT else None
+    return None if match is None else _written_unit(match)
+
+
+def _written_unit(match: re.Match[str]) -> str:
+    unit = (match["unit"] or "").strip()
+    return f"1/{unit[len(match['per']) :]}" if match["per"] else unit
 
 
 def conversion_factor(from_unit: str, to_unit: str) -> float:

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from rgss.errors import QuantityError
-from rgss.quantities import conversion_factor, dimension, parse_quantity, same_dimension
+from rgss.quantities import conversion_factor, dimension, parse_quantity, same_dimension, written_unit
 
 
 @pytest.mark.parametrize(
@@ -46,6 +46,14 @@ from rgss.quantities import conversion_factor, dimension, parse_quantity, same_d
         ("1250 $", "USD", 1250.0),
         ("1.25 kUSD", "USD", 1250.0),
         ("3 USD/kg", "$/g", 0.003),
+        ("90 1/h", "1/h", 90.0),
+        ("90 /h", "1/h", 90.0),
+        ("90/h", "1/hour", 90.0),
+        ("90 1 / hour", "1/h", 90.0),
+        ("901/h", "1/h", 901.0),
+        ("1/h", "1/h", 1.0),
+        ("2 1/min", "Hz", 1 / 30),
+        ("3 /(kg*m)", "1/(m*kg)", 3.0),
         ("0 m", "m", 0.0),
         ("1e-999", "1", None),
     ],
@@ -70,6 +78,12 @@ def test_reading(text, unit, value):
         ("1e5000 m", "m", "'e5000 m' is not a unit (write units such as mm, m/s or kg*m**2)"),
         ("nan m", "m", "'nan m' is not a quantity (write a number and a unit, such as \"1 m\")"),
         ("inf", "1", "'inf' is not a quantity (write a number, such as 0.5)"),
+        ("90 1 h", "1/h", "'90 1 h' is not a quantity (write a number and a unit, such as \"1 1/h\")"),
+        ("1 1/2", "1/h", "'1 1/2' is not a quantity (write a number and a unit, such as \"1 1/h\")"),
+        ("/h", "1/h", "'/h' is not a quantity (write a number and a unit, such as \"1 1/h\")"),
+        ("90 2/h", "1/h", "'90 2/h' is not a quantity (write a number and a unit, such as \"1 1/h\")"),
+        ("90", "1/h", "'90' has no unit (write \"90 1/h\")"),
+        ("90 1/h", "1", "'90 1/h' has a unit where a pure number is expected (write 90)"),
         ("5", "m", "'5' has no unit (write \"5 m\")"),
         ("5 mm", "1", "'5 mm' has a unit where a pure number is expected (write 5)"),
         ("5 rad", "1", "'5 rad' has a unit where a pure number is expected (write 5)"),
@@ -90,6 +104,14 @@ def test_refusal(text, unit, message):
         parse_quantity(text, unit)
 
     assert str(caught.value) == message
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"),
+    [("5 mm", "mm"), ("5", ""), ("90 1/h", "1/h"), ("90 / h", "1/h"), ("5 %", "%"), ("90 1 h", None), ("mm", None)],
+)
+def test_the_unit_of_a_quantity(text, unit):
+    assert written_unit(text) == unit
 
 
 @pytest.mark.parametrize(("text", "unit"), [("1 Hz", "rad/s"), ("60 rpm", "Hz"), ("5 %", "rad"), ("1 rad/s", "1/s")])

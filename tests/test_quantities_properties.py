@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import contextlib
 import math
+import re
 from fractions import Fraction
 
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from rgss.common_units import _ATOMS
 from rgss.errors import QuantityError
 from rgss.quantities import conversion_factor, dimension, parse_quantity
+from rgss.scenes.uncertainty import QUANTITIES
+from rgss.trials.metrics import METRICS
 
 # Exact by definition; an oracle that shares nothing with the units library.
 PREFIXES = {"G": 9, "M": 6, "k": 3, "d": -1, "c": -2, "m": -3, "µ": -6, "n": -9}
@@ -92,3 +96,34 @@ def test_no_text_takes_long(piece, ending):
         dimension(text)
     with contextlib.suppress(QuantityError):
         parse_quantity(f"1 {text}"[:60], "m")
+
+
+NAMES = st.sampled_from(["m", "mm", "kg", "s", "h", "hour", "N", "rad", "deg", "USD", "$", "%", "°", "µm", "K"])
+FACTORS = st.tuples(NAMES, st.sampled_from(["", "", "**2", "^2", "^-1", "²", "⁻¹"])).map("".join)
+PRODUCTS = st.recursive(
+    FACTORS, lambda inner: st.tuples(inner, st.sampled_from(["*", "/", "·", " "]), FACTORS).map("".join), max_leaves=4
+)
+UNITS = st.tuples(st.sampled_from(["", "", "1/", "1 / "]), PRODUCTS).map("".join)
+# What pages print: units of metrics, of what designs set, of what is uncertain.
+PRINTED = sorted(
+    {one.unit for one in METRICS.values()}
+    | {one.unit for one in QUANTITIES.values()}
+    | {name for name in _ATOMS if name != "1"}
+    | {f"1/{name}" for name in _ATOMS if name != "1"}
+)
+
+
+@given(UNITS | st.sampled_from(PRINTED))
+def test_every_unit_can_be_written_after_a_number_and_hints_show_what_is_read(unit):
+    assume(unit != "1")
+    assert parse_quantity(f"1 {unit}", unit) == 1.0
+    for wrong in ("", "much", "1,5 m", "7"):
+        with pytest.raises(QuantityError) as caught:
+            parse_quantity(wrong, unit)
+        for example in re.findall(r'"(.*)"', caught.value.hint):
+            assert parse_quantity(example, unit) in (1.0, 7.0)
+
+
+@given(st.sampled_from([one for one in PRINTED if one.startswith("1/")]))
+def test_a_reciprocal_unit_needs_no_one(unit):
+    assert parse_quantity(f"90 {unit[1:]}", unit) == parse_quantity(f"90{unit[1:]}", unit) == 90.0

@@ -7,7 +7,7 @@ The grammar, from the weakest binding to the strongest::
     term        factor (("*" | "/") factor)*
     factor      "-" factor | base ["**" whole number]
     base        quantity | name | "(" side ")"
-    quantity    a number, with its unit if it has one: 1.2 m/s, 50 %
+    quantity    a number, with its unit if it has one: 1.2 m/s, 50 %, 90 1/h
 
 A unit has no space in it, so that ``1 m/s * limit`` is a speed times ``limit``. A name is that of a parameter, such as
 ``finger_force`` or ``design.finger_force``, of the quantity set by a parameter, such as ``gripper.finger.force``, or of
@@ -36,7 +36,7 @@ LARGEST_EXPONENT = 6
 
 _TOKEN = re.compile(
     r"(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)"
-    r"(?:[ ]*(?P<unit>[A-Za-zµμ°%$][A-Za-z0-9µμ°%$*/^·⁻¹²³_]*(?:\*\*-[1-9])?))?"
+    r"(?:[ ]*(?P<unit>(?:(?<=[ ])1/)?[A-Za-zµμ°%$][A-Za-z0-9µμ°%$*/^·⁻¹²³_]*(?:\*\*-[1-9])?))?"
     r"|(?P<name>[A-Za-z_][A-Za-z0-9_.-]*[A-Za-z0-9_]|[A-Za-z_])"
     r"|(?P<sign><=|>=|==|!=|\*\*|[-+*/()<>])"
 )

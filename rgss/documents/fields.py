@@ -63,7 +63,7 @@ def _as_field_error(error: QuantityError) -> PydanticCustomError:
 
 
 _NUMBER_PATTERN = r"\s*[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]{1,3})?\s*"
-QUANTITY_PATTERN = rf"^{_NUMBER_PATTERN}[A-Za-zµμ°%$(].*$"
+QUANTITY_PATTERN = rf"^{_NUMBER_PATTERN}(\s1\s*/\s*|/\s*)?[A-Za-zµμ°%$(].*$"
 """Pattern of a number with a unit; the reader checks the unit."""
 
 _EXAMPLES = {

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from typing import Annotated, Any, TypeVar
 
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from rgss.documents import QuantityText
 from rgss.errors import QuantityError
-from rgss.quantities import parse_quantity
+from rgss.findings import shown
+from rgss.quantities import parse_quantity, written_unit
 
 _Entry = TypeVar("_Entry")
-
-_UNIT_START = re.compile(r"(?![eE][+-]?\d)[A-Za-zµμ°%$]")
 
 
 def split_quantity(text: str) -> tuple[float, str]:
@@ -25,13 +23,11 @@ def split_quantity(text: str) -> tuple[float, str]:
     Raises:
         QuantityError: The text is not a number with a known unit.
     """
-    start = _UNIT_START.search(text)
-    if start is None:
-        return parse_quantity(text, "1"), "1"
-    if not text[: start.start()].strip():
-        raise QuantityError(f"{text!r} has no number", hint='write a number and a unit, such as "1 kg"')
-    unit = text[start.start() :].strip()
-    return parse_quantity(text, unit), unit
+    unit = written_unit(text)
+    if unit is None:
+        problem = "is not a quantity" if any(map(str.isdigit, text)) else "has no number"
+        raise QuantityError(f"{shown(text)} {problem}", hint='write a number and a unit, such as "1 kg"')
+    return parse_quantity(text, unit or "1"), unit or "1"
 
 
 def as_text(value: Any) -> Any:

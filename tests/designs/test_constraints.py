@@ -82,6 +82,7 @@ def test_binary_rounding_does_not_decide():
         ("d7 * d9 <= 1 m", True),
         ("d7 > 72 km/h", False),
         ("d7/d9 == 0.25 m/s**2", True),
+        ("1/d9 <= 1800 1/h", True),
         ("d2 * d7**2 / 2 <= 0.03125 J", True),
         ("-d1 + 4 >= 50 %", True),
         ("2 ** 2 * d1 == 12", True),

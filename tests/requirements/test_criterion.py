@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import pytest
 
 from rgss.errors import QuantityError
 from rgss.requirements import Comparison, Criterion, Statistic
+from rgss.requirements.fields import split_quantity
 
 
 def criterion(threshold: float, unit: str) -> Criterion:
@@ -36,6 +38,29 @@ def test_the_threshold_converts_to_the_unit_of_its_measure(threshold, unit, want
 def test_a_threshold_of_another_dimension_does_not_convert():
     with pytest.raises(QuantityError, match="unit 'kg' does not measure what 's' measures"):
         criterion(0.8, "kg").threshold_in("s")
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("0.8 kg", (0.8, "kg")),
+        ("95 %", (0.95, "%")),
+        ("3", (3.0, "1")),
+        ("90 1/h", (90.0, "1/h")),
+        ("9e1/h", (90.0, "1/h")),
+    ],
+)
+def test_a_threshold_is_read_in_the_unit_in_which_it_is_written(text, expected):
+    number, unit = split_quantity(text)
+    assert (number if unit != "%" else number / 100, unit) == expected
+
+
+@pytest.mark.parametrize("text", ["90 1 h", "1,5 kg", "3 (", "h", "1/h/2"])
+def test_what_is_no_threshold_has_a_hint_that_is_read(text):
+    with pytest.raises(QuantityError) as caught:
+        split_quantity(text)
+    for example in re.findall(r'"(.*)"', caught.value.hint):
+        assert split_quantity(example) == (1.0, "kg")
 
 
 @pytest.mark.parametrize(("unit", "text"), [("kg", "P_max >= 0.8 kg"), ("1", "P_max >= 0.8")])
