@@ -10,10 +10,20 @@ from rgss.documents import Document, read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
-from rgss.scenes import GRIPPER_BASE_LINK, GripperGeometry, at_object, half_extents_m, misfit, palm_fit
+from rgss.scenes import (
+    GRIPPER_BASE_LINK,
+    GripperGeometry,
+    at_object,
+    half_extents_m,
+    initial_placements,
+    misfit,
+    palm_fit,
+    scene_about,
+)
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
+from rgss.tasks import HandAction, stages_of
 
 if TYPE_CHECKING:
     from rgss.trials import SceneProblem
@@ -49,8 +59,8 @@ def check_scene(project: Project) -> SceneCheck:
         for file in _gripper_files(project):
             geometry = _mounting_that_holds(project, file)
             tall = _too_tall(geometry, project)
-            if tall is not None:
-                too_tall.setdefault(tall, []).append(file)
+            for one in tall:
+                too_tall.setdefault(one, []).append(file)
             for problem in reach_problems(
                 project.scene,
                 geometry,
@@ -58,7 +68,7 @@ def check_scene(project: Project) -> SceneCheck:
                 friction=_pad_friction(project, file),
                 task=project.study.task,
             ):
-                if tall is None or not _is_at_the_palm(problem, project.scene.workpiece.id):
+                if not any(_is_at_the_palm(problem, one.object) for one in tall):
                     of_reach.setdefault(problem, []).append(file)
     except ImportError as error:
         missing = f"{error.name or error} is not installed"
@@ -100,23 +110,32 @@ def _mounting_that_holds(project: Project, file: str) -> GripperGeometry:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _TooTall:
-    """Heights above the grasp: of the object's top, and the most that leaves the clearance below the palm."""
+    """An object with heights above its grasp: of its top, and the most that leaves the clearance below the palm."""
 
+    object: str
     top_m: float
     most_m: float
 
 
-def _too_tall(geometry: GripperGeometry, project: Project) -> _TooTall | None:
-    """An object whose top would reach the palm, or come nearer to it than the clearance; None where it does not."""
-    fit = palm_fit(geometry, project.scene)
-    most_m = 0.0 if fit is None else fit.palm_m - project.study.planning.clearance_m
-    return None if fit is None or fit.top_m <= most_m else _TooTall(top_m=fit.top_m, most_m=most_m)
+def _too_tall(geometry: GripperGeometry, project: Project) -> tuple[_TooTall, ...]:
+    """Gripped objects whose top would reach the palm, or come nearer to it than the clearance."""
+    scene, task = project.scene, project.study.task
+    placements = initial_placements(scene)
+    stages = stages_of(task, scene.workpiece.id)
+    found = []
+    for name in dict.fromkeys(stage.object for stage in stages if stage.step.hand is HandAction.CLOSES):
+        view = scene_about(scene, name, place="", placements=placements)
+        fit = palm_fit(at_object(geometry, view), view)
+        most_m = 0.0 if fit is None else fit.palm_m - project.study.planning.clearance_m
+        if fit is not None and fit.top_m > most_m:
+            found.append(_TooTall(object=name, top_m=fit.top_m, most_m=most_m))
+    return tuple(found)
 
 
-def _is_at_the_palm(problem: SceneProblem, workpiece: str) -> bool:
+def _is_at_the_palm(problem: SceneProblem, name: str) -> bool:
     """True if a problem is that of palm and object, which has a finding of its own where the object is too tall."""
     pair = None if problem.reason is None else problem.reason.pair
-    return pair is not None and {*pair} == {GRIPPER_BASE_LINK, workpiece}
+    return pair is not None and {*pair} == {GRIPPER_BASE_LINK, name}
 
 
 class _Places:
@@ -148,7 +167,7 @@ class _Places:
             of = f" with {', '.join(grippers)}" if grippers else ""
             message = f"no configuration of the arm{of} serves {problem.waypoint}: {problem.reason}{other}"
             hint = _remedy(problem)
-            if grippers and self._workpiece in pair:
+            if grippers and first in pair:
                 # The object does not fit between its fingers, but does between another's: a result, not a mistake.
                 severity, hint = Severity.INFO, _OF_ONE_GRIPPER
         elif problem.kind is SceneProblemKind.NO_GRASP:
@@ -195,10 +214,11 @@ class _Places:
             grippers: Files of the grippers for which it is.
             serves: Whether the designs have another gripper, for which it is not: then this is no mistake.
         """
-        entry = self.document.data.get("workpiece") if isinstance(self.document.data, dict) else None
-        key = "height" if isinstance(entry, dict) and "height" in entry else "id"
+        at, entry = self.at[tall.object][:-1], self.document.data
+        for key in at:
+            entry = entry[key]
         message = (
-            f"{self._workpiece} is too tall for {', '.join(sorted(grippers))}: held at its middle, its top is "
+            f"{tall.object} is too tall for {', '.join(sorted(grippers))}: held at its middle, its top is "
             f"{tall.top_m * 1e3:.4g} mm above the grasp, and the palm leaves {tall.most_m * 1e3:.4g} mm"
         )
         hint = (
@@ -208,7 +228,8 @@ class _Places:
         if serves:
             hint = "designs with this gripper fail at the grasp, and the others do not"
         severity = Severity.INFO if serves else Severity.ERROR
-        return self.document.finding("scene.too-tall", message, ("workpiece", key), hint=hint, severity=severity)
+        location = (*at, "height" if "height" in entry else "id")
+        return self.document.finding("scene.too-tall", message, location, hint=hint, severity=severity)
 
     def outgrown_regions(self) -> Iterator[Finding]:
         """Notes on objects that are wider than their place region."""

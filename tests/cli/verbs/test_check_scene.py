@@ -113,7 +113,8 @@ def test_further_objects_are_checked_as_the_first_is(check_with, at, to, rule, m
     assert one["line"] == line_of(text, f"at: [{(at, to)[where]}]")
 
 
-def test_a_waypoint_of_a_further_object_that_nothing_serves_is_found_at_its_place(check_with, folder):
+def write_task_of_mug(folder):
+    """Let the task of the study carry the mug alone."""
     moves = ("grasp_departure", "place_approach", "place")
     steps = ["{move: {to: grasp}}", "{grip: {}}", "{move: {to: lift, mode: straight}}"]
     steps += [*(f"{{move: {{to: {name}}}}}" for name in moves), "{release: {}}", "{move: {to: grasp_approach}}"]
@@ -124,6 +125,10 @@ def test_a_waypoint_of_a_further_object_that_nothing_serves_is_found_at_its_plac
     study = folder / "studies/pick_place.yaml"
     text = study.read_text(encoding="utf-8")
     study.write_text(re.sub(r"(?m)^scene: (.*)$", r"scene: \1\ntask: scenes/tasks/mug.yaml", text), encoding="utf-8")
+
+
+def test_a_waypoint_of_a_further_object_that_nothing_serves_is_found_at_its_place(check_with, folder):
+    write_task_of_mug(folder)
     _, findings, text = check_with(("\nplace_region:\n", MUG.format(at="0.60 m, -0.40 m", to="1.50 m, 0.30 m")))
 
     one = next(one for one in findings if one["rule"] == "scene.unserved" and " place of mug" in one["message"])
@@ -185,6 +190,15 @@ def test_without_engines_the_rest_is_checked(monkeypatch, rgss, untouched):
     assert document["skipped"] == ["the scene is not checked: coal is not installed (pip install 'rgss[sim]')"]
 
 
+def lengthen_fingers(folder):
+    """Give one of the two grippers longer fingers."""
+    longer = folder / "scenes/grippers/kg-3.yaml"
+    text = longer.read_text(encoding="utf-8")
+    assert text.count("grasp_depth: 145 mm") == text.count("length: 90 mm") == 1
+    text = text.replace("grasp_depth: 145 mm", "grasp_depth: 175 mm").replace("length: 90 mm", "length: 120 mm")
+    longer.write_text(text, encoding="utf-8")
+
+
 @pytest.mark.parametrize("height", ["105 mm", "300 mm", "1.5 m"])
 def test_an_object_too_tall_for_the_hand_is_named_with_what_would_fit(check_with, height):
     status, findings, text = check_with(("height: 100 mm", f"height: {height}"))
@@ -208,16 +222,36 @@ def test_an_object_that_just_fits_is_not_too_tall(check_with):
 
 
 def test_an_object_too_tall_for_one_hand_of_two_is_a_result(check_with, folder):
-    longer = folder / "scenes/grippers/kg-3.yaml"
-    text = longer.read_text(encoding="utf-8")
-    assert text.count("grasp_depth: 145 mm") == text.count("length: 90 mm") == 1
-    text = text.replace("grasp_depth: 145 mm", "grasp_depth: 175 mm").replace("length: 90 mm", "length: 120 mm")
-    longer.write_text(text, encoding="utf-8")
+    lengthen_fingers(folder)
     status, findings, _ = check_with(("height: 100 mm", "height: 130 mm"))
 
     (one,) = [finding for finding in findings if finding["rule"] == "scene.too-tall"]
     assert (status, one["severity"]) == (0, "info")
     assert one["message"].startswith("cup is too tall for scenes/grippers/kg-2.yaml: ")
+
+
+@pytest.mark.parametrize("is_for_one", [False, True])
+def test_a_further_object_too_tall_is_found_as_the_first_is(check_with, folder, is_for_one):
+    """In a task that grips it; at its own height."""
+    write_task_of_mug(folder)
+    if is_for_one:
+        lengthen_fingers(folder)
+    mug = MUG.format(at="0.60 m, -0.40 m", to="-0.38 m, 0.70 m").replace("height: 80 mm", "height: 130 mm")
+    _, findings, text = check_with(("\nplace_region:\n", mug))
+
+    (one,) = [finding for finding in findings if finding["rule"] == "scene.too-tall"]
+    assert one["line"] == line_of(text, "height: 130 mm")
+    assert [finding["severity"] for finding in findings] == ["info" if is_for_one else "error"]
+    hands = "scenes/grippers/kg-2.yaml" if is_for_one else "scenes/grippers/kg-2.yaml, scenes/grippers/kg-3.yaml"
+    assert one["message"].startswith(f"mug is too tall for {hands}: held at its middle, its top is 65 mm above")
+    assert not any("gripper_base" in finding["message"] for finding in findings)
+
+
+def test_a_further_object_that_no_step_grips_may_be_tall(check_with):
+    mug = MUG.format(at="0.60 m, -0.40 m", to="-0.38 m, 0.70 m").replace("height: 80 mm", "height: 130 mm")
+    _, findings, _ = check_with(("\nplace_region:\n", mug))
+
+    assert not [finding for finding in findings if finding["rule"] == "scene.too-tall"]
 
 
 def test_an_object_wider_than_its_place_region_is_noted_with_both_sizes(check_with):
