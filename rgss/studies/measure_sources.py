@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import difflib
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping
 
 from rgss.documents import Document
 from rgss.findings import Finding
 from rgss.measures import InputSymbol, Range
 from rgss.quantities import dimension
-from rgss.trials import FOR_EACH_JOINT, METRICS
+from rgss.trials import FOR_EACH_JOINT, METRICS, MetricDescriptor
 
 _LONGEST_LIST = 12
+_MOST_ALIKE = 3
+# Words of a source, without units such as m_s2, are compared by their beginnings.
+_SHORTEST_WORD, _STEM = 4, 6
 
 
 def metric_ranges() -> dict[str, Range]:
@@ -49,7 +53,7 @@ def source_findings(
         unit = units.get(symbol.source)
         if unit is None:
             message = f"{symbol.id}: the {owner} have no {symbol.source!r}"
-            hint = _known(symbol.source, list(units))
+            hint = _metrics_like(symbol) if symbol.from_trial else _known(symbol.source, list(units))
             yield document.finding("measures.unknown-source", message, ("inputs", index, "source"), hint=hint)
         elif not unit:
             message = f"{symbol.id}: {symbol.source!r} is a name, not a number"
@@ -68,6 +72,30 @@ def source_findings(
             message = f"{symbol.id}: {symbol.source!r} is {'one number' if length is None else f'a row of {length}'}"
             hint = "remove 'length'" if length is None else f"write 'length: {length}'"
             yield document.finding("measures.source-length", message, ("inputs", index), hint=hint)
+
+
+def _metrics_like(symbol: InputSymbol) -> str:
+    """Metrics with a similar name, else those that share words with the source, or measure what the input does."""
+    near = difflib.get_close_matches(symbol.metric, METRICS, n=1)
+    if near:
+        return f"did you mean 'trial.{near[0]}'?"
+    scores = {metric.name: _likeness(symbol, metric) for metric in METRICS.values()}
+    best = [METRICS[name] for name, score in scores.items() if 0 < score == max(scores.values())]
+    alike = [f"'trial.{one.name}' ({one.meaning_in_trial})" for one in best[:_MOST_ALIKE]]
+    every = "'rgss check --explain measures.unknown-source' lists all"
+    return f"did you mean {' or '.join(alike)}? {every}" if alike else every
+
+
+def _likeness(symbol: InputSymbol, metric: MetricDescriptor) -> int:
+    """Twice the words of the source in a metric's name and meaning; one more each for the same dimension and unit."""
+    known = _words(f"{metric.name} {metric.meaning_in_trial}")
+    shared = sum(any(one.startswith(word[:_STEM]) for one in known) for word in _words(symbol.metric))
+    kind = dimension(symbol.unit)
+    return 2 * shared + (bool(kind and kind == dimension(metric.unit)) and 1 + (symbol.unit == metric.unit))
+
+
+def _words(text: str) -> set[str]:
+    return {word for word in re.findall("[a-z]+", text.lower()) if len(word) >= _SHORTEST_WORD}
 
 
 def _known(source: str, names: list[str]) -> str:

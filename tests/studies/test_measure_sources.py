@@ -32,6 +32,24 @@ SOURCES = [
         "slip_distance: the trials have no 'trial.slipp_m' (did you mean 'trial.slip_m'?)",
     ),
     (
+        "trial.joint_work_j",
+        "trial.energy",
+        "trial.energy",
+        "joint_work: the trials have no 'trial.energy' (did you mean 'trial.joint_work_j'",
+    ),
+    (
+        "trial.peak_tool_speed_m_s",
+        "trial.greatest_speed_of_grasp_centre",
+        "trial.greatest_speed",
+        "tool_speed: the trials have no 'trial.greatest_speed_of_grasp_centre' (did you mean",
+    ),
+    (
+        "trial.success",
+        "trial.zzz",
+        "trial.zzz",
+        "success: the trials have no 'trial.zzz' ('rgss check --explain measures.unknown-source' lists all)",
+    ),
+    (
         "N_f, source: design.d1",
         "N_f, source: design.d8",
         "design.d8",
@@ -70,3 +88,13 @@ def test_a_source_that_is_not_there_or_measures_something_else(edit, problems, p
 
     (problem,) = problems()
     assert problem.startswith(f"{place_of(MEASURES, at)}: error: {expected}")
+
+
+def test_sources_of_the_best_likeness_have_their_meaning(edit, problems):
+    edit(MEASURES, "trial.joint_work_j", "trial.energy")
+
+    (problem,) = problems()
+    assert problem.endswith(
+        "or 'trial.joint_net_work_j' (net work of the joints with full recuperation, the sum of ∫τ q̇ dt)? "
+        "'rgss check --explain measures.unknown-source' lists all) [measures.unknown-source]"
+    )

@@ -163,12 +163,19 @@ def _findings(project: Project, options: argparse.Namespace) -> tuple[Finding, .
 
 
 def _explain(options: argparse.Namespace) -> int:
+    from rgss.cli.explained_sources import SOURCE_RULE, source_lines, sources_as_json
     from rgss.cli.main import CLEAN
     from rgss.cli.output import print_json
     from rgss.trace.rules import RULES, rule_as_json, rule_lines, rule_of, rules_markdown
 
     if options.markdown:
         print(rules_markdown(), end="")
+        return CLEAN
+    if options.explain.lower() in (SOURCE_RULE, SOURCE_RULE.partition(".")[2]):
+        if options.json:
+            print_json({"rules": [sources_as_json()]})
+        else:
+            print(*source_lines(), sep="\n")
         return CLEAN
     rules = [rule_of(options.explain)] if options.explain else list(RULES)
     if options.json:

@@ -72,7 +72,7 @@ def rule_of(rule_id: str) -> Rule:
         )
     if rule_id.split(".", maxsplit=1)[0] in _READING:
         raise DefinitionError(
-            f"{rule_id!r} is about reading files; its findings have the full explanation",
+            f"{rule_id!r} is about reading files; its findings say what is wrong and where",
             hint="'rgss check --explain' lists the rules of requirements",
         )
     hint = nearest(rule_id, [rule.id for rule in RULES]) or "'rgss check --explain' lists all rules"

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from rgss.trace import RULES
+from rgss.trials.metrics import METRICS
 
 STAKEHOLDER = "requirements/stakeholder.yaml"
 GRIPPER = "requirements/system/2-gripper.yaml"
@@ -33,6 +34,23 @@ def judged(with_evidence, tmp_path):
 
 def contents(folder):
     return {path.relative_to(folder): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+def test_the_sources_of_measures_are_explained_with_unit_and_meaning(rgss):
+    told = rgss("check", "--explain", "measures.unknown-source")
+    assert (told.status, told.errors) == (0, "")
+    lines = told.output.splitlines()
+    for name, metric in METRICS.items():
+        (at,) = [number for number, line in enumerate(lines) if line.startswith(f"trial.{name} ({metric.unit}")]
+        assert lines[at + 1] == f"  {metric.meaning_in_trial}"
+    (rule,) = rgss("check", "--explain", "unknown-source", "--json").document["rules"]
+    assert {one["source"] for one in rule["sources"]} == {f"trial.{name}" for name in METRICS}
+
+
+def test_a_rule_of_reading_is_not_said_to_be_explained(rgss):
+    told = rgss("check", "--explain", "document.value")
+    assert told.status == 2
+    assert "its findings say what is wrong and where" in told.errors
 
 
 def test_a_rule_is_explained(rgss):

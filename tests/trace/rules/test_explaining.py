@@ -53,7 +53,7 @@ def test_rules_are_found_by_id():
     with pytest.raises(DefinitionError, match=r"there is no rule 'wording.R77' \(did you mean 'wording.R7'\?\)"):
         rule_of("wording.R77")
     with pytest.raises(
-        DefinitionError, match=r"'document\.syntax' is about reading files; its findings have the full explanation"
+        DefinitionError, match=r"'document\.syntax' is about reading files; its findings say what is wrong and where"
     ):
         rule_of("document.syntax")
     with pytest.raises(DefinitionError, match=r"there is no rule '§' \('rgss check --explain' lists all rules\)"):
