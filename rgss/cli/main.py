@@ -56,7 +56,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: The arguments after the program's name; the process's own by default.
 
     Returns:
-        0 clean, 1 findings or nothing feasible, 2 bad input, 3 a run failed, 130 interrupted.
+        0 clean, 1 findings or nothing feasible, 2 bad input, 3 a run failed, 4 a change without a fault, 130
+        interrupted.
     """
     # Start-up creates some hundred thousand long-lived objects; frequent garbage collections over them take a
     # tenth of a short command's time.
@@ -134,7 +135,8 @@ def command_line() -> argparse.ArgumentParser:
         description="Choose a robot design by evidence: requirements, simulated trials, a certified trade-off. "
         "Without a verb: the state of the project and the next command.",
         epilog="Begin with 'rgss init my_project'; every verb has examples under --help. "
-        "Exit status: 0 clean, 1 findings or nothing feasible, 2 bad input, 3 a run failed, 130 interrupted.",
+        "Exit status: 0 clean, 1 findings or nothing feasible, 2 bad input, 3 a run failed, 4 a change without a fault "
+        "(regress, replay), 130 interrupted.",
     )
     parser.add_argument("--version", action="version", version=f"rgss {_version()}")
     parser.set_defaults(handler=_show_state, json=False, is_fitted=True, is_paged=False, wide=False)

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
-from rgss.cli.main import VERBS
+from rgss.cli.command_parser import BAD_INPUT
+from rgss.cli.main import CLEAN, FINDINGS, INTERRUPTED, RUN_FAILED, VERBS
+from rgss.cli.verbs import regress, replay
+from tests.fixtures.shipped_project import REPOSITORY
 
 
 def test_help(rgss):
@@ -13,6 +18,16 @@ def test_help(rgss):
     assert (told.status, told.errors) == (0, "")
     assert all(f"\n    {verb}{end}" in told.output for verb in VERBS for end in [" " if len(verb) < 9 else "\n"])
     assert "Exit status: 0 clean, 1 findings" in " ".join(told.output.split())
+
+
+@pytest.mark.parametrize("name", ["--help", "docs/commands.md"])
+def test_every_exit_status_is_in_the_general_list(rgss, name):
+    text = rgss("--help").output if name == "--help" else (REPOSITORY / name).read_text(encoding="utf-8")
+    (line,) = re.findall(r"Exit status: (.*? interrupted)", " ".join(text.split()))
+    listed = {int(number) for number in re.findall(r"(?:^|, )(\d+) ", line)}
+
+    general = {CLEAN, FINDINGS, BAD_INPUT, RUN_FAILED, INTERRUPTED}
+    assert listed == general | {regress.CHANGED, replay.WITHIN_TOLERANCE}
 
 
 @pytest.mark.parametrize("verb", VERBS)
