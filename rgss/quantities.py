@@ -35,6 +35,12 @@ _BETWEEN = r"(?:\s*[*/·]\s*|\s+)"
 _GROUP = rf"\(\s*{_FACTOR}(?:{_BETWEEN}{_FACTOR})*\s*\){_POWER}"
 _UNIT = re.compile(rf"1|(?:1\s*/\s*)?(?:{_FACTOR}|{_GROUP})(?:{_BETWEEN}(?:{_FACTOR}|{_GROUP}))*")
 
+# Signs and ISO 4217 codes. Only one currency has a unit: rates change, so that none is converted.
+_OTHER_CURRENCY = re.compile(
+    "[€£¥₩₹]|(?<![A-Za-z])(?:AED|ARS|AUD|BGN|BRL|CAD|CHF|CLP|CNY|COP|CZK|DKK|EGP|EUR|GBP|HKD|HUF|IDR|ILS|INR|ISK|JPY|"
+    "KES|KRW|MXN|MYR|NGN|NOK|NZD|PEN|PHP|PKR|PLN|QAR|RON|RSD|RUB|SAR|SEK|SGD|THB|TRY|TWD|UAH|VND|ZAR)(?![A-Za-z])"
+)
+
 
 def parse_quantity(text: str, unit: str) -> float:
     """Parse a quantity and convert it to a unit.
@@ -55,6 +61,8 @@ def parse_quantity(text: str, unit: str) -> float:
     """
     match = _QUANTITY.fullmatch(text) if len(text) <= _LONGEST_TEXT else None
     if match is None:
+        if other := _OTHER_CURRENCY.search(text[:_LONGEST_TEXT]):
+            raise _other_currency(other[0])
         example = "a number, such as 0.5" if unit == "1" else f'a number and a unit, such as "1 {unit}"'
         raise QuantityError(f"{shown(text)} is not a quantity", hint=f"write {example}")
     number, written = match["number"], _written_unit(match)
@@ -146,6 +154,8 @@ def _unit(text: str) -> pint.Unit:
     try:
         unit: pint.Unit = _registry().Unit("dimensionless" if text == "1" else cleaned)
     except (pint.errors.PintError, ValueError) as error:
+        if other := _OTHER_CURRENCY.search(text):
+            raise _other_currency(other[0]) from error
         raise QuantityError(f"unknown unit {shown(text)}", hint="use units such as mm, kg, s, N, deg, USD") from error
     return unit
 
@@ -191,4 +201,11 @@ def _mismatch(written: str, wanted: str) -> QuantityError:
     return QuantityError(
         f"unit {shown(written)} does not measure what {shown(wanted)} measures",
         hint=f"give it in {wanted} or a multiple of it",
+    )
+
+
+def _other_currency(name: str) -> QuantityError:
+    return QuantityError(
+        f"{shown(name)} is another currency than USD, the only one of rgss, which converts none",
+        hint="give the amount in USD, and its rate in 'rationale' or 'source'",
     )

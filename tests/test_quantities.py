@@ -9,6 +9,11 @@ import pytest
 from rgss.errors import QuantityError
 from rgss.quantities import conversion_factor, dimension, parse_quantity, same_dimension, written_unit
 
+OTHER_CURRENCY = (
+    "'{}' is another currency than USD, the only one of rgss, which converts none "
+    "(give the amount in USD, and its rate in 'rationale' or 'source')"
+)
+
 
 @pytest.mark.parametrize(
     ("text", "unit", "value"),
@@ -89,7 +94,13 @@ def test_reading(text, unit, value):
         ("5 rad", "1", "'5 rad' has a unit where a pure number is expected (write 5)"),
         ("5 kg", "m", "unit 'kg' does not measure what 'm' measures (give it in m or a multiple of it)"),
         ("5 %", "m", "unit '%' does not measure what 'm' measures (give it in m or a multiple of it)"),
-        ("5 EUR", "USD", "unknown unit 'EUR' (use units such as mm, kg, s, N, deg, USD)"),
+        ("5 XYZ", "USD", "unknown unit 'XYZ' (use units such as mm, kg, s, N, deg, USD)"),
+        ("5 EUR", "USD", OTHER_CURRENCY.format("EUR")),
+        ("5 kg/EUR", "kg/USD", OTHER_CURRENCY.format("EUR")),
+        ("5 JPY", "kg", OTHER_CURRENCY.format("JPY")),
+        ("5 €", "USD", OTHER_CURRENCY.format("€")),
+        ("£5", "USD", OTHER_CURRENCY.format("£")),
+        ("EUR 5", "USD", OTHER_CURRENCY.format("EUR")),
         ("5 m/0", "m", "'m/0' is not a unit (write units such as mm, m/s or kg*m**2)"),
         ("20 degC", "K", "unit 'degC' is not on a scale that starts at zero (use K)"),
         ("3 dBm", "W", "unit 'dBm' is not on a scale that starts at zero (use W)"),

@@ -24,9 +24,10 @@ def split_quantity(text: str) -> tuple[float, str]:
         QuantityError: The text is not a number with a known unit.
     """
     unit = written_unit(text)
+    if unit is None and not any(map(str.isdigit, text)):
+        raise QuantityError(f"{shown(text)} has no number", hint='write a number and a unit, such as "1 kg"')
     if unit is None:
-        problem = "is not a quantity" if any(map(str.isdigit, text)) else "has no number"
-        raise QuantityError(f"{shown(text)} {problem}", hint='write a number and a unit, such as "1 kg"')
+        unit = "kg"  # for the example in the message that the text is not a quantity
     return parse_quantity(text, unit or "1"), unit or "1"
 
 

@@ -63,6 +63,11 @@ def test_what_is_no_threshold_has_a_hint_that_is_read(text):
         assert split_quantity(example) == (1.0, "kg")
 
 
+def test_a_threshold_in_another_currency_is_named_as_such():
+    with pytest.raises(QuantityError, match="'€' is another currency than USD"):
+        split_quantity("43000 €")
+
+
 @pytest.mark.parametrize(("unit", "text"), [("kg", "P_max >= 0.8 kg"), ("1", "P_max >= 0.8")])
 def test_a_criterion_reads_as_an_inequality(unit, text):
     assert str(criterion(0.8, unit)) == text
