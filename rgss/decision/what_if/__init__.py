@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.decision.what_if.known_suppositions import suppose_known
     from rgss.decision.what_if.modelling import model_settings
     from rgss.decision.what_if.numbers import (
         COST,
@@ -20,6 +21,6 @@ if TYPE_CHECKING:
     from rgss.decision.what_if.shapes import ALL, SHAPE
     from rgss.decision.what_if.simulated import simulated_numbers
     from rgss.decision.what_if.trial_evidence import ScenarioEvidenceReader
-    from rgss.decision.what_if.what_if import PRICES, suppose, suppose_known
+    from rgss.decision.what_if.what_if import PRICES, suppose
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

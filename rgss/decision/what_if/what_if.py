@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
 from rgss.decision.preference_model import quantity_of
+from rgss.decision.what_if.absent import absent_input
 from rgss.decision.what_if.demands import THRESHOLD, demand_numbers, share_checked
 from rgss.decision.what_if.modelling import model_settings, with_setting
 from rgss.decision.what_if.numbers import CATALOGUE, COST, MEASURES, assumed_numbers, model_numbers, with_number
@@ -17,6 +17,7 @@ from rgss.decision.what_if.scenario import Change, Scenario
 from rgss.decision.what_if.setting import SettingChange
 from rgss.decision.what_if.shapes import SHAPE, curvature_names, with_curvature
 from rgss.decision.what_if.simulated import simulated_numbers
+from rgss.decision.what_if.unknown_input import UnknownSuppositionError, unknown_input
 from rgss.decision.what_if.weights import with_weights
 from rgss.errors import DefinitionError, EvidenceError, QuantityError
 from rgss.findings import shown
@@ -30,33 +31,6 @@ PRICES = "prices"
 """A factor on every assumed price."""
 
 EXAMPLE = 'weight.t_p=0.4, "SYS-012.threshold=0.8 kg" or "catalogue.kg-2-light.cost=4500 USD"'
-
-
-class UnknownSuppositionError(DefinitionError):
-    """A supposition about a number that the study does not have."""
-
-
-def suppose_known(project: Project, suppositions: Sequence[str]) -> Scenario | None:
-    """Apply to a study those suppositions that it has; None if it has none of them.
-
-    Suppositions about the study of a portfolio concern each study that it serves and that has the number too.
-
-    Args:
-        project: The project with one of the served studies.
-        suppositions: Texts as in `suppose`.
-
-    Raises:
-        DefinitionError: As in `suppose`, except for an unknown name.
-        TradeoffError: As in `suppose`.
-    """
-    known = []
-    for text in suppositions:
-        try:
-            suppose(project, [text])
-        except UnknownSuppositionError:
-            continue
-        known.append(text)
-    return suppose(project, known) if known else None
 
 
 def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
@@ -111,8 +85,7 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
         elif field == THRESHOLD:
             change, changed = _threshold(changed, name, demand, value)
         else:
-            kinds = [WEIGHT, VALUE, CATALOGUE, MEASURES, SHAPE, READING, PRICES, *model_settings(project)]
-            raise _unknown(name, [*kinds, *_requirements(project), *demand_numbers(project)], name)
+            raise absent_input(changed, name) or _no_input(project, name)
         changes.append(change)
     rescaled: tuple[Change, ...] = ()
     if weights:
@@ -215,7 +188,7 @@ def _weight(project: Project, name: str, criterion: str, text: str) -> Change:
     trade_off = project.study.trade_off
     known = {**trade_off.weighting.weights, **weights_of_criteria(trade_off.criteria)}
     if criterion not in known:
-        raise _unknown(name, [f"{WEIGHT}.{other}" for other in known], criterion)
+        raise unknown_input(name, [f"{WEIGHT}.{other}" for other in known], criterion)
     after = _quantity(name, text, "1")
     if not 0.0 <= after <= 1.0:
         raise DefinitionError(f"--what-if: {name} must be from 0 to 1, got {after:g}", hint="give a share of the whole")
@@ -225,11 +198,11 @@ def _weight(project: Project, name: str, criterion: str, text: str) -> Change:
 def _threshold(project: Project, name: str, requirement_id: str, text: str) -> tuple[Change, Project]:
     known = [*_requirements(project), *demand_numbers(project)]
     if f"{requirement_id}.{THRESHOLD}" not in known:
-        raise _unknown(name, known, requirement_id)
+        raise unknown_input(name, known, requirement_id)
     requirement = project.requirements.requirement(requirement_id)
     criterion = requirement.criterion
     if criterion is None:
-        raise _unknown(name, known, requirement_id)
+        raise unknown_input(name, known, requirement_id)
     unit = project.measures.measure(criterion.measure).unit
     after = _quantity(name, text, unit)
     system = tuple(
@@ -248,7 +221,7 @@ def _anchor(project: Project, name: str, rest: str, text: str) -> tuple[Change, 
         for anchor in valued.anchors
     }
     if name not in known:
-        raise _unknown(name, known, rest)
+        raise unknown_input(name, known, rest)
     valued, anchor = known[name]
     unit = project.measures.measure(valued.measure).unit
     after = _quantity(name, text, unit)
@@ -261,7 +234,7 @@ def _anchor(project: Project, name: str, rest: str, text: str) -> tuple[Change, 
 def _curvature(project: Project, name: str, text: str) -> tuple[Change, Project]:
     known = curvature_names(project)
     if name not in known:
-        raise _unknown(name, known, name.partition(".")[2])
+        raise unknown_input(name, known, name.partition(".")[2])
     after = _quantity(name, text, "1")
     return Change(id=name, before=0.0, after=after, unit="1"), with_curvature(project, name, after)
 
@@ -269,7 +242,7 @@ def _curvature(project: Project, name: str, text: str) -> tuple[Change, Project]
 def _number(project: Project, name: str, text: str) -> tuple[Change, Project]:
     known = {number.id: number for number in model_numbers(project)}
     if name not in known:
-        raise _unknown(name, known, name)
+        raise unknown_input(name, known, name)
     number = known[name]
     after = _quantity(name, text, number.unit)
     if after < 0.0 <= number.value:
@@ -304,8 +277,6 @@ def _requirements(project: Project) -> list[str]:
     return [f"{one.id}.{THRESHOLD}" for one in project.requirements.system if one.criterion is not None]
 
 
-def _unknown(name: str, known: Iterable[str], near_to: str) -> UnknownSuppositionError:
-    names = list(known)
-    near = difflib.get_close_matches(name, names, n=3) or [one for one in names if near_to and near_to in one][:3]
-    hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(names[:4])}"
-    return UnknownSuppositionError(f"--what-if: unknown input {shown(name)}", hint=hint)
+def _no_input(project: Project, name: str) -> UnknownSuppositionError:
+    kinds = [WEIGHT, VALUE, CATALOGUE, MEASURES, SHAPE, READING, PRICES, *model_settings(project)]
+    return unknown_input(name, [*kinds, *_requirements(project), *demand_numbers(project)], name)

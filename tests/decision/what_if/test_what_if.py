@@ -10,6 +10,7 @@ from rgss.assessment.measuring import measure_variants
 from rgss.decision.choosing import choose, trade_problem
 from rgss.decision.what_if import Change, measured_in, suppose
 from rgss.errors import DefinitionError, EvidenceError, TradeoffError
+from rgss.scenes.uncertainty import Case, Workload
 from rgss.studies.project import load_project
 from rgss.tradeoff import CriterionNode, ElicitedInterval, RequirementAnchor
 
@@ -230,6 +231,21 @@ def test_variants_that_would_become_possible_have_no_trials(shipped):
         (["catalogue.ur10.cost=-3 USD"], "catalogue.ur10.cost must be at least 0, got -3", "give a number such as 0"),
         (["measures.d_g=3 mm"], "unknown input 'measures.d_g'", "did you mean measures.d_f"),
         (["nonsense.of.all=3"], "unknown input 'nonsense.of.all'", "such as weight, value, catalogue"),
+        (
+            ["planning.planner=RRT"],
+            "planning.planner: designs set it, and it cannot be supposed for all",
+            "rgss variants",
+        ),
+        (
+            ["gripper.actuator.mass=1 kg"],
+            "designs take it from mass of their finger_actuator",
+            "catalogue.COMPONENT.mass",
+        ),
+        (
+            ["robot.tool_acceleration=1 m/s^2"],
+            "robot.tool_acceleration: no design sets it; its value is that of tool_acceleration in the robot file",
+            "'sets: robot.tool_acceleration'",
+        ),
         (["nonsense"], "must be NAME=VALUE, got 'nonsense'", "write weight.t_p=0.4"),
         (["=3"], "must be NAME=VALUE, got '=3'", "write weight.t_p=0.4"),
         (["weight.t_e="], "must be NAME=VALUE, got 'weight.t_e='", "write weight.t_p=0.4"),
@@ -246,6 +262,20 @@ def test_what_cannot_be_supposed(shipped, measured, texts, message, hint):
     assert message in caught.value.message
     assert hint in caught.value.hint
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("text", ["workload=cup", "workload.cup.mass=1 kg"])
+def test_a_study_without_a_workload_says_so(shipped, text):
+    assert not shipped.workload.cases
+    with pytest.raises(DefinitionError, match=r"workload\S*: the study has no workload \(state its cases under"):
+        suppose(shipped, [text])
+
+
+def test_a_workload_that_a_nominal_study_leaves_aside_is_not_called_missing(shipped):
+    stated = replace(shipped, study=replace(shipped.study, workload=Workload(cases=(Case(id="full", mass_kg=0.4),))))
+    with pytest.raises(DefinitionError, match="a nominal study uses no workload"):
+        suppose(stated.nominal(), ["workload=full"])
+    assert suppose(stated.nominal(), ["uncertainty.nominal=false", "workload=full"]).project.workload.cases
 
 
 def test_the_last_weights_have_no_proportions(shipped):
