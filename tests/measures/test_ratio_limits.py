@@ -79,6 +79,9 @@ def test_three_picks_leave_an_interval_of_possible_rates(rate: Callable[..., Mea
     found = estimate(rate(), (1.0, 12.0), (1.0, 12.5), (1.0, 12.7))
     assert found.value == pytest.approx(3 * 3600 / 37.2)
     assert 0.0 < found.low < found.value < found.high
+    # The example of docs/measures.md.
+    equal = estimate(rate(), *[(1.0, 12.4)] * 3)
+    assert (equal.low, equal.value, equal.high) == pytest.approx((11.5, 290.3, 993.0), rel=2e-3)
 
 
 def test_no_success_leaves_a_rate_above_zero(rate: Callable[..., MeasureSet]) -> None:
