@@ -13,7 +13,16 @@ from numpy.typing import NDArray
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location
 from rgss.scenes.robot import JointKind
-from rgss.scenes.urdf_structure import MOMENTS, carried_by, end_of, has_inertia, has_moments, standing_links
+from rgss.scenes.urdf_structure import (
+    MOMENTS,
+    axis_of,
+    carried_by,
+    end_of,
+    has_inertia,
+    has_moments,
+    normalise_axis,
+    standing_links,
+)
 
 Problem = tuple[str, Location, str]
 
@@ -123,7 +132,7 @@ def settle(root: ET.Element, entry: RobotDocument) -> bool:
 
     Links excluded by the robot file are removed with their descendants. Joints off the chain are fixed at the position
     given in the file, at that of their mimic relation, or else as near to zero as their limits allow. A continuous
-    joint gets the file's range. A link that is only a frame may lack an inertia.
+    joint gets the file's range. Axes become unit vectors. A link that is only a frame may lack an inertia.
 
     Args:
         root: The URDF, which has no problems; modified in place.
@@ -142,7 +151,9 @@ def settle(root: ET.Element, entry: RobotDocument) -> bool:
         if name not in ranges:
             _fix(joint, _rest_position(joint, joints, frozen))
             changed = True
-        elif joint.get("type") == "continuous":
+            continue
+        changed = normalise_axis(joint) or changed
+        if joint.get("type") == "continuous":
             joint.set("type", "revolute")
             limit = joint.find("limit")
             limit = ET.SubElement(joint, "limit", {"effort": "0", "velocity": "0"}) if limit is None else limit
@@ -194,12 +205,11 @@ def _rest_position(joint: ET.Element, joints: Mapping[str, ET.Element], frozen: 
 
 
 def _fix(joint: ET.Element, position: float) -> None:
-    kind, axis = kind_of(joint), joint.find("axis")
+    kind = kind_of(joint)
     joint.set("type", "fixed")
     if position == 0.0 or kind is None:
         return
-    direction = np.array(_triple("1 0 0" if axis is None else axis.get("xyz", "1 0 0")))
-    direction = direction / np.linalg.norm(direction)
+    direction = np.array(axis_of(joint))
     origin = joint.find("origin")
     origin = ET.SubElement(joint, "origin") if origin is None else origin
     at, turn = np.array(_triple(origin.get("xyz", "0 0 0"))), _rotation(_triple(origin.get("rpy", "0 0 0")))

@@ -5,10 +5,14 @@ Separate from the reading of robot files: trials depend on it.
 
 from __future__ import annotations
 
+import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable
 
 MOMENTS = ("ixx", "iyy", "izz")
+
+_DEFAULT_AXIS = "1 0 0"
+_LARGEST_AXIS_ERROR = 1e-9
 
 
 def end_of(joint: ET.Element, end: str) -> str:
@@ -20,6 +24,38 @@ def end_of(joint: ET.Element, end: str) -> str:
     """
     found = joint.find(end)
     return "" if found is None else found.get("link", "")
+
+
+def axis_of(joint: ET.Element) -> tuple[float, float, float]:
+    """Unit vector of a joint's axis in the joint's frame; x if the joint states none, null for a null axis.
+
+    Args:
+        joint: The joint's element; the axis of a fixed joint may be null.
+    """
+    element = joint.find("axis")
+    stated = _DEFAULT_AXIS if element is None else element.get("xyz", _DEFAULT_AXIS)
+    x, y, z = (float(word) for word in stated.split())
+    length = math.hypot(x, y, z) or 1.0
+    return x / length, y / length, z / length
+
+
+def normalise_axis(joint: ET.Element) -> bool:
+    """Scale a joint's axis to length 1, which some engines require and others do by themselves.
+
+    Args:
+        joint: The joint's element, whose axis is not null; modified in place.
+
+    Returns:
+        True if the axis was changed; its text is kept if it is a unit vector within 1e-9.
+    """
+    element = joint.find("axis")
+    if element is None or "xyz" not in element.attrib:
+        return False
+    length = math.hypot(*(float(word) for word in element.get("xyz", "").split()))
+    if abs(length - 1.0) <= _LARGEST_AXIS_ERROR:
+        return False
+    element.set("xyz", " ".join(repr(value) for value in axis_of(joint)))
+    return True
 
 
 def carried_by(root: ET.Element, names: Iterable[str]) -> set[str]:

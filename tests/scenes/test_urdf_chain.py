@@ -107,6 +107,28 @@ def test_a_frame_without_mass_weighs_nothing_to_speak_of(tmp_path):
     assert sum(masses) == pytest.approx(5.0, abs=1e-5)
 
 
+def test_the_length_of_an_axis_changes_neither_places_nor_torques(tmp_path):
+    import pinocchio
+
+    oblique = URDF.replace('xyz="0 0 1"', 'xyz="0.6 0 0.8"').replace('xyz="0 1 0"', 'xyz="0 1 0.0"')
+    scaled = oblique.replace('xyz="0.6 0 0.8"', 'xyz="1.2 0 1.6"').replace('xyz="0 1 0.0"', 'xyz="0 0.25 0"')
+    (tmp_path / "scaled").mkdir()
+    unit, other = read(tmp_path, urdf=oblique), read(tmp_path / "scaled", urdf=scaled)
+    assert 'xyz="0.6 0 0.8"' in unit.urdf, "a unit axis keeps its text"
+    for name in ("slide", "turn"):
+        axis = np.array(joint_of(other, name).find("axis").get("xyz").split(), dtype=float)
+        assert axis @ axis == pytest.approx(1.0, abs=1e-15)
+    q, rest, push = np.array([0.2, 0.4]), np.zeros(2), np.array([1.0, -2.0])
+    found = []
+    for text in (unit.urdf, other.urdf):
+        model = pinocchio.buildModelFromXML(text)
+        data = model.createData()
+        pinocchio.framesForwardKinematics(model, data, q)
+        found.append((data.oMf[model.getFrameId("flange")].homogeneous, pinocchio.rnea(model, data, q, rest, push)))
+    assert np.allclose(found[1][0], found[0][0], atol=1e-12)
+    assert np.allclose(found[1][1], found[0][1], atol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [

@@ -12,6 +12,7 @@ from rgss.scenes.hands.linkage_document import LinkageGripperDocument
 from rgss.scenes.linkage import LinkageLink, Triple
 from rgss.scenes.pose import Pose
 from rgss.scenes.urdf_chain import kind_of
+from rgss.scenes.urdf_structure import axis_of
 
 Problem = tuple[str, Location, str]
 
@@ -225,7 +226,7 @@ def _link(
         parent=parent,
         origin=origin,
         kind=kind,
-        axis=_axis(joint),
+        axis=(1.0, 0.0, 0.0) if joint is None else axis_of(joint),
         multiplier=multiplier,
         offset=offset,
         mass_kg=float(mass.get("value", "0")) if mass is not None and has_inertia else 0.0,
@@ -233,13 +234,6 @@ def _link(
         inertia_kg_m2=(xx, yy, zz, xy, xz, yz),
         hulls_m=tuple(hull for shape in link.findall("collision") for hull in _hulls(shape)),
     )
-
-
-def _axis(joint: ET.Element | None) -> Triple:
-    element = None if joint is None else joint.find("axis")
-    x, y, z = (float(value) for value in ("1 0 0" if element is None else element.get("xyz", "1 0 0")).split())
-    norm = math.sqrt(x * x + y * y + z * z) or 1.0
-    return x / norm, y / norm, z / norm
 
 
 def _hulls(shape: ET.Element) -> Iterable[tuple[Triple, ...]]:
