@@ -64,7 +64,8 @@ def _show(summary: RobotSummary) -> None:
     print_table(["joint", "kind", "range", "speed", "effort"], rows)
     print()
     print(f"Reach: {summary.reach_m:.3f} m from the first axis to the flange.")
-    print(f"Payload by the joints' efforts, with the arm farthest out: {summary.payload_at_reach_kg:g} kg.")
+    count = len(summary.positions_m)
+    print(f"Payload by the joints' efforts, in the worst of {count} configurations: {_payload(summary.payload_kg)}.")
     if summary.convex_shapes:
         print(f"Collision meshes: {summary.convex_shapes} convex shapes stand for them.")
     if summary.left_out:
@@ -74,6 +75,12 @@ def _show(summary: RobotSummary) -> None:
         print(f"Assumed: {note.rationale}")
     for finding in summary.findings:
         print(finding)
+
+
+def _payload(held_kg: float) -> str:
+    if math.isinf(held_kg):
+        return "not limited by the joints, which carry no weight"
+    return f"{held_kg:g} kg" if held_kg > 0.0 else "none"
 
 
 def _limits(joint: Joint) -> tuple[str, str, str]:
@@ -102,7 +109,7 @@ def _plain(summary: RobotSummary) -> dict[str, Any]:
         ],
         "masses_kg": summary.masses_kg,
         "reach_m": summary.reach_m,
-        "payload_at_reach_kg": summary.payload_at_reach_kg,
+        "payload_kg": summary.payload_kg if math.isfinite(summary.payload_kg) else None,
         "convex_shapes": summary.convex_shapes,
         "left_out": [list(pair) for pair in summary.left_out],
         "touching_at_home": [list(pair) for pair in summary.at_home],

@@ -18,6 +18,7 @@ from rgss.scenes import JointKind, Robot, mesh_summary
 from rgss.studies.motion import calibrated_at
 from rgss.studies.project import Project
 from rgss.studies.robot_project.holding import weak_joints
+from rgss.studies.robot_project.reach import SAMPLES
 from rgss.studies.robot_project.urdf import LARGEST_HULL_RATIO
 
 _LARGEST_LENGTH_M, _LARGEST_MASS_KG = 10.0, 1000.0
@@ -87,7 +88,7 @@ def unchecked_pairs(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]
 
 
 def weak_joint_findings(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]:
-    """Warnings of joints that do not hold the arm itself where it reaches farthest; none without the engines.
+    """Warnings of joints that do not hold the arm itself in a sampled configuration; none without the engines.
 
     Args:
         robot: The arm.
@@ -109,7 +110,7 @@ def weak_joint_findings(robot: Robot, urdf: Path, label: str) -> tuple[Finding, 
             rule="robot.weak-joint",
             severity=Severity.WARNING,
             message=f"joint {one.name} gives {one.effort:.3g} {one.unit}, "
-            f"and needs {one.needed:.3g} {one.unit} to hold the arm itself where it reaches farthest",
+            f"and needs {one.needed:.3g} {one.unit} to hold the arm itself in the worst of {SAMPLES} configurations",
             hint="correct the effort of the joint, or the masses of the links that it carries",
         )
         for one in weak

@@ -92,7 +92,7 @@ def drafted_robot(
     (robots / f"{id_}.urdf").write_text(ET.tostring(root, encoding="unicode") + "\n", encoding="utf-8")
     home = tuple(0.5 * (joint.lower + joint.upper) for joint in arm.joints)
     file = robots / f"{id_}.yaml"
-    draft = robot_text(arm, id_=id_, urdf=f"{id_}.urdf", home=home, payload_kg=_DRAFT_PAYLOAD_KG)
+    draft = robot_text(arm, id_=id_, urdf=f"{id_}.urdf", home=home, held_kg=_DRAFT_PAYLOAD_KG)
     file.write_text(draft, encoding="utf-8")
     try:
         robot = load_robot(file, base=Pose(), label=f"scenes/robots/{id_}.yaml", project=project)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from rgss.scenes import Robot, standing_links
-from rgss.studies.robot_project.holding import payload_at_reach_kg, weak_joints
+from rgss.studies.robot_project.holding import payload_kg, weak_joints
 from rgss.studies.robot_project.layout import Cup
 from rgss.studies.robot_project.reach import horizontal_reach_m
 
@@ -90,7 +90,7 @@ def hand_sizes(robot: Robot, cups: Sequence[Cup] = ()) -> Iterator[HandSize]:
         yield from (HandSize(scale=scale, own_cup=cup) for cup in cups)
         return
     # Efforts that do not hold the arm itself are no measure of what it carries; `rgss check` reports them.
-    by_weight = 1.0 if weak_joints(robot) else (payload_at_reach_kg(robot) / _CARRIED_KG) ** (1 / 3)
+    by_weight = 1.0 if weak_joints(robot) else (payload_kg(robot) / _CARRIED_KG) ** (1 / 3)
     by_mass = (_SHARE_OF_ARM * moving_mass_kg(robot) / _CARRIED_KG) ** (1 / 3)
     largest = min(1.0, by_weight, by_mass, horizontal_reach_m(robot) / _REACH_M)
     smaller = [scale for scale in _SCALES if scale <= largest + 1e-9] or [_SCALES[-1]]

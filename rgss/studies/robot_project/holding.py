@@ -1,4 +1,4 @@
-"""Weights that the joints of an arm hold with the arm farthest out."""
+"""Weights that the joints of an arm hold at rest, in the worst of its sampled configurations."""
 
 from __future__ import annotations
 
@@ -8,14 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.kinematics import Arm, ArmDynamics, Load
+from rgss.kinematics import ArmDynamics, Load
 from rgss.scenes import JointKind, Pose, Robot
 from rgss.studies.robot_project.reach import sampled_configurations
 
 Array = NDArray[np.float64]
 
-_LEAST_PAYLOAD_KG, _MOST_PAYLOAD_KG = 0.1, 100.0
-_LEAST_PER_KG = 1e-9
+_GRAVITY_M_S2 = 9.81
+# Of a kilogram, in N·m or N: a joint with less carries no weight but that of a rounded angle, a lever of 1 mm.
+_LEAST_PER_KG = 0.01
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,7 +26,7 @@ class WeakJoint:
     Attributes:
         name: The joint.
         effort: Its torque in N·m, or its force in N.
-        needed: What the arm's weight asks of it.
+        needed: The greatest that the arm's weight requires of it.
         unit: The unit of both.
     """
 
@@ -35,51 +36,55 @@ class WeakJoint:
     unit: str
 
 
-def payload_at_reach_kg(robot: Robot) -> float:
-    """Mass at the flange that the efforts of the joints hold with the arm farthest out; rounded down to 0.1 kg.
+def payload_kg(robot: Robot) -> float:
+    """Greatest mass at the flange that the efforts of the joints hold in every sampled configuration.
 
     Args:
-        robot: The arm.
+        robot: The arm, with its base as it is mounted.
 
     Returns:
-        The mass, at least 0.1 kg, also where the joints do not hold the arm itself (`weak_joints`).
+        The mass, rounded down to 0.1 kg, below 1 kg to 0.01 kg; 0 if the joints do not hold the arm itself, infinite
+        if no joint carries weight.
     """
     own, per_kg = _weights(robot)
-    margins = [
-        (joint.torque_n_m - abs(float(mine))) / abs(float(each))
-        for joint, mine, each in zip(robot.joints, own, per_kg, strict=True)
-        if abs(float(each)) > _LEAST_PER_KG
-    ]
-    held = math.floor(10 * min(margins, default=_MOST_PAYLOAD_KG)) / 10
-    return min(max(held, _LEAST_PAYLOAD_KG), _MOST_PAYLOAD_KG)
+    efforts = np.array([joint.torque_n_m for joint in robot.joints])
+    if np.any(np.abs(own) > efforts):
+        return 0.0
+    carried = np.abs(per_kg) > _LEAST_PER_KG
+    if not np.any(carried):
+        return math.inf
+    # Each joint gives its effort in the direction in which the payload loads it; the arm may be balanced.
+    margins = (efforts - np.sign(per_kg) * own)[carried] / np.abs(per_kg)[carried]
+    held = float(np.min(margins))
+    steps = 10 if held >= 1.0 else 100
+    return math.floor(steps * held) / steps
 
 
 def weak_joints(robot: Robot) -> tuple[WeakJoint, ...]:
-    """Joints whose effort does not hold the arm itself where it reaches farthest.
+    """Joints whose effort does not hold the arm itself in a sampled configuration.
 
     Args:
-        robot: The arm.
+        robot: The arm, with its base as it is mounted.
     """
     own, _ = _weights(robot)
     return tuple(
         WeakJoint(
             name=joint.name,
             effort=joint.torque_n_m,
-            needed=abs(float(needed)),
+            needed=float(needed),
             unit="N" if joint.kind is JointKind.PRISMATIC else "N*m",
         )
-        for joint, needed in zip(robot.joints, own, strict=True)
-        if abs(float(needed)) > joint.torque_n_m
+        for joint, needed in zip(robot.joints, np.max(np.abs(own), axis=0), strict=True)
+        if float(needed) > joint.torque_n_m
     )
 
 
 def _weights(robot: Robot) -> tuple[Array, Array]:
-    """Torques of the joints at rest with the arm farthest out: of the arm itself, and of a kilogram at the flange."""
-    arm = Arm(robot, Pose())
+    """Torques of the joints at rest, of the arm itself and of a kilogram at the flange, each of shape (k, n)."""
     samples = sampled_configurations(robot)
-    offsets = (arm.tool_position(samples) - np.array(arm.first_axis_m))[:, :2]
-    q = samples[int(np.argmax(np.linalg.norm(offsets, axis=1)))]
     still = np.zeros(len(robot.joints))
     kilogram = Load(mass_kg=1.0, moments_kg_m2=(0.0, 0.0, 0.0), pose=Pose())
-    own = ArmDynamics(robot, (), gravity_m_s2=9.81).torques(q, still, still)
-    return own, ArmDynamics(robot, (kilogram,), gravity_m_s2=9.81).torques(q, still, still) - own
+    empty = ArmDynamics(robot, (), gravity_m_s2=_GRAVITY_M_S2)
+    loaded = ArmDynamics(robot, (kilogram,), gravity_m_s2=_GRAVITY_M_S2)
+    own = np.array([empty.torques(q, still, still) for q in samples])
+    return own, np.array([loaded.torques(q, still, still) for q in samples]) - own

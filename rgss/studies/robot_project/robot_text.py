@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 
 from rgss.scenes import JointKind
+from rgss.studies.robot_project.reach import SAMPLES
 from rgss.studies.robot_project.urdf import UrdfArm, UrdfJoint
 
 _ACCELERATION_TIME_S = 0.4
@@ -14,10 +15,12 @@ _LARGEST_ACCELERATION = {JointKind.REVOLUTE: 5.0, JointKind.PRISMATIC: 3.0}
 _SPEED = {JointKind.REVOLUTE: 1.5, JointKind.PRISMATIC: 0.5}
 _EFFORT = {JointKind.REVOLUTE: 100.0, JointKind.PRISMATIC: 500.0}
 
+_LEAST_PAYLOAD_KG, _MOST_PAYLOAD_KG = 0.01, 100.0
+
 TOOL_ACCELERATION_M_S2 = 1.2
 
 
-def robot_text(arm: UrdfArm, *, id_: str, urdf: str, home: Sequence[float], payload_kg: float) -> str:
+def robot_text(arm: UrdfArm, *, id_: str, urdf: str, home: Sequence[float], held_kg: float) -> str:
     """The text of a robot file.
 
     Args:
@@ -25,8 +28,9 @@ def robot_text(arm: UrdfArm, *, id_: str, urdf: str, home: Sequence[float], payl
         id_: The robot's id.
         urdf: The URDF's name beside the robot file.
         home: Joint positions in rad or m, shape (n,).
-        payload_kg: The payload that is written down.
+        held_kg: What the joints hold, 0 or infinite where that is no payload.
     """
+    payload_kg, reason = _payload(held_kg)
     lines = [
         "# Limits of the arm, from its URDF. What the URDF does not say is an assumption below: replace it by the",
         "# manufacturer's figures. rgss robot describes the arm, and reports problems of its description.",
@@ -42,19 +46,29 @@ def robot_text(arm: UrdfArm, *, id_: str, urdf: str, home: Sequence[float], payl
     if arm.hands:
         lines.append(f"without: [{', '.join(arm.hands)}]")
     lines.append("assumptions:")
-    for about, rationale in _assumptions(arm):
+    for about, rationale in _assumptions(arm, reason):
         lines += [f"  - about: {about}", f"    rationale: {json.dumps(rationale, ensure_ascii=False)}"]
     return "\n".join(lines) + "\n"
 
 
-def _assumptions(arm: UrdfArm) -> Sequence[tuple[str, str]]:
+def _payload(held_kg: float) -> tuple[float, str]:
+    """Payload that is written down, and its rationale."""
+    if held_kg <= 0.0:
+        reason = "The joints' efforts hold no payload: replace it by the manufacturer's figure."
+        return _LEAST_PAYLOAD_KG, reason
+    if math.isinf(held_kg):
+        return _MOST_PAYLOAD_KG, "No joint carries weight, so that the efforts do not limit it."
+    return held_kg, f"What the joints' efforts hold in every one of {SAMPLES:,} configurations, rounded down."
+
+
+def _assumptions(arm: UrdfArm, payload: str) -> Sequence[tuple[str, str]]:
     most = _LARGEST_ACCELERATION[JointKind.REVOLUTE]
     found = [
         (
             "joints.acceleration",
             f"A URDF has none; each joint reaches its speed in {_ACCELERATION_TIME_S:g} s, {most:g} rad/s^2 at most.",
         ),
-        ("payload", "What the joints' efforts hold, with the arm as far out as it reaches, rounded down."),
+        ("payload", payload),
         ("tool_acceleration", "That of a common collaborative arm."),
         ("home", "A configuration above the object's place, free of collisions."),
     ]

@@ -17,7 +17,7 @@ from rgss.kinematics import Arm, lasting_contacts, touching_links
 from rgss.scenes import Pose, Robot, convex_parts, load_robot
 from rgss.studies.robot_project.description import assumed_subjects, description_findings, weak_joint_findings
 from rgss.studies.robot_project.draft import drafted_robot
-from rgss.studies.robot_project.holding import payload_at_reach_kg
+from rgss.studies.robot_project.holding import payload_kg
 from rgss.studies.robot_project.reach import horizontal_reach_m, sampled_configurations
 from rgss.studies.robot_project.urdf import NO_ARGUMENTS, Note
 
@@ -32,7 +32,8 @@ class RobotSummary:
         robot: The arm, its base in the world's origin.
         masses_kg: Mass of each link that has one, in the order of the URDF; mere frames are left out.
         reach_m: Greatest distance of the flange from the first axis, over sampled configurations.
-        payload_at_reach_kg: Mass at the flange that the joints' efforts hold with the arm farthest out.
+        payload_kg: Mass at the flange that the joints' efforts hold in every sampled configuration; infinite if no
+            joint carries weight.
         convex_shapes: Number of convex shapes that replace meshes.
         left_out: Pairs of links that touch in every configuration, and are not checked.
         at_home: Pairs of links that touch at the home.
@@ -44,7 +45,7 @@ class RobotSummary:
     robot: Robot
     masses_kg: dict[str, float]
     reach_m: float
-    payload_at_reach_kg: float
+    payload_kg: float
     convex_shapes: int
     left_out: tuple[tuple[str, str], ...]
     at_home: tuple[tuple[str, str], ...]
@@ -110,7 +111,7 @@ def _summary(
         robot=robot,
         masses_kg={name: mass for name, mass in masses.items() if mass > 1e-5},
         reach_m=horizontal_reach_m(robot),
-        payload_at_reach_kg=payload_at_reach_kg(robot),
+        payload_kg=payload_kg(robot),
         convex_shapes=len(convex_parts(robot.urdf)[1]),
         left_out=tuple(sorted((min(pair), max(pair)) for pair in left_out)),
         at_home=tuple(pairs),

@@ -23,7 +23,7 @@ from rgss.studies.robot_project.fitting import POINTS_INTO_ARM, CellSearch, Fitt
 from rgss.studies.robot_project.gripper_axes import axes_of_gripper, gripper_or_hand
 from rgss.studies.robot_project.gripper_texts import with_gripper
 from rgss.studies.robot_project.hand_size import HandSize, hand_sizes
-from rgss.studies.robot_project.holding import payload_at_reach_kg
+from rgss.studies.robot_project.holding import payload_kg
 from rgss.studies.robot_project.layout import scene_text
 from rgss.studies.robot_project.reach import SAMPLES, greatest_travel_m
 from rgss.studies.robot_project.robot_text import robot_text
@@ -200,8 +200,7 @@ def _write_cell(project: Path, drafted: DraftedRobot, cell: FittedCell) -> None:
             replace(joint, lower=low, upper=high, whole=(joint.lower, joint.upper)) for joint, low, high in ranges
         ),
     )
-    payload_kg = payload_at_reach_kg(drafted.robot)
-    text = robot_text(narrowed, id_=id_, urdf=f"{id_}.urdf", home=cell.home, payload_kg=payload_kg)
+    text = robot_text(narrowed, id_=id_, urdf=f"{id_}.urdf", home=cell.home, held_kg=payload_kg(drafted.robot))
     drafted.file.write_text(text, encoding="utf-8")
     (project / "scenes" / "kitchen.yaml").write_text(scene_text(cell.layout, robot=drafted.file.name), encoding="utf-8")
 
