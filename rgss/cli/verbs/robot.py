@@ -56,6 +56,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _show(summary: RobotSummary) -> None:
     from rgss.cli.output import print_table
+    from rgss.scenes import JointKind
 
     robot = summary.robot
     print(f"{robot.id}: {len(robot.joints)} joints to {robot.flange}, {sum(summary.masses_kg.values()):.4g} kg")
@@ -63,7 +64,8 @@ def _show(summary: RobotSummary) -> None:
     rows = [(joint.name, joint.kind.value, *_limits(joint)) for joint in robot.joints]
     print_table(["joint", "kind", "range", "speed", "effort"], rows)
     print()
-    print(f"Reach: {summary.reach_m:.3f} m from the first axis to the flange.")
+    start = "middle of its region" if robot.joints[0].kind is JointKind.PRISMATIC else "first axis"
+    print(f"Reach: {summary.reach_m:.3f} m from the {start} to the flange.")
     count = len(summary.positions_m)
     print(f"Payload by the joints' efforts, in the worst of {count} configurations: {_payload(summary.payload_kg)}.")
     if summary.convex_shapes:

@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from rgss.kinematics import Arm, InverseKinematics, inverse_kinematics
 from rgss.scenes import GripperGeometry, JointKind, Pose, Robot
 from rgss.studies.robot_project.layout import Layout, raised_layout
-from rgss.studies.robot_project.reach import horizontal_reach_m, sampled_configurations
+from rgss.studies.robot_project.reach import arm_reach_m, middle_height_m, sampled_configurations
 
 Array = NDArray[np.float64]
 
 _DOWN = (math.pi, 0.0, 0.0)
 _RADIUS_SHARES = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
-_HEIGHT_SHARES = (-0.6, -0.45, -0.3, -0.15, 0.0, 0.15, 0.3, 0.45, 0.6)
+_HEIGHT_SHARES = (-0.75, -0.6, -0.45, -0.3, -0.15, 0.0, 0.15, 0.3, 0.45)
 _RISE_SHARES = (0.2, 0.12)
 _MOST_TRIED = 8
 _LARGEST_AZIMUTH_RAD, _LEAST_AZIMUTH_RAD = math.radians(35.0), math.radians(12.0)
@@ -79,8 +79,9 @@ def descent_search(robot: Robot, geometry: GripperGeometry, *, scale: float) -> 
     inverse = inverse_kinematics(
         Arm(replace(level, joints=(turning, *robot.joints[1:])), geometry.grasp_centre), is_turn_free=True
     )
-    reach_m = horizontal_reach_m(robot)
-    grid = _Grid(inverse, arm.first_axis_m, reach_m)
+    reach_m = arm_reach_m(robot)
+    x, y, _ = arm.first_axis_m
+    grid = _Grid(inverse, (x, y, middle_height_m(level)), reach_m)
     sector = (first.lower_rad, first.upper_rad, math.copysign(1.0, float(axis[2])))
     reasons = [NEVER_DOWN]
     for share in _RISE_SHARES:
@@ -110,7 +111,7 @@ def descent_search(robot: Robot, geometry: GripperGeometry, *, scale: float) -> 
 
 
 class _Grid:
-    """Distances from the first axis and heights over its origin, with the positions of the first joint at each."""
+    """Distances from the first axis and heights over a point of it, with the positions of the first joint at each."""
 
     def __init__(self, inverse: InverseKinematics, axis_m: tuple[float, float, float], reach_m: float) -> None:
         self.axis_m = axis_m
@@ -171,8 +172,8 @@ def _neighbours(cell: Cell, among: dict[Cell, tuple[float, float]]) -> int:
 
 
 def _unusual(cell: Cell) -> float:
-    """Distance from a table at half of the reach, a little below the first axis, in shares of the reach."""
-    return abs(_RADIUS_SHARES[cell[0]] - 0.55) + abs(_HEIGHT_SHARES[cell[1]] + 0.1)
+    """Distance from a table at half of the reach, below the middle of the tool's region, in shares of the reach."""
+    return abs(_RADIUS_SHARES[cell[0]] - 0.55) + abs(_HEIGHT_SHARES[cell[1]] + 0.25)
 
 
 def _layout(rough: Layout, grid: _Grid, cell: Cell, sector: tuple[float, float]) -> Layout:

@@ -18,7 +18,7 @@ from rgss.studies.robot_project.descent_search import descent_search
 from rgss.studies.robot_project.hand_size import HandSize
 from rgss.studies.robot_project.layout import Layout, layouts, scene_text
 from rgss.studies.robot_project.overhead_layout import overhead_layouts
-from rgss.studies.robot_project.reach import horizontal_reach_m, sampled_configurations
+from rgss.studies.robot_project.reach import arm_reach_m, sampled_configurations
 from rgss.tasks import default_task
 from rgss.trials import Workcell, every_stop_is_feasible, infeasible_waypoints, waypoint_configurations
 
@@ -94,7 +94,7 @@ class CellSearch:
     def cells(self) -> Iterator[FittedCell]:
         """Cells with a home for the arm, computed lazily, the most common layout first."""
         size, robot = self._size, self._robot
-        reach_m, is_yaw_free = horizontal_reach_m(robot), len(robot.joints) < _POSE_FREEDOMS
+        reach_m, is_yaw_free = arm_reach_m(robot), len(robot.joints) < _POSE_FREEDOMS
         usual = layouts(reach_m, scale=size.scale, is_yaw_free=is_yaw_free)
         overhead = (replace(one, is_yaw_free=is_yaw_free) for one in _overhead(robot, self._geometries, size))
         common = self._fitting(itertools.chain(usual if reach_m >= _LEAST_REACH_M * size.scale else (), overhead))

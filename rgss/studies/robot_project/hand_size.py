@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from rgss.scenes import Robot, standing_links
 from rgss.studies.robot_project.holding import payload_kg, weak_joints
 from rgss.studies.robot_project.layout import Cup
-from rgss.studies.robot_project.reach import horizontal_reach_m
+from rgss.studies.robot_project.reach import arm_reach_m
 
 _SCALES = (1.0, 0.7, 0.5, 0.35, 0.25)
 # Hand with three fingers, their drives and the cup at scale 1, with room for the acceleration of the tool.
@@ -86,13 +86,13 @@ def hand_sizes(robot: Robot, cups: Sequence[Cup] = ()) -> Iterator[HandSize]:
         cups: Objects of a gripper that has its own size, the largest first; its scale is that of the tables.
     """
     if cups:
-        scale = next((one for one in _SCALES if one <= horizontal_reach_m(robot) / _REACH_M), _SCALES[-1])
+        scale = next((one for one in _SCALES if one <= arm_reach_m(robot) / _REACH_M), _SCALES[-1])
         yield from (HandSize(scale=scale, own_cup=cup) for cup in cups)
         return
     # Efforts that do not hold the arm itself are no measure of what it carries; `rgss check` reports them.
     by_weight = 1.0 if weak_joints(robot) else (payload_kg(robot) / _CARRIED_KG) ** (1 / 3)
     by_mass = (_SHARE_OF_ARM * moving_mass_kg(robot) / _CARRIED_KG) ** (1 / 3)
-    largest = min(1.0, by_weight, by_mass, horizontal_reach_m(robot) / _REACH_M)
+    largest = min(1.0, by_weight, by_mass, arm_reach_m(robot) / _REACH_M)
     smaller = [scale for scale in _SCALES if scale <= largest + 1e-9] or [_SCALES[-1]]
     yield from (HandSize(scale=scale) for scale in smaller[::_STEP])
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.kinematics import Arm
-from rgss.scenes import Pose, Robot
+from rgss.scenes import JointKind, Pose, Robot
 
 Array = NDArray[np.float64]
 
@@ -16,15 +16,35 @@ SAMPLES = 2048
 _TRAVEL_SAMPLES = 256
 
 
-def horizontal_reach_m(robot: Robot) -> float:
-    """Greatest distance of the flange from the first axis over sampled configurations.
+def arm_reach_m(robot: Robot) -> float:
+    """Greatest distance of the flange from the line of the first axis over sampled configurations.
+
+    A prismatic first joint has a direction, but no line: of an arm on one it is the greatest distance from the middle
+    of the region of the flange.
 
     Args:
         robot: The arm.
     """
     arm = Arm(robot, Pose())
-    positions = arm.tool_position(sampled_configurations(robot)) - np.array(arm.first_axis_m)
-    return float(np.max(np.linalg.norm(positions, axis=1)))
+    positions = arm.tool_position(sampled_configurations(robot))
+    if robot.joints[0].kind is JointKind.PRISMATIC:
+        offsets = positions - (positions.min(axis=0) + positions.max(axis=0)) / 2
+    else:
+        axis = arm.joint_axes()[0][0]
+        offsets = np.cross(positions - np.array(arm.first_axis_m), axis)
+    return float(np.max(np.linalg.norm(offsets, axis=1)))
+
+
+def middle_height_m(robot: Robot) -> float:
+    """Height halfway between the lowest and the highest position of the flange over sampled configurations.
+
+    Unlike the origin of the first joint's frame, which may be anywhere on its axis, it depends on the arm alone.
+
+    Args:
+        robot: The arm.
+    """
+    heights = Arm(robot, Pose()).tool_position(sampled_configurations(robot))[:, 2]
+    return float(heights.min() + heights.max()) / 2
 
 
 def greatest_travel_m(robot: Robot, tool: Pose) -> float:

@@ -18,7 +18,7 @@ from rgss.scenes import Pose, Robot, convex_parts, load_robot
 from rgss.studies.robot_project.description import assumed_subjects, description_findings, weak_joint_findings
 from rgss.studies.robot_project.draft import drafted_robot
 from rgss.studies.robot_project.holding import payload_kg
-from rgss.studies.robot_project.reach import horizontal_reach_m, sampled_configurations
+from rgss.studies.robot_project.reach import arm_reach_m, sampled_configurations
 from rgss.studies.robot_project.urdf import NO_ARGUMENTS, Note
 
 _YAML = frozenset({".yaml", ".yml"})
@@ -31,7 +31,8 @@ class RobotSummary:
     Attributes:
         robot: The arm, its base in the world's origin.
         masses_kg: Mass of each link that has one, in the order of the URDF; mere frames are left out.
-        reach_m: Greatest distance of the flange from the first axis, over sampled configurations.
+        reach_m: Greatest distance of the flange from the line of the first axis, or from the middle of its region if
+            the first joint is prismatic, over sampled configurations.
         payload_kg: Mass at the flange that the joints' efforts hold in every sampled configuration; infinite if no
             joint carries weight.
         convex_shapes: Number of convex shapes that replace meshes.
@@ -110,7 +111,7 @@ def _summary(
     return RobotSummary(
         robot=robot,
         masses_kg={name: mass for name, mass in masses.items() if mass > 1e-5},
-        reach_m=horizontal_reach_m(robot),
+        reach_m=arm_reach_m(robot),
         payload_kg=payload_kg(robot),
         convex_shapes=len(convex_parts(robot.urdf)[1]),
         left_out=tuple(sorted((min(pair), max(pair)) for pair in left_out)),
