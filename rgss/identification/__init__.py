@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from rgss.identification.excitation_document import ExcitationDocument
     from rgss.identification.fitting import FitStatus, ServoFit, fit_joint
     from rgss.identification.motion_of_servos import servo_motion
-    from rgss.identification.recording import JointSeries, Recording, Segment
+    from rgss.identification.recording import CommandedPositions, JointSeries, Recording, Segment
     from rgss.identification.recording_file import read_recording, write_recording
     from rgss.identification.response_measures import responses
     from rgss.identification.simulated_arm import simulated_recording

@@ -109,7 +109,7 @@ def fit_joint(recording: Recording, joint: str) -> ServoFit:
     segments = recording.of_joint(joint)
     if not any(np.abs(each.excited.commanded_rad_s).max() > 0.0 for each in segments):
         raise DefinitionError(f"the recording has no motion of joint {joint!r}", hint="record steps or sines of it")
-    problem = ServoProblem(segments, recording.control)
+    problem = ServoProblem(segments, recording.control, recording.commands)
     found = problem.solved()
     if recording.control is ServoControl.POSITION:
         problem.weigh(found)

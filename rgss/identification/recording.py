@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,13 @@ from numpy.typing import NDArray
 from rgss.scenes import ServoControl
 
 Array = NDArray[np.float64]
+
+
+class CommandedPositions(str, Enum):
+    """Course of commanded positions between two samples; commanded speeds act until the next sample in either case."""
+
+    HELD = "held"
+    INTERPOLATED = "interpolated"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,6 +67,7 @@ class Recording:
         segments: The segments in the order of time.
         digest: SHA-256 of its file; empty if it was not read from one.
         slides: The prismatic joints, whose positions are in m.
+        commands: Course of the commanded positions between samples.
     """
 
     robot: str
@@ -68,6 +77,7 @@ class Recording:
     segments: tuple[Segment, ...]
     digest: str = ""
     slides: frozenset[str] = frozenset()
+    commands: CommandedPositions = CommandedPositions.HELD
 
     def unit_of(self, joint: str) -> str:
         """Unit of the positions of a joint."""

@@ -16,7 +16,7 @@ import numpy as np
 from rgss.documents import chunks_of, write_output
 from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity, shown
-from rgss.identification.recording import JointSeries, Recording, Segment
+from rgss.identification.recording import CommandedPositions, JointSeries, Recording, Segment
 from rgss.scenes import ServoControl
 
 LARGEST_RECORDING_BYTES = 128 * 1024 * 1024
@@ -26,7 +26,11 @@ LEAST_SAMPLES = 8
 LARGEST_GAP = 1.5
 """Time between samples of a segment, over the usual one, from which samples are missing."""
 
+LONGEST_SAMPLING_S = 0.2
+"""Usual time between samples from which the response of a servo is not seen; times in ms are longer."""
+
 _COMMENTS = ("robot", "recorded", "control")
+_COMMANDS = "# commands:"
 _LABELS = ("time [s]", "pose", "joint", "signal")
 _QUANTITIES = (
     ("commanded position", ""),
@@ -51,6 +55,8 @@ def write_recording(path: Path, recording: Recording) -> None:
     text = io.StringIO()
     for key, value in zip(_COMMENTS, (recording.robot, recording.recorded, recording.control.value), strict=True):
         text.write(f"# {key}: {value}\n")
+    if recording.commands is not CommandedPositions.HELD:
+        text.write(f"{_COMMANDS} {recording.commands.value}\n")
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(
         [*_LABELS, *(name for joint in recording.joints for name in _columns(joint, recording.unit_of(joint)))]
@@ -89,22 +95,22 @@ def read_recording(path: Path) -> Recording:
     except UnicodeDecodeError as error:
         raise _wrong(path, 1, "the file is not UTF-8") from error
     lines = text.splitlines()
-    comments = _comments(path, lines)
-    reader = csv.reader(lines[len(_COMMENTS) :], strict=True)
+    comments, head = _comments(path, lines)
+    reader = csv.reader(lines[head:], strict=True)
     try:
         rows = list(reader)
     except csv.Error as error:
-        raise _wrong(path, len(_COMMENTS) + reader.line_num, f"the file is not CSV: {error}") from error
+        raise _wrong(path, head + reader.line_num, f"the file is not CSV: {error}") from error
     header = rows[0] if rows else []
-    joints, units = _joints(path, header)
-    values = _values(path, rows[1:], header)
+    joints, units = _joints(path, header, head)
+    values = _values(path, rows[1:], header, head)
     values[:, 1:] *= np.repeat([_FACTORS[unit] for unit in units], len(_QUANTITIES))
     labels = [(row[1], row[2], row[3]) for row in rows[1:]]
-    _check_times(path, values[:, 0], labels)
+    _check_times(path, values[:, 0], labels, head)
     segments, start = [], 0
     for (pose, joint, signal), group in groupby(labels):
         end = start + len(list(group))
-        line = len(_COMMENTS) + 2 + start
+        line = head + 2 + start
         if joint not in joints:
             raise _wrong(path, line, f"unknown joint {shown(joint)}", f"the columns have {', '.join(joints)}", 3)
         if end - start < LEAST_SAMPLES:
@@ -130,6 +136,7 @@ def read_recording(path: Path) -> Recording:
         segments=tuple(segments),
         digest=hashlib.sha256(content).hexdigest(),
         slides=frozenset(joint for joint, unit in zip(joints, units, strict=True) if unit == "m"),
+        commands=CommandedPositions(comments["commands"]),
     )
 
 
@@ -137,7 +144,8 @@ def _columns(joint: str, unit: str) -> list[str]:
     return [f"{joint} {name} [{unit}{per}]" for name, per in _QUANTITIES]
 
 
-def _comments(path: Path, lines: Sequence[str]) -> dict[str, str]:
+def _comments(path: Path, lines: Sequence[str]) -> tuple[dict[str, str], int]:
+    """Values of the comments, and their number of lines."""
     found = {}
     for index, key in enumerate(_COMMENTS):
         line = lines[index] if index < len(lines) else ""
@@ -148,12 +156,20 @@ def _comments(path: Path, lines: Sequence[str]) -> dict[str, str]:
     kinds = [each.value for each in ServoControl]
     if found["control"] not in kinds:
         raise _wrong(path, 3, f"unknown control {shown(found['control'])}", f"write one of {', '.join(kinds)}")
-    return found
+    found["commands"] = CommandedPositions.HELD.value
+    line = lines[len(_COMMENTS)] if len(lines) > len(_COMMENTS) else ""
+    if not line.startswith("#"):
+        return found, len(_COMMENTS)
+    found["commands"] = line.removeprefix(_COMMANDS).strip()
+    courses = [each.value for each in CommandedPositions]
+    if found["commands"] not in courses:
+        raise _wrong(path, len(_COMMENTS) + 1, f"line 4 may be '{_COMMANDS} {' or '.join(courses)}', got {shown(line)}")
+    return found, len(_COMMENTS) + 1
 
 
-def _joints(path: Path, header: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def _joints(path: Path, header: Sequence[str], head: int) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Names of the joints, and the unit of the positions of each."""
-    line = len(_COMMENTS) + 1
+    line = head + 1
     for index, name in enumerate(_LABELS):
         got = header[index] if index < len(header) else ""
         if got != name:
@@ -180,12 +196,12 @@ def _joints(path: Path, header: Sequence[str]) -> tuple[tuple[str, ...], tuple[s
     return tuple(joints), tuple(units)
 
 
-def _values(path: Path, rows: Sequence[Sequence[str]], header: Sequence[str]) -> np.ndarray[tuple[int, int]]:
+def _values(path: Path, rows: Sequence[Sequence[str]], header: Sequence[str], head: int) -> np.ndarray[tuple[int, int]]:
     """Time and motion of each line, in the units of the file."""
     if not rows:
-        raise _wrong(path, len(_COMMENTS) + 2, "the recording has no samples")
+        raise _wrong(path, head + 2, "the recording has no samples")
     found = []
-    for line, row in enumerate(rows, start=len(_COMMENTS) + 2):
+    for line, row in enumerate(rows, start=head + 2):
         if len(row) != len(header):
             raise _wrong(path, line, f"the line has {len(row)} fields, the header has {len(header)}")
         numbers = []
@@ -202,12 +218,17 @@ def _values(path: Path, rows: Sequence[Sequence[str]], header: Sequence[str]) ->
     return np.array(found)
 
 
-def _check_times(path: Path, times_s: np.ndarray[tuple[int]], labels: Sequence[tuple[str, str, str]]) -> None:
+def _check_times(
+    path: Path, times_s: np.ndarray[tuple[int]], labels: Sequence[tuple[str, str, str]], head: int
+) -> None:
     differences = np.diff(times_s)
     inside = np.array([one == other for one, other in pairwise(labels)], dtype=bool)
     usual_s = float(np.median(differences[inside])) if inside.any() else math.inf
+    if inside.any() and usual_s > LONGEST_SAMPLING_S:
+        problem = f"samples are {usual_s:g} s apart, at most {LONGEST_SAMPLING_S:g} s are allowed"
+        raise _wrong(path, head + 3, problem, "times are in s, not in ms; record faster if they are")
     for index, difference_s in enumerate(differences.tolist()):
-        line = len(_COMMENTS) + 3 + index
+        line = head + 3 + index
         if difference_s <= 0.0:
             raise _wrong(path, line, f"times must rise: {times_s[index + 1]:g} s follows {times_s[index]:g} s")
         if inside[index] and difference_s > LARGEST_GAP * usual_s:

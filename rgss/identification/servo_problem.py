@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.identification.motion_of_servos import servo_motion
-from rgss.identification.recording import Segment
+from rgss.identification.recording import CommandedPositions, Segment
 from rgss.scenes import JointServo, ServoControl
 
 Array = NDArray[np.float64]
@@ -29,8 +29,14 @@ PARAMETER_ENDS = {
 class ServoProblem:
     """Residuals of a servo, and their derivatives by central differences."""
 
-    def __init__(self, segments: Sequence[Segment], control: ServoControl) -> None:
+    def __init__(
+        self,
+        segments: Sequence[Segment],
+        control: ServoControl,
+        commands: CommandedPositions = CommandedPositions.HELD,
+    ) -> None:
         self._segments = [each for each in segments if np.abs(each.excited.commanded_rad_s).max() > 0.0]
+        self._commands = commands
         self._positions = control is ServoControl.POSITION
         self.names = tuple(name for name in _PARAMETERS if self._positions or name != "position_gain_hz2")
         self._lower, self._upper, self._least = (
@@ -144,6 +150,7 @@ class ServoProblem:
                 series.commanded_rad,
                 series.commanded_rad_s,
                 start=_start(segment),
+                commands=self._commands,
             )
             for index, parts in enumerate(found):
                 parts.append(

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from rgss.errors import DefinitionError
 from rgss.identification.excitation import Signal, chosen_joints, signals
 from rgss.identification.excitation_document import ExcitationDocument
+from rgss.identification.motion_of_servos import steps_per_sample
 from rgss.identification.recording import JointSeries, Recording, Segment
 from rgss.kinematics import ArmDynamics, gripper_loads
 from rgss.physics import PhysicsSettings, TorqueArm, VelocityLoop, mean_commands
@@ -65,7 +66,8 @@ def simulated_recording(
         np.where(slides, noise.slide_position, noise.position),
         np.where(slides, noise.slide_velocity, noise.velocity),
     )
-    with TorqueArm(robot, gripper, PhysicsSettings(rate_hz=excitation.rate), gravity_m_s2=gravity_m_s2) as machine:
+    settings = PhysicsSettings(rate_hz=excitation.rate * steps_per_sample(1.0 / excitation.rate))
+    with TorqueArm(robot, gripper, settings, gravity_m_s2=gravity_m_s2) as machine:
         arm = _ServoArm(machine, robot, gripper, excitation, gravity_m_s2)
         for pose, positions in excitation.poses.items():
             configuration = tuple(position.value for position in positions)
@@ -106,13 +108,14 @@ class _ServoArm:
         self._limits = np.array([joint.torque_n_m for joint in robot.joints])
         loads = gripper_loads(gripper, gripper.geometry.largest_opening_m)
         self._model = ArmDynamics(robot, loads, gravity_m_s2=gravity_m_s2)
-        self._step_s = 1.0 / excitation.rate
+        self._sampling_s = 1.0 / excitation.rate
+        self._pieces = steps_per_sample(self._sampling_s)
         self._control = excitation.control
         self.saturated = False
 
     def run(self, home_rad: Array, index: int, course: Signal, servo: JointServo) -> tuple[Array, Array]:
-        """Positions (rad) and speeds (rad/s) before each step, each of shape (times, joints)."""
-        count, step_s = len(course.velocities_rad_s), self._step_s
+        """Positions (rad) and speeds (rad/s) at each sample, each of shape (times, joints)."""
+        count, step_s = len(course.velocities_rad_s), self._sampling_s / self._pieces
         under = servo
         if self._control is ServoControl.VELOCITY:
             under = JointServo(
@@ -121,23 +124,27 @@ class _ServoArm:
                 coulomb_rad_s2=servo.coulomb_rad_s2,
             )
         loop = VelocityLoop([under], step_s)
-        edges: Array = step_s * np.arange(count + 1, dtype=np.float64)
-        speeds = mean_commands(edges[:-1], course.velocities_rad_s, edges - servo.delay_s)
-        middles = edges[:-1] + step_s / 2 - servo.delay_s
-        targets = home_rad[index] + np.interp(middles, edges[:-1], course.positions_rad)
+        times_s: Array = self._sampling_s * np.arange(count, dtype=np.float64)
+        edges: Array = step_s * np.arange(count * self._pieces + 1, dtype=np.float64)
+        speeds = mean_commands(times_s, course.velocities_rad_s, edges - servo.delay_s)
+        targets = home_rad[index] + mean_commands(times_s, course.positions_rad, edges - servo.delay_s)
         positions, velocities = np.empty((count, len(home_rad))), np.empty((count, len(home_rad)))
         self._machine.reset(home_rad.tolist(), 0.0)
         omega = NOMINAL_FREQUENCY_RAD_S
         self.saturated = False
-        for step in range(count):
-            q, v = (np.array(values) for values in self._machine.state())
-            positions[step], velocities[step] = q, v
+        for step in range(count * self._pieces):
+            ahead, v = (np.array(values) for values in self._machine.state())
+            # The engine adds the speed after a step for the whole step, so that its positions are half a step ahead.
+            q = ahead - step_s / 2 * v
+            sample, piece = divmod(step, self._pieces)
+            if piece == 0:
+                positions[sample], velocities[sample] = q, v
             wanted = omega**2 * (home_rad - q) - 2 * omega * v
             _, after = loop.after(
                 q[index : index + 1], v[index : index + 1], targets[step : step + 1], speeds[step : step + 1]
             )
             wanted[index] = (after[0] - v[index]) / step_s
-            torques = self._model.torques(q, v, wanted)
+            torques = self._model.torques(ahead, v, wanted)
             self.saturated = self.saturated or bool(np.any(np.abs(torques) > self._limits))
             self._machine.step(np.clip(torques, -self._limits, self._limits).tolist())
         return positions, velocities

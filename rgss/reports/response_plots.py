@@ -66,7 +66,14 @@ def response_figure(recording: Recording, joint: str, servo: JointServo | None) 
         if servo is not None:
             rest = max(1, int(np.flatnonzero(np.append(np.abs(series.commanded_rad_s) > 0.0, True))[0]))
             start = (float(series.measured_rad[:rest].mean()), 0.0 if rest > 1 else float(series.measured_rad_s[0]))
-            motion = servo_motion([servo], segment.times_s, series.commanded_rad, series.commanded_rad_s, start=start)
+            motion = servo_motion(
+                [servo],
+                segment.times_s,
+                series.commanded_rad,
+                series.commanded_rad_s,
+                start=start,
+                commands=recording.commands,
+            )
             ax.plot(times_s, motion.velocities_rad_s[0], color=_FITTED, linestyle="--", linewidth=1.2, label="fitted")
         ax.set_title(f"{segment.pose}: {segment.signal}", fontsize=9)
         ax.grid(visible=True, color="#d5dae0", linewidth=0.6)

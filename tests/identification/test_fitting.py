@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.identification import FitStatus, fit_joint
+from rgss.identification import CommandedPositions, FitStatus, fit_joint
 from rgss.scenes import JointServo, ServoControl
 from tests.identification.recordings import motions_of, recording_of
 
@@ -52,6 +52,18 @@ def test_intervals_contain_the_true_values_nineteen_times_in_twenty():
     # 1000 (chi-squared with 15 degrees of freedom).
     for name, width in widths.items():
         assert 1 / 1.5 < np.mean(width) / (1.96 * np.std(errors[name], ddof=1)) < 1 / 0.55, name
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("commands", list(CommandedPositions))
+def test_set_points_that_are_held_or_interpolated_bias_no_parameter(commands):
+    is_interpolated = commands is CommandedPositions.INTERPOLATED
+    motions = motions_of(SERVO, (0.15, 0.6, 1.2), velocity_control=False, is_interpolated=is_interpolated)
+
+    fit = fit_joint(recording_of(motions, control=ServoControl.POSITION, commands=commands, noise=(5e-5, 1e-3)), "j1")
+
+    # Half a period of the other course is k_p / 400 Hz = 1 per second of viscous friction.
+    assert fit.determined() == pytest.approx(asdict(SERVO), rel=0.02)
 
 
 def test_velocity_control_says_nothing_of_the_position_gain():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import DocumentError
-from rgss.identification import read_recording, recording_file, write_recording
+from rgss.identification import CommandedPositions, read_recording, recording_file, write_recording
 from rgss.scenes import JointServo
 from tests.identification.recordings import motions_of, recording_of
 
@@ -46,6 +46,32 @@ def test_a_recording_is_read_back(path):
     assert len(found.digest) == 64
 
 
+@pytest.mark.parametrize("commands", list(CommandedPositions))
+def test_the_course_of_commanded_positions_is_read_back(tmp_path, commands):
+    file = tmp_path / "recording.csv"
+    write_recording(file, recording_of(motions_of(JointServo(velocity_gain_hz=30), (0.5,)), commands=commands))
+
+    assert read_recording(file).commands is commands
+
+
+def test_commanded_positions_are_held_unless_the_file_states_otherwise(path):
+    assert "# commands" not in path.read_text()
+    assert read_recording(path).commands is CommandedPositions.HELD
+
+
+def test_times_in_milliseconds_are_refused(path):
+    head, lines = path.read_text().splitlines()[:4], path.read_text().splitlines()[4:]
+    rows = [line.split(",") for line in lines]
+    slow = [",".join((f"{1e3 * float(time):g}", *rest)) for time, *rest in rows]
+    path.write_text("\n".join([*head, *slow]) + "\n")
+
+    found = complaint(path)
+
+    assert found.line == 6
+    assert found.message == "samples are 20 s apart, at most 0.2 s are allowed"
+    assert found.hint == "times are in s, not in ms; record faster if they are"
+
+
 def test_degrees_are_converted(path):
     before = read_recording(path).segments[0].excited
     text = path.read_text().replace("[rad", "[deg")
@@ -61,6 +87,7 @@ def test_degrees_are_converted(path):
     [
         (1, "# robot: r", "# robot:", "line 1 must be '# robot: …'"),
         (3, "velocity", "torque", "unknown control 'torque'"),
+        (4, "time [s]", "# commands: late", "line 4 may be '# commands: held or interpolated', got"),
         (4, "time [s]", "time [ms]", "column 1 must be 'time [s]'"),
         (4, "j1 commanded position [rad]", "j1 position", "column 5 must be 'JOINT commanded position [rad]'"),
         (4, "measured velocity [rad/s]", "measured velocity [deg/s]", "column 8 must be"),

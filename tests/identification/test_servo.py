@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.identification import servo_motion
+from rgss.identification import CommandedPositions, servo_motion
 from rgss.scenes import JointServo
 from tests.identification.recordings import course_of, euler_motion
 
@@ -51,13 +51,15 @@ def test_coulomb_friction_stops_a_joint_at_the_time_of_constant_braking_and_hold
     assert np.all(motion.velocities_rad_s[0, 502:] == 0.0)
 
 
-def test_all_effects_together_agree_with_fine_explicit_steps():
+@pytest.mark.parametrize("commands", list(CommandedPositions))
+def test_all_effects_together_agree_with_fine_explicit_steps(commands):
     servo = JointServo(velocity_gain_hz=25, position_gain_hz2=300, delay_s=0.0113, viscous_hz=2, coulomb_rad_s2=1.5)
     times_s, positions, velocities = course_of(0.5)
 
-    motion = servo_motion([servo], times_s, positions, velocities)
+    motion = servo_motion([servo], times_s, positions, velocities, commands=commands)
 
-    q, v = euler_motion(servo, times_s, positions, velocities)
+    is_interpolated = commands is CommandedPositions.INTERPOLATED
+    q, v = euler_motion(servo, times_s, positions, velocities, is_interpolated=is_interpolated)
     assert np.abs(motion.velocities_rad_s[0] - v).max() < 3e-3
     assert np.abs(motion.positions_rad[0] - q).max() < 2e-4
 
