@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.errors import DefinitionError
-from rgss.scenes import Joint
+from rgss.scenes import Joint, JointKind
 
 _ROUNDING = 1.01
 """Limits of speed and acceleration are kept between the grid points of the timing within one per cent."""
@@ -28,7 +28,7 @@ class ToolPositions(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotLimits:
-    """Limits of commands.
+    """Limits of commands; those of a prismatic joint are in m, m/s and m/s².
 
     Attributes:
         names: Names of the joints from base to flange.
@@ -37,7 +37,9 @@ class RobotLimits:
         speed_rad_s: Greatest speeds.
         acceleration_rad_s2: Greatest accelerations.
         tool_speed_m_s: Greatest speed of the tool centre.
-        start_tolerance_rad: Greatest distance of any joint from the first set point.
+        start_tolerance_rad: Greatest distance of a revolute joint from the first set point.
+        start_tolerance_m: Greatest distance of a prismatic joint from it.
+        slides: Names of the prismatic joints.
     """
 
     names: tuple[str, ...]
@@ -47,6 +49,8 @@ class RobotLimits:
     acceleration_rad_s2: tuple[float, ...]
     tool_speed_m_s: float
     start_tolerance_rad: float = 0.01
+    start_tolerance_m: float = 0.005
+    slides: frozenset[str] = frozenset()
 
     def __post_init__(self) -> None:
         rows = (self.lower_rad, self.upper_rad, self.speed_rad_s, self.acceleration_rad_s2)
@@ -55,9 +59,25 @@ class RobotLimits:
                 f"limits of {len(self.names)} joints must have {len(self.names)} values each",
                 hint="give range, speed and acceleration of every joint",
             )
-        positive = (*self.speed_rad_s, *self.acceleration_rad_s2, self.tool_speed_m_s, self.start_tolerance_rad)
+        tolerances = (self.start_tolerance_rad, self.start_tolerance_m)
+        positive = (*self.speed_rad_s, *self.acceleration_rad_s2, self.tool_speed_m_s, *tolerances)
         if not all(value > 0.0 for value in positive):
             raise DefinitionError("limits of a driver must be positive", hint=f"the least is {min(positive):g}")
+
+    def unit_of(self, name: str) -> str:
+        """Unit of the positions of a joint."""
+        return "m" if name in self.slides else "rad"
+
+    def position_text(self, name: str, value: float, *, unit: bool = True) -> str:
+        """Position of a joint in degrees or millimetres.
+
+        Args:
+            name: The joint.
+            value: Its position in rad or m.
+            unit: False to leave the unit out.
+        """
+        text, of = (f"{1e3 * value:.2f}", "mm") if name in self.slides else (f"{math.degrees(value):.2f}", "deg")
+        return f"{text} {of}" if unit else text
 
 
 def limits_of(joints: Sequence[Joint], *, tool_speed_m_s: float) -> RobotLimits:
@@ -74,6 +94,7 @@ def limits_of(joints: Sequence[Joint], *, tool_speed_m_s: float) -> RobotLimits:
         speed_rad_s=tuple(joint.speed_rad_s for joint in joints),
         acceleration_rad_s2=tuple(joint.acceleration_rad_s2 for joint in joints),
         tool_speed_m_s=tool_speed_m_s,
+        slides=frozenset(joint.name for joint in joints if joint.kind is JointKind.PRISMATIC),
     )
 
 
@@ -95,6 +116,11 @@ class Guard:
         self._velocity: NDArray[np.float64] = np.zeros(len(limits.names))
         self._tool_m: NDArray[np.float64] = np.zeros(3)
 
+    @property
+    def limits(self) -> RobotLimits:
+        """The limits."""
+        return self._limits
+
     def begin(self, measured_rad: Sequence[float], start_rad: Sequence[float]) -> str:
         """Admit the start of a task at rest; the reason against it, or an empty text.
 
@@ -110,10 +136,12 @@ class Guard:
             return reason
         for name, measured, start in zip(names, measured_rad, start_rad, strict=True):
             # A joint that reports no number is nowhere.
-            if not abs(measured - start) <= self._limits.start_tolerance_rad:
+            limits = self._limits
+            allowed = limits.start_tolerance_m if name in limits.slides else limits.start_tolerance_rad
+            if not abs(measured - start) <= allowed:
                 return (
-                    f"joint {name} is at {math.degrees(measured):.2f} deg, the task begins at "
-                    f"{math.degrees(start):.2f} deg: bring the robot there first"
+                    f"joint {name} is at {limits.position_text(name, measured)}, the task begins at "
+                    f"{limits.position_text(name, start)}: bring the robot there first"
                 )
         self._last = np.array(start_rad, dtype=float)
         self._velocity = np.zeros(len(names))
@@ -135,12 +163,13 @@ class Guard:
         velocity = (position - self._last) / self._period_s
         acceleration = (velocity - self._velocity) / self._period_s
         limits = self._limits
-        for kind, unit, values, bounds in (
-            ("speed", "rad/s", velocity, limits.speed_rad_s),
-            ("acceleration", "rad/s^2", acceleration, limits.acceleration_rad_s2),
+        for kind, per, values, bounds in (
+            ("speed", "/s", velocity, limits.speed_rad_s),
+            ("acceleration", "/s^2", acceleration, limits.acceleration_rad_s2),
         ):
             for name, value, bound in zip(limits.names, values.tolist(), bounds, strict=True):
                 if abs(value) > bound * _ROUNDING:
+                    unit = limits.unit_of(name) + per
                     return f"{kind} of joint {name} would be {abs(value):.4g} {unit}, its limit is {bound:.4g} {unit}"
         tool_m = np.asarray(self._tool.tool_position(position[None]))[0]
         tool_speed = float(np.linalg.norm(tool_m - self._tool_m)) / self._period_s
@@ -170,7 +199,7 @@ class Guard:
         ):
             if not lower - _RANGE_ROUNDING_RAD <= value <= upper + _RANGE_ROUNDING_RAD:
                 return (
-                    f"joint {name} would be at {math.degrees(value):.2f} deg, outside "
-                    f"{math.degrees(lower):.2f} to {math.degrees(upper):.2f} deg"
+                    f"joint {name} would be at {limits.position_text(name, value)}, outside "
+                    f"{limits.position_text(name, lower, unit=False)} to {limits.position_text(name, upper)}"
                 )
         return ""

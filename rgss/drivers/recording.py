@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from itertools import groupby
 
 import numpy as np
@@ -13,15 +13,22 @@ from rgss.drivers.streaming import Sample
 
 _LABELS = ("time [s]", "pose", "joint", "signal")
 _QUANTITIES = (
-    "commanded position [rad]",
-    "commanded velocity [rad/s]",
-    "measured position [rad]",
-    "measured velocity [rad/s]",
+    "commanded position [{unit}]",
+    "commanded velocity [{unit}/s]",
+    "measured position [{unit}]",
+    "measured velocity [{unit}/s]",
 )
 _SIGNAL = "planned motion"
 
 
-def recording_csv(samples: Sequence[Sample], joints: Sequence[str], *, robot: str, recorded: str) -> bytes:
+def recording_csv(
+    samples: Sequence[Sample],
+    joints: Sequence[str],
+    *,
+    robot: str,
+    recorded: str,
+    slides: Collection[str] = (),
+) -> bytes:
     """Measured against commanded motion as CSV in UTF-8, which `rgss identify` reads.
 
     The column ``pose`` has the phase, ``joint`` the joint that moves most in it.
@@ -31,11 +38,14 @@ def recording_csv(samples: Sequence[Sample], joints: Sequence[str], *, robot: st
         joints: Names of the joints from base to flange.
         robot: Name of the robot.
         recorded: How it was recorded, in one line.
+        slides: Names of the prismatic joints, whose positions are in m.
     """
     text = io.StringIO()
     text.write(f"# robot: {robot}\n# recorded: {recorded}\n# control: position\n")
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*_LABELS, *(f"{joint} {quantity}" for joint in joints for quantity in _QUANTITIES)])
+    units = {joint: "m" if joint in slides else "rad" for joint in joints}
+    columns = (f"{joint} {quantity.format(unit=units[joint])}" for joint in joints for quantity in _QUANTITIES)
+    writer.writerow([*_LABELS, *columns])
     for phase, group in groupby(samples, key=lambda sample: sample.phase):
         part = list(group)
         travel = np.ptp(np.array([sample.commanded.positions_rad for sample in part]), axis=0)
@@ -45,8 +55,8 @@ def recording_csv(samples: Sequence[Sample], joints: Sequence[str], *, robot: st
             # A robot that reports another number of joints is a fault; its last sample is left out.
             if len(got.positions_rad) != len(joints) or len(got.velocities_rad_s) != len(joints):
                 continue
-            columns = zip(
+            rows = zip(
                 wanted.positions_rad, wanted.velocities_rad_s, got.positions_rad, got.velocities_rad_s, strict=True
             )
-            writer.writerow([f"{sample.time_s:.9g}", *labels, *(f"{value:.9g}" for row in columns for value in row)])
+            writer.writerow([f"{sample.time_s:.9g}", *labels, *(f"{value:.9g}" for row in rows for value in row)])
     return text.getvalue().encode()

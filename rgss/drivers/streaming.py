@@ -37,7 +37,8 @@ class StreamSettings:
         ramp_s: Time in which that share is reached, and in which an interrupted motion comes to rest on its path.
         heartbeat_timeout_s: Longest time without a new report of the controller.
         late_s: Longest time by which a period may begin late.
-        following_error_rad: Greatest distance of any measured joint from its set point.
+        following_error_rad: Greatest distance of a measured revolute joint from its set point.
+        following_error_m: Greatest distance of a prismatic one.
 
     Raises:
         DefinitionError: A value is out of range.
@@ -48,13 +49,15 @@ class StreamSettings:
     heartbeat_timeout_s: float = 0.1
     late_s: float = 0.05
     following_error_rad: float = 0.1
+    following_error_m: float = 0.05
 
     def __post_init__(self) -> None:
         if not 0.0 < self.speed <= 1.0:
             raise DefinitionError(
                 f"the speed of a driver must be above 0 % and at most 100 %, got {100 * self.speed:g} %"
             )
-        if not min(self.ramp_s, self.heartbeat_timeout_s, self.late_s, self.following_error_rad) > 0.0:
+        times_s = (self.ramp_s, self.heartbeat_timeout_s, self.late_s)
+        if not min(*times_s, self.following_error_rad, self.following_error_m) > 0.0:
             raise DefinitionError("times and the following error of a stream must be positive")
 
 
@@ -226,8 +229,11 @@ class _Stream:
             zip(estimate.positions_rad, point.positions_rad, strict=True), start=1
         ):
             # Not a number is a following error too.
-            if not abs(measured - wanted) <= settings.following_error_rad:
-                allowed = f"at most {settings.following_error_rad:g} rad are allowed"
-                detail = f"joint {index} is {abs(measured - wanted):.3g} rad from its set point, {allowed}"
+            limits = self._guard.limits
+            unit = limits.unit_of(limits.names[index - 1])
+            most = settings.following_error_m if unit == "m" else settings.following_error_rad
+            if not abs(measured - wanted) <= most:
+                allowed = f"at most {most:g} {unit} are allowed"
+                detail = f"joint {index} is {abs(measured - wanted):.3g} {unit} from its set point, {allowed}"
                 return StreamOutcome.FOLLOWING_ERROR, detail
         return None

@@ -1,10 +1,13 @@
 """The guard refuses what is outside the limits, and says what."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
+from rgss.drivers import limits_of
 from rgss.errors import DefinitionError
+from rgss.scenes import Joint, JointKind
 from tests.drivers.conftest import guard, limits
 
 STILL = (0.0, 0.0, 0.0)
@@ -88,3 +91,27 @@ def test_limits_must_fit_and_be_positive():
         limits(upper_rad=(1.0,))
     with pytest.raises(DefinitionError, match="limits of a driver must be positive"):
         limits(tool_speed_m_s=0.0)
+
+
+def test_a_joint_that_slides_is_in_millimetres_and_has_tolerances_of_its_own():
+    found = guard(limits(slides=frozenset({"j1"})))
+    reason = found.begin((0.0, 0.006, 0.0), STILL)
+    assert reason == "joint j1 is at 6.00 mm, the task begins at 0.00 mm: bring the robot there first"
+    assert found.begin((0.0, 0.004, 0.009), STILL) == ""
+    assert found.check((0.0, 1.001, 0.0)) == "joint j1 would be at 1001.00 mm, outside -1000.00 to 1000.00 mm"
+    assert found.check((0.0, 0.02, 0.0)) == "speed of joint j1 would be 2 m/s, its limit is 1 m/s"
+    assert "4 m/s^2" in found.check((0.0, 0.005, 0.0))
+
+
+def test_the_kinds_of_the_joints_are_those_of_the_robot_file():
+    joint = Joint(
+        name="rail",
+        lower_rad=-1.0,
+        upper_rad=1.0,
+        speed_rad_s=1.0,
+        acceleration_rad_s2=1.0,
+        torque_n_m=1.0,
+        kind=JointKind.PRISMATIC,
+    )
+    found = limits_of((joint, replace(joint, name="turn", kind=JointKind.REVOLUTE)), tool_speed_m_s=1.0)
+    assert (found.unit_of("rail"), found.unit_of("turn")) == ("m", "rad")

@@ -3,6 +3,7 @@
 import csv
 
 from rgss.drivers import StreamSettings, recording_csv, stream
+from rgss.identification import read_recording
 from tests.drivers.conftest import guard, pick_task
 
 
@@ -31,3 +32,13 @@ def test_a_report_with_other_joints_is_left_out(robot):
     result = stream(robot, pick_task(), guard(), robot, StreamSettings(speed=1.0))
     text = recording_csv(result.samples[:2], ("j0", "j1"), robot="arm", recorded="by a test").decode()
     assert len(text.splitlines()) == 4
+
+
+def test_positions_of_a_joint_that_slides_are_in_metres(robot, tmp_path):
+    result = stream(robot, pick_task(), guard(), robot, StreamSettings(speed=1.0))
+    content = recording_csv(
+        result.samples, ("j0", "j1", "j2"), robot="arm", recorded="by a test", slides=frozenset({"j1"})
+    )
+    (tmp_path / "recording.csv").write_bytes(content)
+    found = read_recording(tmp_path / "recording.csv")
+    assert [found.unit_of(joint) for joint in found.joints] == ["rad", "m", "rad"]

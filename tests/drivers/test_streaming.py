@@ -124,6 +124,15 @@ def test_a_robot_that_does_not_follow_is_stopped(robot):
     assert robot.calls[-2:] == ["stop", "disconnect"]
 
 
+def test_a_joint_that_slides_may_be_fifty_millimetres_from_its_set_point(robot):
+    robot.stuck_after = 20
+    sliding = guard(limits(slides=frozenset({"j0", "j1", "j2"})))
+    result = stream(robot, pick_task(), sliding, robot, StreamSettings(speed=1.0))
+    assert result.outcome is StreamOutcome.FOLLOWING_ERROR
+    assert result.detail.startswith("joint 1 is 0.05")
+    assert result.detail.endswith("m from its set point, at most 0.05 m are allowed")
+
+
 def test_a_program_that_was_paused_stops_the_robot(robot):
     robot.pause_after = 15
     result = run(robot)

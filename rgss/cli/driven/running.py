@@ -62,11 +62,12 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
     if options.recording is not None:
         recorded = f"variant {spec.variant} by rgss run --driver {driver.name}, {result.outcome.value}"
         robot = cell.scene.robot.id
-        write_output(options.recording, recording_csv(result.samples, limits.names, robot=robot, recorded=recorded))
+        content = recording_csv(result.samples, limits.names, robot=robot, recorded=recorded, slides=limits.slides)
+        write_output(options.recording, content)
     if options.json:
-        print_json({**shown, **_result_as_json(result)})
+        print_json({**shown, **_result_as_json(result, limits)})
     else:
-        _show_result(result)
+        _show_result(result, limits)
     if result.outcome is StreamOutcome.COMPLETED:
         return CLEAN
     return INTERRUPTED if result.outcome is StreamOutcome.INTERRUPTED else RUN_FAILED
@@ -108,6 +109,7 @@ def _interrupt_flag() -> Iterator[Callable[[], bool]]:
 def _rehearsal_as_json(rehearsal: Rehearsal, limits: RobotLimits) -> dict[str, Any]:
     return {
         "start_rad": dict(zip(limits.names, rehearsal.start_rad, strict=True)),
+        "units": {name: limits.unit_of(name) for name in limits.names},
         "duration_s": rehearsal.duration_s,
         "segments": [
             {
@@ -129,9 +131,10 @@ def _show_rehearsal(rehearsal: Rehearsal, limits: RobotLimits, driver: str, spee
 
     print(f"Driver {driver} at {100 * speed:g} % of the planned speed, {number(rehearsal.duration_s)} s")
     start = ", ".join(
-        f"{name} {math.degrees(value):.2f}" for name, value in zip(limits.names, rehearsal.start_rad, strict=True)
+        f"{name} {limits.position_text(name, value, unit=bool(limits.slides))}"
+        for name, value in zip(limits.names, rehearsal.start_rad, strict=True)
     )
-    print(f"start [deg]: {start}")
+    print(f"start: {start}" if limits.slides else f"start [deg]: {start}")
     rows = [
         [
             segment.name,
@@ -148,27 +151,30 @@ def _show_rehearsal(rehearsal: Rehearsal, limits: RobotLimits, driver: str, spee
     print_table(titles, rows, right=(2, 3, 4, 5, 6))
 
 
-def _largest_error_rad(result: StreamResult) -> float:
-    return max(
-        (
-            abs(measured - commanded)
-            for sample in result.samples
-            for measured, commanded in zip(sample.measured.positions_rad, sample.commanded.positions_rad, strict=False)
-        ),
-        default=0.0,
-    )
+def _largest_errors(result: StreamResult, limits: RobotLimits) -> dict[str, float]:
+    """Greatest following error of the joints by unit, rad or m."""
+    found = dict.fromkeys(sorted({limits.unit_of(name) for name in limits.names}, reverse=True), 0.0)
+    for sample in result.samples:
+        pairs = zip(limits.names, sample.measured.positions_rad, sample.commanded.positions_rad, strict=False)
+        for name, measured, commanded in pairs:
+            unit = limits.unit_of(name)
+            found[unit] = max(found[unit], abs(measured - commanded))
+    return found
 
 
-def _result_as_json(result: StreamResult) -> dict[str, Any]:
+def _result_as_json(result: StreamResult, limits: RobotLimits) -> dict[str, Any]:
     return {
         "outcome": result.outcome.value,
         "detail": result.detail,
         "sent": result.sent,
-        "largest_error_rad": _largest_error_rad(result),
+        **{f"largest_error_{unit}": error for unit, error in _largest_errors(result, limits).items()},
     }
 
 
-def _show_result(result: StreamResult) -> None:
-    error = f"largest following error {math.degrees(_largest_error_rad(result)):.3g} deg"
+def _show_result(result: StreamResult, limits: RobotLimits) -> None:
+    errors = " and ".join(
+        f"{1e3 * error:.3g} mm" if unit == "m" else f"{math.degrees(error):.3g} deg"
+        for unit, error in _largest_errors(result, limits).items()
+    )
     detail = f": {result.detail}" if result.detail else ""
-    print(f"{result.outcome.value}{detail} ({result.sent} set points sent, {error})")
+    print(f"{result.outcome.value}{detail} ({result.sent} set points sent, largest following error {errors})")

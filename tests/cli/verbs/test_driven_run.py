@@ -10,7 +10,9 @@ import signal
 import pytest
 
 from rgss.cli.driven import timed_task
-from rgss.cli.driven.running import _interrupt_flag
+from rgss.cli.driven.running import _interrupt_flag, _result_as_json, _show_rehearsal, _show_result
+from rgss.drivers import Estimate, GripperState, Rehearsal, RobotLimits, SetPoint, StreamOutcome, StreamResult
+from rgss.drivers.streaming import Sample
 from rgss.errors import MotionError
 from rgss.studies import load_project, trial_specs
 from rgss.trials import plan_of, timing_of
@@ -91,6 +93,31 @@ def test_options_that_do_not_belong_together(rgss, untouched, words, error):
     told = rgss("run", 65, *words, "--project", untouched)
     assert (told.status, told.output) == (2, "")
     assert told.errors.startswith(f"rgss: {error}")
+
+
+def test_a_joint_that_slides_is_shown_in_millimetres(capsys):
+    joints = {"lower_rad": (-1.0, -1.0), "upper_rad": (1.0, 1.0), "speed_rad_s": (1.0, 1.0)}
+    limits = RobotLimits(
+        names=("rail", "turn"),
+        **joints,
+        acceleration_rad_s2=(1.0, 1.0),
+        tool_speed_m_s=1.0,
+        slides=frozenset({"rail"}),
+    )
+    _show_rehearsal(Rehearsal(start_rad=(-0.295, 0.5), segments=(), refusal=""), limits, "simulated", 1.0)
+    assert "start: rail -295.00 mm, turn 28.65 deg" in capsys.readouterr().out
+    point = {"velocities_rad_s": (0.0, 0.0), "gripper": GripperState.OPEN}
+    sample = Sample(
+        time_s=0.0,
+        phase="go",
+        measured=Estimate(positions_rad=(0.002, 0.0), stamp=0.0, **point),
+        commanded=SetPoint(positions_rad=(0.0, 0.01), **point),
+    )
+    result = StreamResult(outcome=StreamOutcome.COMPLETED, detail="", sent=1, samples=(sample,))
+    _show_result(result, limits)
+    assert "largest following error 0.573 deg and 2 mm" in capsys.readouterr().out
+    shown = _result_as_json(result, limits)
+    assert (shown["largest_error_m"], shown["largest_error_rad"]) == (0.002, 0.01)
 
 
 def test_ctrl_c_is_a_flag_while_a_robot_moves():
