@@ -26,6 +26,9 @@ MOST_VERTICES = 160
 """Greatest number of corners of a shape; the time of contact and collision checks is proportional to it."""
 
 _SUFFIXES = frozenset({".stl", ".obj", ".dae", ".ply"})
+_LFS_POINTER = b"version https://git-lfs.github.com/spec/"
+_STL_HEADER_BYTES, _STL_FACE_BYTES = 84, 50
+_OBJ_WORDS = frozenset(["v", "vt", "vn", "vp", "f", "l", "p", "o", "g", "s", "usemtl", "mtllib"])
 _CONCAVITY = 0.05
 _MOST_WRITTEN = 16
 _EXACT = 1e-9
@@ -215,15 +218,41 @@ def _loaded(path: Path) -> Any:
 
     if path.suffix.lower() not in _SUFFIXES:
         raise DefinitionError(f"{path.name} is not a mesh format that can be read", hint="use STL, OBJ or PLY")
+    with path.open("rb") as file:
+        start = file.read(len(_LFS_POINTER))
+    if start == _LFS_POINTER:
+        hint = "fetch the content with 'git lfs pull'"
+        raise DefinitionError(f"{path.name} is a pointer of Git LFS, and not the mesh", hint=hint)
+    if not start:
+        raise DefinitionError(f"{path.name} is an empty file", hint="use STL, OBJ or PLY")
     try:
         mesh = trimesh.load_mesh(str(path), process=True)
         if isinstance(mesh, trimesh.Scene):
             mesh = mesh.to_mesh()
     except ImportError:
         raise DefinitionError(f"{path.name} needs a reader that is not installed", hint="use STL, OBJ or PLY") from None
-    except (ValueError, KeyError, IndexError, TypeError, AttributeError, OSError) as error:
+    except Exception as error:
+        # Each reader raises errors of its own, such as those of an XML parser.
         raise DefinitionError(f"{path.name} cannot be read as a mesh: {error}", hint="use STL, OBJ or PLY") from error
+    if len(mesh.vertices) == 0 and not _has_form(path):
+        suffix = path.suffix.lower().lstrip(".").upper()
+        raise DefinitionError(f"{path.name} is not a file of the format {suffix}", hint="export the mesh again")
     return mesh
+
+
+def _has_form(path: Path) -> bool:
+    """True if a file without corners has the form of its format; readers accept any text as an empty STL or OBJ."""
+    content, suffix = path.read_bytes(), path.suffix.lower()
+    if suffix == ".stl":
+        faces = int.from_bytes(content[_STL_HEADER_BYTES - 4 : _STL_HEADER_BYTES], "little")
+        whole = _STL_HEADER_BYTES + _STL_FACE_BYTES * faces
+        # Some exporters end the file before the number of faces.
+        is_binary = len(content) in (whole, _STL_HEADER_BYTES - 4)
+        return is_binary or (content.lstrip().startswith(b"solid") and b"endsolid" in content)
+    if suffix == ".obj":
+        lines = content.decode("utf-8", errors="replace").splitlines()
+        return all(word[0] in _OBJ_WORDS or word[0].startswith("#") for line in lines if (word := line.split()))
+    return True
 
 
 def _is_closed(mesh: Any) -> bool:

@@ -12,6 +12,7 @@ from rgss.scenes.document import CollisionShapes
 from rgss.scenes.mesh_shapes import MOST_VERTICES, mesh_mass, mesh_summary, shapes_of_mesh
 
 ONE = (1.0, 1.0, 1.0)
+LFS_POINTER = b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 132456\n"
 
 
 def bracket():
@@ -109,6 +110,13 @@ def test_what_a_mesh_is(saved):
     ("name", "content", "message"),
     [
         ("part.step", b"ISO-10303-21;", "part.step is not a mesh format that can be read"),
+        ("part.dae", b"<COLLADA><asset>", "part.dae cannot be read as a mesh: "),
+        ("part.dae", LFS_POINTER, "part.dae is a pointer of Git LFS, and not the mesh"),
+        ("part.stl", LFS_POINTER, "part.stl is a pointer of Git LFS, and not the mesh"),
+        ("part.obj", LFS_POINTER, "part.obj is a pointer of Git LFS, and not the mesh"),
+        ("part.stl", b"", "part.stl is an empty file"),
+        ("part.stl", b"this is not a mesh", "part.stl is not a file of the format STL"),
+        ("part.obj", b"this is not a mesh", "part.obj is not a file of the format OBJ"),
         ("part.stl", b"solid", "part.stl"),
         ("part.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n", "part.obj is flat and has no volume"),
     ],

@@ -17,6 +17,7 @@ from rgss.studies.robot_project.urdf.reading import Note
 _SCHEME = re.compile(r"^(package|model|file)://")
 _LARGEST_MESH_BYTES = 256 * 1024 * 1024
 _LARGEST_EMPTY_MESH_BYTES = 4096
+_READ = frozenset({".stl", ".obj", ".dae", ".ply"})
 
 
 def copy_named_files(root: ET.Element, urdf: Path, robots: Path) -> list[Note]:
@@ -33,7 +34,7 @@ def copy_named_files(root: ET.Element, urdf: Path, robots: Path) -> list[Note]:
         What was assumed.
 
     Raises:
-        DefinitionError: A collision mesh is missing or too large.
+        DefinitionError: A collision mesh is missing, too large, or not a mesh.
     """
     notes = [*_leave_out_missing_looks(root, urdf), *_leave_out_empty_meshes(root, urdf)]
     _drop_undefined_materials(root)
@@ -120,26 +121,37 @@ def _leave_out_missing_looks(root: ET.Element, urdf: Path) -> Iterator[Note]:
 
 
 def _leave_out_empty_meshes(root: ET.Element, urdf: Path) -> Iterator[Note]:
-    empty = []
+    """Remove meshes without a face, and visual meshes that are not what their names say.
+
+    Raises:
+        DefinitionError: A collision mesh is not a mesh.
+    """
+    empty, broken = [], []
     for link in root.findall("link"):
         for shape in link.findall("visual") + link.findall("collision"):
             mesh = shape.find("geometry/mesh")
             source = None if mesh is None else find_named_file(mesh.get("filename", ""), urdf)
-            if source is not None and _is_empty(source):
+            if (
+                source is None
+                or source.suffix.lower() not in _READ
+                or source.stat().st_size > _LARGEST_EMPTY_MESH_BYTES
+            ):
+                continue
+            try:
+                if is_empty_mesh(source):
+                    link.remove(shape)
+                    empty.append(link.get("name", ""))
+            except DefinitionError as error:
+                if shape.tag == "collision":
+                    raise
                 link.remove(shape)
-                empty.append(link.get("name", ""))
+                broken.append(error.message)
     if empty:
         names = ", ".join(dict.fromkeys(empty))
         yield Note(about="description", rationale=f"Meshes without a single face are left out, of {names}.")
-
-
-def _is_empty(mesh: Path) -> bool:
-    if mesh.stat().st_size > _LARGEST_EMPTY_MESH_BYTES:
-        return False
-    try:
-        return is_empty_mesh(mesh)
-    except DefinitionError:
-        return False
+    if broken:
+        rationale = f"{len(broken)} visual meshes are left out: {broken[0]}; they take part in no simulation."
+        yield Note(about="description", rationale=rationale)
 
 
 def _drop_undefined_materials(root: ET.Element) -> None:
