@@ -76,25 +76,6 @@ def test_mesh_files_without_a_face_are_left_out(tmp_path, draft):
     assert "frame" not in next((tmp_path / "project").rglob("*.urdf")).read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize(
-    ("name", "content", "message"),
-    [
-        ("part.stl", b"version https://git-lfs.github.com/spec/v1\nsize 7\n", "part.stl is a pointer of Git LFS"),
-        ("part.dae", b"<COLLADA>", "part.dae cannot be read as a mesh"),
-        ("part.stl", b"", "part.stl is an empty file"),
-        ("part.obj", b"no mesh", "part.obj is not a file of the format OBJ"),
-    ],
-)
-def test_a_collision_mesh_that_is_no_mesh_is_refused_and_a_visual_one_left_out(tmp_path, draft, name, content, message):
-    (package := tmp_path / "package").mkdir()
-    (package / name).write_bytes(content)
-    shape = f'<geometry><mesh filename="{name}"/></geometry>'
-    with pytest.raises(DefinitionError, match=message):
-        draft(CLEAN.replace("</link>", f"<collision>{shape}</collision></link>", 1))
-    drafted = draft(CLEAN.replace("</link>", f"<visual>{shape}</visual></link>", 1))
-    assert f"1 visual meshes are left out: {message}" in "".join(rationales(drafted))
-
-
 def test_prefixes_of_old_simulators_do_no_harm(draft):
     text = CLEAN.replace("</robot>", '<gazebo><sensor:camera name="c"/></gazebo></robot>')
     assert len(draft(text).robot.joints) == 6
@@ -173,6 +154,19 @@ def test_the_mass_of_an_arm_is_shared_by_volume(draft):
     inertia = links["link_1"].find("inertial/inertia")
     assert float(inertia.get("ixx")) == pytest.approx(6.0 * (0.2**2 + 0.3**2) / 12)
     assert "20 kg of the whole arm are distributed" in rationales(drafted)
+
+
+def test_masses_are_kept_where_no_link_without_one_has_a_shape(draft):
+    text = serial_urdf(SIX)
+    start = text.index("<inertial>", text.index('name="link_3"'))
+    end = text.index("</inertial>", start) + len("</inertial>")
+    drafted = draft(text[:start] + text[end:], mass_kg=20.0)
+    masses = [float(mass.get("value")) for mass in parsed(drafted.robot.urdf).iter("mass")]
+    assert sum(masses) == pytest.approx(5.015, abs=1e-4)
+    note = (
+        "link_3 have neither a mass nor a shape in the URDF, and weigh 0.015 kg each: the 5 kg of the other links are"
+    )
+    assert f"{note} kept, not scaled to 20 kg" in rationales(drafted)
 
 
 def test_a_mass_that_is_none(draft, tmp_path, capsys):
@@ -348,43 +342,6 @@ def test_a_joint_may_have_the_name_of_a_link(draft):
         for one in (clean, foreign)
     ]
     assert torques[0] == pytest.approx(torques[1], abs=1e-12)
-
-
-def branch(parent, count, name):
-    """Links that turn one on the other, the first on a link of the arm."""
-    inertial = (
-        '<inertial><mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial>'
-    )
-    parts = []
-    for number in range(1, count + 1):
-        parts.append(
-            f'<link name="{name}_{number}">{inertial}</link><joint name="{name}_joint_{number}" type="revolute">'
-            f'<origin xyz="0 0 0.05"/><axis xyz="0 0 1"/><parent link="{parent}"/><child link="{name}_{number}"/>'
-            '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
-        )
-        parent = f"{name}_{number}"
-    return "".join(parts)
-
-
-@pytest.mark.parametrize(("at", "count"), [("link_1", 1), ("link_1", 2), ("link_2", 1)])
-def test_what_turns_beside_the_arm_is_not_the_arm(draft, at, count):
-    clean = draft(CLEAN)
-    foreign = draft(CLEAN.replace("</robot>", f"{branch(at, count, 'head')}</robot>"))
-    assert foreign.arm.flange == clean.arm.flange == "flange"
-    assert [joint.name for joint in foreign.robot.joints] == [joint.name for joint in clean.robot.joints]
-    q = [0.3, -0.4, 0.5, 0.6, -0.7, 0.8]
-    assert tool(foreign, q) == pytest.approx(tool(clean, q), abs=1e-12)
-
-
-def test_an_arm_ends_where_fingers_begin_however_many_joints_they_have(draft):
-    fingers = "".join(branch("flange", count, name) for count, name in [(4, "thumb"), (4, "index"), (2, "little")])
-    drafted = draft(CLEAN.replace("</robot>", f"{fingers}</robot>"))
-    assert [joint.name for joint in drafted.robot.joints] == [f"joint_{number}" for number in range(1, 7)]
-
-
-def test_two_ways_of_like_length_end_the_arm(draft):
-    drafted = draft(CLEAN.replace("</robot>", f"{branch('link_3', 2, 'other')}</robot>"))
-    assert [joint.name for joint in drafted.robot.joints] == ["joint_1", "joint_2", "joint_3"]
 
 
 @pytest.mark.parametrize(("name", "is_noted"), [("gripper", True), ("moving_Jaw_joint", True), ("joint_6", False)])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from rgss.errors import DefinitionError
@@ -13,6 +13,9 @@ from rgss.studies.robot_project.urdf.reading import Note
 
 _LONGER_BY = 3
 """Joints by which the arm is longer than what else turns on one of its links; fingers of a hand differ by fewer."""
+_NO_FINGER = 2
+"""Joints in a row from which a branch may be a part of the arm."""
+
 _GRIPPING = ("gripper", "jaw", "finger", "claw")
 _DEFAULT_RANGE = (-3.141592653589793, 3.141592653589793)
 
@@ -91,22 +94,39 @@ def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
                 f"the joint {joint.get('name')} is {joint.get('type')}",
                 hint="an arm's joints are revolute, continuous or prismatic",
             )
-    hands = [
-        _end(joint, "child")
-        for joint in below.get(found, ())
-        if joint.get("type") != "fixed" or _leads_to_movable(_end(joint, "child"), below)
-    ]
+    hands = [_end(joint, "child") for joint in _ways(found, below)]
     return UrdfArm(
         name=root.get("name", "") or "arm",
         flange=found,
         joints=tuple(_joint(joint) for joint in moving),
         hands=tuple(hands),
-        notes=tuple(_notes_of_jaw(moving[-1])) if flange is None and len(moving) > 1 else (),
+        notes=() if flange is not None else (*_notes_of_jaw(moving), *_notes_of_division(found, below)),
     )
 
 
-def _notes_of_jaw(last: ET.Element) -> Iterator[Note]:
+def _notes_of_division(flange: str, below: Mapping[str, list[ET.Element]]) -> Iterator[Note]:
+    """Branches of different lengths at the end of the arm may be a hand, or the rest of the arm and a camera."""
+    link = flange
+    while len(ways := _ways(link, below)) == 1:
+        link = _end(ways[0], "child")
+    lengths = sorted((_joints_in_a_row(joint, below) for joint in ways), reverse=True)
+    if not ways or lengths[0] < _NO_FINGER or lengths[0] == lengths[1]:
+        return
+    last = _end(max(ways, key=lambda joint: _joints_in_a_row(joint, below)), "child")
+    while below.get(last):
+        last = _end(max(below[last], key=lambda joint: _joints_in_a_row(joint, below)), "child")
+    rationale = (
+        f"The URDF divides at {link}, into branches of {' and '.join(map(str, lengths))} joints in a row, which count"
+        f" as a hand: the arm ends before them. With --flange {last} it goes on along the longest."
+    )
+    yield Note(about="flange", rationale=rationale)
+
+
+def _notes_of_jaw(moving: Sequence[ET.Element]) -> Iterator[Note]:
     """A last joint that is named for what grips may be that of a jaw."""
+    if len(moving) == 1:
+        return
+    last = moving[-1]
     name = last.get("name", "")
     if any(word in name.casefold() for word in _GRIPPING):
         rationale = (
@@ -143,11 +163,7 @@ def _last_link(root: ET.Element, below: Mapping[str, list[ET.Element]]) -> str:
     rigid = [link]
     moved = False
     while True:
-        ways = [
-            joint
-            for joint in below.get(link, ())
-            if joint.get("type") != "fixed" or _leads_to_movable(_end(joint, "child"), below)
-        ]
+        ways = _ways(link, below)
         way = ways[0] if len(ways) == 1 else _longest(ways, below) if moved else None
         if way is not None:
             link = _end(way, "child")
@@ -170,6 +186,15 @@ def _last_link(root: ET.Element, below: Mapping[str, list[ET.Element]]) -> str:
         if not frames:
             return link
         link = frames[0]
+
+
+def _ways(link: str, below: Mapping[str, list[ET.Element]]) -> list[ET.Element]:
+    """Joints of a link that move, or lead to one that does."""
+    return [
+        joint
+        for joint in below.get(link, ())
+        if joint.get("type") != "fixed" or _leads_to_movable(_end(joint, "child"), below)
+    ]
 
 
 def _longest(ways: list[ET.Element], below: Mapping[str, list[ET.Element]]) -> ET.Element | None:

@@ -69,6 +69,12 @@ def complete_masses(root: ET.Element, urdf: Path, *, leave: Sequence[str], mass_
         solid = solids[name]
         share = 0.0 if solid is None or total == 0.0 else solid.volume_m3 / total
         _write(links[name], max(share, _LEAST_SHARE) * left, solid)
+    if total == 0.0:
+        rationale = (
+            f"{', '.join(massless)} have neither a mass nor a shape in the URDF, and weigh {_LEAST_SHARE * left:.3g} kg"
+            f" each: the {sum(stated.values()):g} kg of the other links are kept, not scaled to {mass_kg:g} kg."
+        )
+        return [*notes, Note(about="description", rationale=rationale)]
     return [
         *notes,
         Note(

@@ -1,0 +1,53 @@
+"""URDFs in which the arm divides: a head or a camera that turns, a hand, or two arms."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.robots.test_foreign_urdfs import CLEAN, rationales, tool
+
+
+def branch(parent, count, name):
+    """Links that turn one on the other, the first on a link of the arm."""
+    inertial = (
+        '<inertial><mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial>'
+    )
+    parts = []
+    for number in range(1, count + 1):
+        parts.append(
+            f'<link name="{name}_{number}">{inertial}</link><joint name="{name}_joint_{number}" type="revolute">'
+            f'<origin xyz="0 0 0.05"/><axis xyz="0 0 1"/><parent link="{parent}"/><child link="{name}_{number}"/>'
+            '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+        )
+        parent = f"{name}_{number}"
+    return "".join(parts)
+
+
+@pytest.mark.parametrize(("at", "count"), [("link_1", 1), ("link_1", 2), ("link_2", 1)])
+def test_what_turns_beside_the_arm_is_not_the_arm(draft, at, count):
+    clean = draft(CLEAN)
+    foreign = draft(CLEAN.replace("</robot>", f"{branch(at, count, 'head')}</robot>"))
+    assert foreign.arm.flange == clean.arm.flange == "flange"
+    assert [joint.name for joint in foreign.robot.joints] == [joint.name for joint in clean.robot.joints]
+    q = [0.3, -0.4, 0.5, 0.6, -0.7, 0.8]
+    assert tool(foreign, q) == pytest.approx(tool(clean, q), abs=1e-12)
+
+
+def test_an_arm_ends_where_fingers_begin_however_many_joints_they_have(draft):
+    fingers = "".join(branch("flange", count, name) for count, name in [(4, "thumb"), (4, "index"), (2, "little")])
+    drafted = draft(CLEAN.replace("</robot>", f"{fingers}</robot>"))
+    assert [joint.name for joint in drafted.robot.joints] == [f"joint_{number}" for number in range(1, 7)]
+
+
+def test_two_ways_of_like_length_end_the_arm_with_a_note_that_names_the_end_of_the_longer(draft):
+    drafted = draft(CLEAN.replace("</robot>", f"{branch('link_3', 2, 'other')}</robot>"))
+    assert [joint.name for joint in drafted.robot.joints] == ["joint_1", "joint_2", "joint_3"]
+    note = "The URDF divides at link_3, into branches of 3 and 2 joints in a row"
+    assert note in rationales(drafted)
+    assert "With --flange flange it goes on" in rationales(drafted)
+
+
+@pytest.mark.parametrize("lengths", [(1, 1), (1, 0), (2, 2, 1)])
+def test_a_hand_with_fingers_of_the_same_length_is_no_division(draft, lengths):
+    fingers = "".join(branch("flange", count, f"finger_{at}") for at, count in enumerate(lengths))
+    assert "divides" not in rationales(draft(CLEAN.replace("</robot>", f"{fingers}</robot>")))
