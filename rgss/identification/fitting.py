@@ -111,9 +111,10 @@ def fit_joint(recording: Recording, joint: str) -> ServoFit:
         raise DefinitionError(f"the recording has no motion of joint {joint!r}", hint="record steps or sines of it")
     problem = ServoProblem(segments, recording.control, recording.commands)
     found = problem.solved()
+    problem.refine()
     if recording.control is ServoControl.POSITION:
         problem.weigh(found)
-        found = problem.solved(found)
+    found = problem.solved(found)
     jacobian, residuals = problem.jacobian(found), problem.residuals(found)
     correlation = problem.autocorrelation(residuals)
     half, alike = _half_widths(

@@ -8,13 +8,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.identification.motion_of_servos import servo_motion
+from rgss.identification.motion_of_servos import LONGEST_STEP_S, servo_motion
 from rgss.identification.recording import CommandedPositions, Segment
 from rgss.scenes import JointServo, ServoControl
 
 Array = NDArray[np.float64]
 
 _LONGEST_DELAY_S = 0.5
+_SEARCH_STEP_S = 1.0e-3
 _MOST_GAIN_HZ = 5.0e3
 PARAMETER_ENDS = {
     "velocity_gain_hz": (0.01, _MOST_GAIN_HZ, 1.0),
@@ -43,6 +44,11 @@ class ServoProblem:
             np.array(values) for values in zip(*(PARAMETER_ENDS[n] for n in self.names), strict=True)
         )
         self._weights = (1.0, 1.0)
+        self._longest_step_s = _SEARCH_STEP_S
+
+    def refine(self) -> None:
+        """Solve servos in the finest steps from now on; the search among several starts needs none."""
+        self._longest_step_s = LONGEST_STEP_S
 
     def servo(self, values: Array) -> JointServo:
         """The servo with parameters, each within its ends."""
@@ -151,6 +157,7 @@ class ServoProblem:
                 series.commanded_rad_s,
                 start=_start(segment),
                 commands=self._commands,
+                longest_step_s=self._longest_step_s,
             )
             for index, parts in enumerate(found):
                 parts.append(
