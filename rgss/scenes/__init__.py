@@ -67,6 +67,7 @@ from rgss.scenes.objects import (
     finger_pads,
     grasp_opening_m,
     initial_placements,
+    mesh_volume_findings,
     region_now,
     scene_about,
     with_raised_stack,

@@ -10,7 +10,15 @@ from rgss.documents import Document, read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
-from rgss.scenes import GRIPPER_BASE_LINK, GripperGeometry, at_object, half_extents_m, misfit, palm_fit
+from rgss.scenes import (
+    GRIPPER_BASE_LINK,
+    GripperGeometry,
+    at_object,
+    half_extents_m,
+    mesh_volume_findings,
+    misfit,
+    palm_fit,
+)
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
@@ -72,6 +80,7 @@ def check_scene(project: Project) -> SceneCheck:
     every = len(_gripper_files(project))
     found += [places.finding(problem, files if len(files) < every else ()) for problem, files in of_reach.items()]
     found += places.outgrown_regions()
+    found += mesh_volume_findings(project.folder / label, label=label)
     found += [places.too_tall(tall, files, serves=len(files) < every) for tall, files in too_tall.items()]
     return SceneCheck(findings=tuple(sorted(found)))
 
