@@ -185,8 +185,11 @@ class _Places:
             at_place = problem.kind is SceneProblemKind.PLACE_UNSUPPORTED
             location = self._place_of(first) if at_place else self.at[first]
             where = "in its place" if at_place else "at the start"
-            message = f"{where}, {first} does not rest on {second}: its centre is {millimetres} beyond the edge"
+            message = f"{where}, {first} does not rest on {second}: its centre of mass is {millimetres} beyond the edge"
             hint = "move 'at' over the body, or name another in 'stands_on'"
+        elif problem.kind is SceneProblemKind.OBJECT_UNSTABLE:
+            severity = Severity.WARNING
+            message, hint = _instability_texts(problem)
         else:
             at_place = problem.kind is SceneProblemKind.PLACE_OVERLAP
             location = self._place_of(first) if at_place else self.at[first]
@@ -260,6 +263,15 @@ def _closing_texts(problem: SceneProblem, grippers: Sequence[str]) -> tuple[str,
     hint = "hold it nearer to the ends of the pads ('grasp_from_tip' of the gripper), or choose among candidates"
     message = f"while the hand{of} closes on {problem.first}, {problem.second} would {how}"
     return message, _OF_ONE_GRIPPER if grippers else hint
+
+
+def _instability_texts(problem: SceneProblem) -> tuple[str, str]:
+    """Message and hint of an object that cannot stand by itself."""
+    foot = f"{'an' if problem.detail == 'edge' else 'a'} {problem.detail} of its shape"
+    where = f"{problem.distance_m * 1e3:.3g} mm outside of it" if problem.distance_m > 1e-6 else "above it"
+    hint = "turn the shape ('rests'), state its 'centre_of_mass', or let bodies beside it hold it"
+    message = f"{problem.first} cannot stand by itself on {problem.second}: it touches it with {foot}, "
+    return f"{message}and its centre of mass is {where}", hint
 
 
 def _remedy(problem: SceneProblem) -> str:

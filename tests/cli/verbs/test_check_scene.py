@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import re
 import sys
 
 import pytest
+import trimesh
 
 SCENE = "scenes/restaurant.yaml"
 
@@ -135,8 +137,47 @@ def test_a_cup_that_does_not_rest_on_its_support(check_with):
 
     one = next(one for one in findings if one["rule"] == "scene.object-unsupported")
     assert "at the start, cup does not rest on counter_pick" in one["message"]
-    assert one["message"].endswith("its centre is 150 mm beyond the edge")
+    assert one["message"].endswith("its centre of mass is 150 mm beyond the edge")
     assert "stands_on" in one["hint"]
+
+
+@pytest.mark.parametrize(
+    ("shape", "rule", "message", "severity"),
+    [
+        (
+            "box: [160 mm, 50 mm, 60 mm]\n  centre_of_mass: [79 mm, 0 mm, 0 mm]\n  at: [1.04 m, -0.30 m]",
+            "scene.object-unsupported",
+            "at the start, cup does not rest on counter_pick (scenes/restaurant.yaml:26:11): its centre of mass is 69",
+            "error",
+        ),
+        (
+            "mesh: cone.stl\n  collision: hull\n  at: [0.70 m, -0.30 m]",
+            "scene.object-unstable",
+            "cup cannot stand by itself on counter_pick: it touches it with a point of its shape, and its centre",
+            "warning",
+        ),
+        (
+            "mesh: leaning.stl\n  collision: boxes\n  at: [0.70 m, -0.30 m]",
+            "scene.object-unstable",
+            "it touches it with a face of its shape, and its centre of mass is 9 mm outside of it",
+            "warning",
+        ),
+    ],
+)
+def test_an_object_that_topples_by_itself(check_with, folder, shape, rule, message, severity):
+    cone = trimesh.creation.cone(radius=0.03, height=0.09)
+    cone.apply_transform(trimesh.transformations.rotation_matrix(math.pi, [1, 0, 0]))
+    cone.export(folder / "scenes/cone.stl")
+    # A foot 20 mm wide, beside which an equal block of 60 mm lies on top: together 19 mm from the middle of the foot.
+    blocks = [trimesh.creation.box((0.02, 0.04, 0.06)), trimesh.creation.box((0.096, 0.04, 0.0125))]
+    blocks[1].apply_translation((0.038, 0.0, 0.03625))
+    trimesh.util.concatenate(blocks).export(folder / "scenes/leaning.stl")
+    kind, at = shape.rsplit("\n  ", 1)
+    _, findings, _ = check_with(("radius: 35 mm\n  height: 100 mm", kind), ("at: [0.70 m, -0.30 m]", at))
+
+    one = next(one for one in findings if one["rule"] == rule)
+    assert message in one["message"]
+    assert one["severity"] == severity
 
 
 def test_a_place_that_is_taken(check_with):
