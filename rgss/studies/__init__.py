@@ -9,6 +9,7 @@ if TYPE_CHECKING:
         bench_findings,
         double_counting_findings,
         impact_findings,
+        object_limit_findings,
         task_time_findings,
     )
     from rgss.studies.document import MOST_REPLICATES, StudyDocument

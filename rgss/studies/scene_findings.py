@@ -22,9 +22,10 @@ from rgss.scenes import (
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
+from rgss.studies.step_findings import step_findings
 
 if TYPE_CHECKING:
-    from rgss.trials import SceneProblem
+    from rgss.trials import HandStepProblem, SceneProblem
 
 _OF_ONE_GRIPPER = "designs with this gripper fail there, and the others do not"
 
@@ -49,22 +50,25 @@ def check_scene(project: Project) -> SceneCheck:
         project: The project.
     """
     try:
-        from rgss.trials import reach_problems, scene_problems
+        from rgss.trials import hand_step_problems, reach_problems, scene_problems
 
         of_bodies = scene_problems(project.scene)
         of_reach: dict[SceneProblem, list[str]] = {}
+        of_steps: dict[HandStepProblem, list[str]] = {}
         too_tall: dict[_TooTall, list[str]] = {}
         for file in _gripper_files(project):
             geometry = _mounting_that_holds(project, file)
             tall = _too_tall(geometry, project)
             if tall is not None:
                 too_tall.setdefault(tall, []).append(file)
+            clearance_m, task = project.study.planning.clearance_m, project.study.task
+            friction = _pad_friction(project, file)
+            for step in hand_step_problems(
+                project.scene, geometry, clearance_m=clearance_m, task=task, friction=friction
+            ):
+                of_steps.setdefault(step, []).append(file)
             for problem in reach_problems(
-                project.scene,
-                geometry,
-                clearance_m=project.study.planning.clearance_m,
-                friction=_pad_friction(project, file),
-                task=project.study.task,
+                project.scene, geometry, clearance_m=clearance_m, task=task, friction=friction
             ):
                 if tall is None or not _is_at_the_palm(problem, project.scene.workpiece.id):
                     of_reach.setdefault(problem, []).append(file)
@@ -79,6 +83,7 @@ def check_scene(project: Project) -> SceneCheck:
     found = [places.finding(problem, ()) for problem in of_bodies]
     every = len(_gripper_files(project))
     found += [places.finding(problem, files if len(files) < every else ()) for problem, files in of_reach.items()]
+    found += step_findings(project, of_steps, grippers=every)
     found += places.outgrown_regions()
     found += mesh_volume_findings(project.folder / label, label=label)
     found += [places.too_tall(tall, files, serves=len(files) < every) for tall, files in too_tall.items()]
