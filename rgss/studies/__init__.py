@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from rgss.studies.checks import (
         bench_findings,
         double_counting_findings,
+        draw_findings,
         impact_findings,
         object_limit_findings,
         task_time_findings,

@@ -241,7 +241,7 @@ def _object(scene: Scene, bodies: Sequence[Solid], supports: Sequence[Solid]) ->
         # A place that leaves open how the object is turned leaves open where its centre of mass comes to be.
         is_open = scene.task.is_yaw_free and pose is not workpiece.pose
         x, y = (0.0, 0.0) if is_open else workpiece.centre_of_mass_across_m
-        beyond = _beyond_edge(bearing, resting @ Pose(position_m=(x, y, 0.0)))
+        beyond = beyond_edge(bearing, resting @ Pose(position_m=(x, y, 0.0)))
         if beyond > 0.0:
             yield SceneProblem(kind=unsupported, first=workpiece.id, second=support, distance_m=beyond)
 
@@ -250,8 +250,13 @@ def _of(kind: SceneProblemKind, one: Overlap) -> SceneProblem:
     return SceneProblem(kind=kind, first=one.first, second=one.second, distance_m=one.depth_m)
 
 
-def _beyond_edge(support: Solid, centre: Pose) -> float:
-    """Distance of a centre of mass outside the top face of its support; 0 where it is above the face."""
+def beyond_edge(support: Solid, centre: Pose) -> float:
+    """Distance in m of a centre of mass outside the top face of its support; 0 where it is above the face.
+
+    Args:
+        support: The support.
+        centre: Pose in the world with that position.
+    """
     x, y, _ = (support.pose.inverse() @ centre).position_m
     half_x_m, half_y_m, _ = half_extents_m(support.shape)
     if isinstance(support.shape, Cylinder):
