@@ -63,8 +63,6 @@ from rgss.scenes.mass_properties import (
 )
 from rgss.scenes.mesh_shapes import is_empty_mesh, mesh_summary, write_convex_parts
 from rgss.scenes.objects import (
-    Foot,
-    FootKind,
     ObjectPlacement,
     finger_pads,
     foot_of,

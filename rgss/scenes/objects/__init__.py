@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.scenes.objects.foot import Foot, FootKind, foot_of
+    from rgss.scenes.objects.foot import foot_of
     from rgss.scenes.objects.further_objects import (
         colour_of,
         name_findings,

@@ -12,7 +12,7 @@ from rgss.findings import Severity
 from rgss.studies.checks.draw_check import draw_findings
 from rgss.studies.project import load_project
 
-REPOSITORY = Path(__file__).parents[2]
+REPOSITORY = Path(__file__).parents[3]
 
 
 @pytest.fixture

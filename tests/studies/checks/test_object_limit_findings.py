@@ -14,7 +14,7 @@ from rgss.studies.checks.object_limit_check import object_limit_findings
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 
-REPOSITORY = Path(__file__).parents[2]
+REPOSITORY = Path(__file__).parents[3]
 SCENE = "scenes/restaurant.yaml"
 
 
