@@ -20,6 +20,8 @@ _PLANNED = frozenset(
         Failure.PLANNING_LIMIT,
         Failure.INVALID_START,
         Failure.INVALID_GOAL,
+        Failure.MOVE_BLOCKED,
+        Failure.MOVE_UNREACHABLE,
         Failure.UNREACHABLE_WAYPOINT,
         Failure.TRAJECTORY_INFEASIBLE,
         Failure.TRAJECTORY_IN_COLLISION,

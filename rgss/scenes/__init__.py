@@ -65,8 +65,10 @@ from rgss.scenes.mesh_shapes import is_empty_mesh, mesh_summary, write_convex_pa
 from rgss.scenes.objects import (
     ObjectPlacement,
     finger_pads,
+    foot_of,
     grasp_opening_m,
     initial_placements,
+    mesh_volume_findings,
     region_now,
     scene_about,
     with_raised_stack,

@@ -1,9 +1,10 @@
-"""Convex approximations of a mesh: its hull, the hulls of its parts, or its bounding box."""
+"""Convex approximations of a mesh: its hull, the hulls of its parts, or the boxes about its bodies."""
 
 # long file: every use of the reader of meshes, which no other file has.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -109,6 +110,17 @@ def mesh_summary(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1
     )
 
 
+def shapes_volume_m3(shapes: Sequence[Vertices]) -> float:
+    """Sum of the volumes of convex shapes.
+
+    Args:
+        shapes: Their corners.
+    """
+    from scipy.spatial import ConvexHull
+
+    return math.fsum(float(ConvexHull(np.array(corners)).volume) for corners in shapes)
+
+
 def mesh_corners(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1.0)) -> Array:
     """Corners of a mesh in its frame, shape (k, 3), in m.
 
@@ -173,8 +185,7 @@ def _shapes(
 ) -> tuple[Vertices, ...]:
     mesh = read_mesh(path, scale)
     if how is CollisionShapes.BOXES:
-        edges = np.asarray(mesh.bounds, dtype=float).T.tolist()
-        return (tuple((x, y, z) for x in edges[0] for y in edges[1] for z in edges[2]),)
+        return _boxes(mesh)
     if how is CollisionShapes.DECOMPOSE:
         parts = _parts(mesh.split(only_watertight=False), most)
         if parts:
@@ -270,17 +281,36 @@ def _parts(bodies: Sequence[Any], most: int) -> list[Array]:
 
     Separate faces, such as the six of an open box, are taken for one body.
     """
-    parts: list[Array] = []
-    loose: list[Array] = []
-    for body in bodies:
-        if _has_volume(body.vertices):
-            parts += _convex_pieces(body, most)
-        else:
-            loose.append(body.vertices)
-    if not loose:
+    solid, faces = _bodies_and_faces(bodies)
+    parts = [piece for body in solid for piece in _convex_pieces(body, most)]
+    if faces is None:
         return parts
-    faces = np.vstack(loose)
     return [*parts, faces] if _has_volume(faces) else []
+
+
+def _bodies_and_faces(bodies: Sequence[Any]) -> tuple[list[Any], Array | None]:
+    """Bodies with a volume, and the corners of the others together; None if there are none."""
+    solid = [body for body in bodies if _has_volume(body.vertices)]
+    loose = [body.vertices for body in bodies if not _has_volume(body.vertices)]
+    return solid, np.vstack(loose) if loose else None
+
+
+def _boxes(mesh: Any) -> tuple[Vertices, ...]:
+    """Boxes about the bodies of a mesh along its axes, without those inside another; separate faces are one body."""
+    solid, faces = _bodies_and_faces(mesh.split(only_watertight=False))
+    clouds = [np.asarray(body.vertices, dtype=float) for body in solid]
+    clouds += [] if faces is None else [np.asarray(faces, dtype=float)]
+    bounds = [np.array((cloud.min(axis=0), cloud.max(axis=0))) for cloud in clouds]
+    if not bounds or any(np.any(low == high) for low, high in bounds):
+        bounds = [np.asarray(mesh.bounds, dtype=float)]
+    kept: list[Array] = []
+    for box in sorted(bounds, key=lambda one: -float(np.prod(one[1] - one[0]))):
+        if not any(np.all(one[0] <= box[0]) and np.all(box[1] <= one[1]) for one in kept):
+            kept.append(box)
+    return tuple(
+        tuple((x, y, z) for x in edges[0] for y in edges[1] for z in edges[2])
+        for edges in (box.T.tolist() for box in kept)
+    )
 
 
 def _has_volume(points: Array) -> bool:

@@ -8,7 +8,9 @@ if TYPE_CHECKING:
     from rgss.studies.checks import (
         bench_findings,
         double_counting_findings,
+        draw_findings,
         impact_findings,
+        object_limit_findings,
         task_time_findings,
     )
     from rgss.studies.document import MOST_REPLICATES, StudyDocument

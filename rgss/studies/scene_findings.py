@@ -15,18 +15,16 @@ from rgss.scenes import (
     GripperGeometry,
     at_object,
     half_extents_m,
-    initial_placements,
+    mesh_volume_findings,
     misfit,
-    palm_fit,
-    scene_about,
 )
+from rgss.studies.checks import TooTall, objects_too_tall, step_findings
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
-from rgss.tasks import HandAction, stages_of
 
 if TYPE_CHECKING:
-    from rgss.trials import SceneProblem
+    from rgss.trials import HandStepProblem, SceneProblem
 
 _OF_ONE_GRIPPER = "designs with this gripper fail there, and the others do not"
 
@@ -51,22 +49,25 @@ def check_scene(project: Project) -> SceneCheck:
         project: The project.
     """
     try:
-        from rgss.trials import reach_problems, scene_problems
+        from rgss.trials import hand_step_problems, reach_problems, scene_problems
 
         of_bodies = scene_problems(project.scene)
         of_reach: dict[SceneProblem, list[str]] = {}
-        too_tall: dict[_TooTall, list[str]] = {}
+        of_steps: dict[HandStepProblem, list[str]] = {}
+        too_tall: dict[TooTall, list[str]] = {}
         for file in _gripper_files(project):
             geometry = _mounting_that_holds(project, file)
-            tall = _too_tall(geometry, project)
+            tall = objects_too_tall(geometry, project)
             for one in tall:
                 too_tall.setdefault(one, []).append(file)
+            clearance_m, task = project.study.planning.clearance_m, project.study.task
+            friction = _pad_friction(project, file)
+            for step in hand_step_problems(
+                project.scene, geometry, clearance_m=clearance_m, task=task, friction=friction
+            ):
+                of_steps.setdefault(step, []).append(file)
             for problem in reach_problems(
-                project.scene,
-                geometry,
-                clearance_m=project.study.planning.clearance_m,
-                friction=_pad_friction(project, file),
-                task=project.study.task,
+                project.scene, geometry, clearance_m=clearance_m, task=task, friction=friction
             ):
                 if not any(_is_at_the_palm(problem, one.object) for one in tall):
                     of_reach.setdefault(problem, []).append(file)
@@ -81,7 +82,9 @@ def check_scene(project: Project) -> SceneCheck:
     found = [places.finding(problem, ()) for problem in of_bodies]
     every = len(_gripper_files(project))
     found += [places.finding(problem, files if len(files) < every else ()) for problem, files in of_reach.items()]
+    found += step_findings(project, of_steps, grippers=every)
     found += places.outgrown_regions()
+    found += mesh_volume_findings(project.folder / label, label=label)
     found += [places.too_tall(tall, files, serves=len(files) < every) for tall, files in too_tall.items()]
     return SceneCheck(findings=tuple(sorted(found)))
 
@@ -106,30 +109,6 @@ def _mounting_that_holds(project: Project, file: str) -> GripperGeometry:
     gripper, scene = project.grippers[file], project.scene
     held = (geometry for geometry in gripper.mountings.values() if not misfit(geometry, scene))
     return at_object(next(held, gripper.geometry), scene)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _TooTall:
-    """An object with heights above its grasp: of its top, and the most that leaves the clearance below the palm."""
-
-    object: str
-    top_m: float
-    most_m: float
-
-
-def _too_tall(geometry: GripperGeometry, project: Project) -> tuple[_TooTall, ...]:
-    """Gripped objects whose top would reach the palm, or come nearer to it than the clearance."""
-    scene, task = project.scene, project.study.task
-    placements = initial_placements(scene)
-    stages = stages_of(task, scene.workpiece.id)
-    found = []
-    for name in dict.fromkeys(stage.object for stage in stages if stage.step.hand is HandAction.CLOSES):
-        view = scene_about(scene, name, place="", placements=placements)
-        fit = palm_fit(at_object(geometry, view), view)
-        most_m = 0.0 if fit is None else fit.palm_m - project.study.planning.clearance_m
-        if fit is not None and fit.top_m > most_m:
-            found.append(_TooTall(object=name, top_m=fit.top_m, most_m=most_m))
-    return tuple(found)
 
 
 def _is_at_the_palm(problem: SceneProblem, name: str) -> bool:
@@ -195,8 +174,11 @@ class _Places:
             at_place = problem.kind is SceneProblemKind.PLACE_UNSUPPORTED
             location = self._place_of(first) if at_place else self.at[first]
             where = "in its place" if at_place else "at the start"
-            message = f"{where}, {first} does not rest on {second}: its centre is {millimetres} beyond the edge"
+            message = f"{where}, {first} does not rest on {second}: its centre of mass is {millimetres} beyond the edge"
             hint = "move 'at' over the body, or name another in 'stands_on'"
+        elif problem.kind is SceneProblemKind.OBJECT_UNSTABLE:
+            severity = Severity.WARNING
+            message, hint = _instability_texts(problem)
         else:
             at_place = problem.kind is SceneProblemKind.PLACE_OVERLAP
             location = self._place_of(first) if at_place else self.at[first]
@@ -206,7 +188,7 @@ class _Places:
         rule = f"scene.{problem.kind.value.replace('_', '-')}"
         return self.document.finding(rule, message, location, hint=hint, severity=severity)
 
-    def too_tall(self, tall: _TooTall, grippers: Sequence[str], *, serves: bool) -> Finding:
+    def too_tall(self, tall: TooTall, grippers: Sequence[str], *, serves: bool) -> Finding:
         """An object that is too tall for a hand, at its height.
 
         Args:
@@ -272,6 +254,15 @@ def _closing_texts(problem: SceneProblem, grippers: Sequence[str]) -> tuple[str,
     hint = "hold it nearer to the ends of the pads ('grasp_from_tip' of the gripper), or choose among candidates"
     message = f"while the hand{of} closes on {problem.first}, {problem.second} would {how}"
     return message, _OF_ONE_GRIPPER if grippers else hint
+
+
+def _instability_texts(problem: SceneProblem) -> tuple[str, str]:
+    """Message and hint of an object that cannot stand by itself."""
+    foot = f"{'an' if problem.detail == 'edge' else 'a'} {problem.detail} of its shape"
+    where = f"{problem.distance_m * 1e3:.3g} mm outside of it" if problem.distance_m > 1e-6 else "above it"
+    hint = "turn the shape ('rests'), state its 'centre_of_mass', or let bodies beside it hold it"
+    message = f"{problem.first} cannot stand by itself on {problem.second}: it touches it with {foot}, "
+    return f"{message}and its centre of mass is {where}", hint
 
 
 def _remedy(problem: SceneProblem) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from rgss.documents import Document
 from rgss.findings import Finding
 from rgss.scenes import GripperFile, Scene
-from rgss.scenes.uncertainty import unknown_objects
+from rgss.scenes.uncertainty import Constant, unknown_objects
 from rgss.studies.study import StudyDefinition
 
 _MASS = "workpiece.mass"
@@ -27,12 +27,17 @@ def uncertainty_findings(
     """
     both = scene.uncertainty.overridden_by(study.uncertainty)
     declared = set(both.names)
+    own = set(study.uncertainty.names)
+    constants = {one.quantity for one in both.values if isinstance(one.distribution, Constant)} - own
     further = [one.workpiece.id for one in scene.others]
     yield from unknown_objects(study.uncertainty.names, document, first=scene.workpiece.id, further=further)
     for index, group in enumerate(study.uncertainty.correlations):
         for name in group.quantities:
             if name not in declared:
                 message, hint = f"{name} has no distribution", "give it one under 'uncertainty', here or in the scene"
+                yield document.finding("uncertainty.group", message, ("correlations", index, "quantities"), hint=hint)
+            elif name in constants:
+                message, hint = f"{name} is constant in the scene and cannot be correlated", "take it out of the group"
                 yield document.finding("uncertainty.group", message, ("correlations", index, "quantities"), hint=hint)
     narrowest_m = min((file.geometry.largest_opening_m for file in grippers.values()), default=None)
     for index, case in enumerate(study.workload.cases):

@@ -75,6 +75,7 @@ def decide(
         flat_measures,
         infeasible_alternatives,
         near_ties,
+        ordered_ties,
         rank,
     )
     from rgss.tradeoff.programs import enumerate_alternatives
@@ -85,15 +86,8 @@ def decide(
         )
     enumeration = enumerate_alternatives(problem)
     certificate = _certified(problem, enumeration, (), independent, time_limit)
-    ties = tuple(int(variant) for variant in enumeration.variants[enumeration.tied])
-    ranking = rank(enumeration)
-    surpassed = _surpassed(problem, enumeration)
-    if last_of_equals:
-        ties = ties[::-1]
-        ranking = (*(ranking[: len(ties)][::-1]), *ranking[len(ties) :])
-    ties = tuple(sorted(ties, key=lambda variant: variant in surpassed))
-    equal = sorted(ranking[: len(ties)], key=lambda ranked: ranked.variant in surpassed)
-    ranking = (*equal, *ranking[len(ties) :])
+    ties, surpassed = ordered_ties(problem, enumeration, last_of_equals=last_of_equals)
+    ranking = rank(enumeration, ties)
     chosen = ties[0] if ties else None
     runner_up = find_runner_up(enumeration, ranking, ties)
     better, deciding_requirements, better_count = excluded_better(enumeration)
@@ -104,7 +98,7 @@ def decide(
         chosen=chosen,
         runner_up=runner_up,
         ties=ties,
-        surpassed=tuple(variant for variant in ties if variant in surpassed),
+        surpassed=surpassed,
         near_ties=near_ties(enumeration, ranking, ties, margin),
         ranking=ranking,
         infeasible=infeasible_alternatives(enumeration),
@@ -122,17 +116,6 @@ def decide(
         ),
         certificate=certificate,
     )
-
-
-def _surpassed(problem: TradeProblem, enumeration: Enumeration) -> frozenset[int]:
-    """The tied alternatives that another of them surpasses in the quantities of the valued measures."""
-    import numpy as np
-
-    from rgss.tradeoff.problem import surpassed_equals
-
-    rows = np.flatnonzero(enumeration.tied)
-    mask = surpassed_equals(enumeration.table, problem.deciding_functions, rows)
-    return frozenset(int(variant) for variant in enumeration.variants[rows[mask]])
 
 
 def best_alternatives(problem: TradeProblem, count: int) -> tuple[Certificate, ...]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from rgss.tradeoff.decision import LONGEST_LIST, Contribution, FlatMeasure, InfeasibleAlternative, RankedAlternative
 from rgss.tradeoff.infeasibility import RequirementCount, excluded_counts
+from rgss.tradeoff.problem import surpassed_equals
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -15,9 +16,23 @@ if TYPE_CHECKING:
     from rgss.tradeoff.programs import Enumeration, TradeProblem
 
 
-def rank(enumeration: Enumeration) -> tuple[RankedAlternative, ...]:
-    """Ranking of the feasible alternatives: the tied best by id, then the best of the rest, and so on."""
-    rows = enumeration.ordering.ranked(enumeration.feasible, LONGEST_LIST)
+def ordered_ties(
+    problem: TradeProblem, enumeration: Enumeration, *, last_of_equals: bool
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """The tied alternatives by rising or falling id, those last that another of them surpasses; and these alone."""
+    rows = np.flatnonzero(enumeration.tied)
+    mask = surpassed_equals(enumeration.table, problem.deciding_functions, rows)
+    step = -1 if last_of_equals else 1
+    surpassed = tuple(int(variant) for variant in enumeration.variants[rows[mask]][::step])
+    others = tuple(int(variant) for variant in enumeration.variants[rows[~mask]][::step])
+    return (*others, *surpassed), surpassed
+
+
+def rank(enumeration: Enumeration, ties: tuple[int, ...]) -> tuple[RankedAlternative, ...]:
+    """Ranking of the feasible alternatives: the tied best in their order, then the best of the rest, and so on."""
+    ranked = enumeration.ordering.ranked(enumeration.feasible, LONGEST_LIST)
+    tied = [enumeration.table.row_of(variant) for variant in ties[:LONGEST_LIST]]
+    rows = [*tied, *(int(row) for row in ranked[len(tied) :])]
     return tuple(
         RankedAlternative(
             variant=int(enumeration.variants[row]),

@@ -69,10 +69,9 @@ def check_place(world: ContactWorld) -> tuple[dict[str, Metric], Violation | Non
     if tilt_rad > scene.place.largest_tilt_rad:
         violation = Failure.NOT_UPRIGHT, f"the object is tilted by {math.degrees(tilt_rad):.1f} deg"
     elif error_m > scene.place.radius_m or height_error_m > scene.place.radius_m:
-        violation = (
-            Failure.NOT_IN_PLACE_REGION,
-            f"the object is {error_m * 1e3:.1f} mm from the place and {height_error_m * 1e3:.1f} mm off its height",
-        )
+        found = f"{error_m * 1e3:.1f} mm from the place and {height_error_m * 1e3:.1f} mm off its height"
+        most = f"at most {scene.place.radius_m * 1e3:.4g} mm each"
+        violation = Failure.NOT_IN_PLACE_REGION, f"the object is {found}, {most}"
     return {"place_error_m": error_m, "place_tilt_rad": tilt_rad}, violation
 
 

@@ -16,6 +16,7 @@ from rgss.scenes import (
     Pose,
     Scene,
     corners_of,
+    foot_of,
     half_extents_m,
     initial_placements,
     misfit,
@@ -47,6 +48,7 @@ class SceneProblemKind(str, Enum):
     PLACE_OVERLAP = "place_overlap"
     OBJECT_UNSUPPORTED = "object_unsupported"
     PLACE_UNSUPPORTED = "place_unsupported"
+    OBJECT_UNSTABLE = "object_unstable"
     HOME_COLLISION = "home_collision"
     UNSERVED = "unserved"
     NO_GRASP = "no_grasp"
@@ -62,12 +64,13 @@ class SceneProblem:
         first: The body, or the robot's link.
         second: The other body; empty if there is none.
         distance_m: Penetration depth of an overlap, or of a closing hand (negative if it only comes near it), or
-        distance of the object beyond the edge of its support; NaN for other problems.
+        distance of the object's centre of mass beyond the edge of its support, or outside its foot; NaN for other
+        problems.
         waypoint: The waypoint without a configuration, of the best candidate if no grasp can be carried out; None for
         other problems.
         is_at_place: True if it is a waypoint at the place, of which `second` is the name, if it has one.
         reason: The reason; None for other problems.
-        detail: Numbers of grasp candidates rejected by each filter; empty for other problems.
+        detail: Numbers of grasp candidates rejected by each filter, or the kind of a foot; empty for other problems.
     """
 
     kind: SceneProblemKind
@@ -209,6 +212,15 @@ def _object(scene: Scene, bodies: Sequence[Solid], supports: Sequence[Solid]) ->
     placed = scene.placed_object
     if isinstance(workpiece.shape, Cylinder):
         placed = Pose(position_m=(x, y, z + workpiece.shape.half_height_m))
+    foot = foot_of(workpiece)
+    if not foot.is_stable:
+        yield SceneProblem(
+            kind=SceneProblemKind.OBJECT_UNSTABLE,
+            first=workpiece.id,
+            second=scene.support,
+            distance_m=foot.outside_m,
+            detail=foot.kind.value,
+        )
     ends = (
         (workpiece.pose, scene.support, SceneProblemKind.OBJECT_OVERLAP, SceneProblemKind.OBJECT_UNSUPPORTED),
         (
@@ -225,7 +237,11 @@ def _object(scene: Scene, bodies: Sequence[Solid], supports: Sequence[Solid]) ->
             for one in overlaps((solid, body), deeper_than_m=OBJECT_TOUCHING_M):
                 yield _of(overlap, one)
         bearing = next(one for one in supports if one.name == support)
-        beyond = _beyond_edge(bearing, pose)
+        resting = pose if overlap is SceneProblemKind.OBJECT_OVERLAP else scene.placed_object
+        # A place that leaves open how the object is turned leaves open where its centre of mass comes to be.
+        is_open = scene.task.is_yaw_free and pose is not workpiece.pose
+        x, y = (0.0, 0.0) if is_open else workpiece.centre_of_mass_across_m
+        beyond = beyond_edge(bearing, resting @ Pose(position_m=(x, y, 0.0)))
         if beyond > 0.0:
             yield SceneProblem(kind=unsupported, first=workpiece.id, second=support, distance_m=beyond)
 
@@ -234,9 +250,14 @@ def _of(kind: SceneProblemKind, one: Overlap) -> SceneProblem:
     return SceneProblem(kind=kind, first=one.first, second=one.second, distance_m=one.depth_m)
 
 
-def _beyond_edge(support: Solid, pose: Pose) -> float:
-    """Distance of an object's centre outside the top face of its support; 0 where it is above the face."""
-    x, y, _ = (support.pose.inverse() @ pose).position_m
+def beyond_edge(support: Solid, centre: Pose) -> float:
+    """Distance in m of a centre of mass outside the top face of its support; 0 where it is above the face.
+
+    Args:
+        support: The support.
+        centre: Pose in the world with that position.
+    """
+    x, y, _ = (support.pose.inverse() @ centre).position_m
     half_x_m, half_y_m, _ = half_extents_m(support.shape)
     if isinstance(support.shape, Cylinder):
         return max(0.0, math.hypot(x, y) - half_x_m)

@@ -20,7 +20,7 @@ from rgss.scenes import too_wide
 from rgss.tasks import MoveKind, MoveStep, TaskProgram
 from rgss.trials.conditions import conditions_of
 from rgss.trials.path_quality import PathQuality, path_quality
-from rgss.trials.planning import TaskPlan
+from rgss.trials.planning import TaskPlan, stops_of
 from rgss.trials.reference import Array
 from rgss.trials.settings import PlanningSettings
 from rgss.trials.timing_settings import TimingProfile, TimingSettings
@@ -82,7 +82,7 @@ def time_task(
     for step, path in _paths(cell.task, plan):
         phase = step.name
         if path is None:
-            failures[phase] = (Failure.UNREACHABLE_WAYPOINT, _no_line(cell, phase))
+            failures[phase] = _no_line(cell, step)
             continue
         own = limits if step.speed_share == 1.0 else _limits(cell, timing, step.speed_share * tool_speed_m_s)
         result = _timed(cell, step, JointPath(path), own, settings, timing.profile)
@@ -98,12 +98,20 @@ def time_task(
     return TaskTiming(trajectories=trajectories, failures=failures, qualities=qualities)
 
 
-def _no_line(cell: Workcell, phase: str) -> str:
-    """Reason why a straight move has no path."""
-    message = f"the arm cannot follow the straight line of the {phase.replace('_', ' ')} without collision"
-    (leg,) = (leg for leg in cell.route.legs if leg.step.name == phase)
+def _no_line(cell: Workcell, step: MoveStep) -> tuple[Failure, str]:
+    """Reason why a straight move of the tool or of the joints has no path."""
+    line = "the straight line of the joints in the" if step.mode is MoveKind.JOINT else "the straight line of the"
+    message = f"the arm cannot follow {line} {step.name.replace('_', ' ')} without collision"
+    (leg,) = (leg for leg in cell.route.legs if leg.step.name == step.name)
     why = too_wide(cell.geometry, leg.scene)
-    return f"{message}: {why}" if why else message
+    stops = stops_of(cell)
+    if not why and step.name in stops.obstacles:
+        outcome, detail = stops.obstacles[step.name]
+        return Failure(outcome.value), detail
+    for index in (leg.start, leg.goal):
+        if not why and index in stops.reasons:
+            why = f"no valid configuration for {cell.route.stops[index].name}: {stops.reasons[index]}"
+    return Failure.UNREACHABLE_WAYPOINT, f"{message}: {why}" if why else message
 
 
 def timing_of(spec: TrialSpec, plan: TaskPlan) -> TaskTiming:

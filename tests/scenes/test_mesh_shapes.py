@@ -9,7 +9,7 @@ from scipy.spatial import ConvexHull
 
 from rgss.errors import DefinitionError
 from rgss.scenes.document import CollisionShapes
-from rgss.scenes.mesh_shapes import MOST_VERTICES, mesh_mass, mesh_summary, shapes_of_mesh
+from rgss.scenes.mesh_shapes import MOST_VERTICES, mesh_mass, mesh_summary, shapes_of_mesh, shapes_volume_m3
 
 ONE = (1.0, 1.0, 1.0)
 LFS_POINTER = b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 132456\n"
@@ -62,10 +62,21 @@ def test_a_round_mesh_has_few_corners_and_is_held_by_its_shape(saved):
     assert np.max(np.linalg.norm(corners, axis=1)) < 0.0835
 
 
-def test_the_box_about_a_mesh(saved):
-    (corners,) = shapes(saved(bracket()), CollisionShapes.BOXES)
-    assert len(corners) == 8
-    assert np.allclose(np.max(corners, axis=0), (0.1, 0.18, 0.02))
+def test_each_body_of_a_mesh_has_a_box(saved):
+    boxes = shapes(saved(bracket()), CollisionShapes.BOXES)
+    assert [len(corners) for corners in boxes] == [8, 8]
+    farthest = sorted(np.round(np.max(corners, axis=0), 6).tolist() for corners in boxes)
+    assert farthest == [[-0.06, 0.18, 0.02], [0.1, 0.02, 0.02]]
+    assert shapes_volume_m3(boxes) == pytest.approx(2 * 0.2 * 0.04 * 0.04)
+
+
+def test_a_box_inside_another_and_faces_without_a_volume_add_none(saved):
+    outer, inner = trimesh.creation.box((0.2, 0.1, 0.06)), trimesh.creation.icosphere(radius=0.02)
+    (corners,) = shapes(saved(trimesh.util.concatenate([inner, outer])), CollisionShapes.BOXES)
+    assert np.allclose(np.max(corners, axis=0), (0.1, 0.05, 0.03))
+    plate = trimesh.Trimesh([(0.3, 0, 0), (0.4, 0, 0), (0.4, 0.1, 0), (0.3, 0.1, 0)], [(0, 1, 2), (0, 2, 3)])
+    (corners,) = shapes(saved(trimesh.util.concatenate([outer, plate]), "flat.stl"), CollisionShapes.BOXES)
+    assert np.allclose(np.max(corners, axis=0), (0.4, 0.1, 0.03))
 
 
 def test_bodies_of_a_mesh_are_shapes_of_their_own(saved):

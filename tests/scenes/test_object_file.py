@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
 import trimesh
 
 from rgss.errors import DocumentError
-from rgss.scenes import Approach, Box, Cylinder, GraspCandidates, LyingCylinder, MeshShape
+from rgss.findings import Severity
+from rgss.scenes import Approach, Box, Cylinder, GraspCandidates, LyingCylinder, MeshShape, mesh_volume_findings
 
 ROUND = "  radius: 40 mm\n  height: 120 mm\n"
 MASS = "  mass: 300 g\n"
@@ -149,3 +151,30 @@ def test_a_yaw_of_the_object_is_kept_in_its_pose(kitchen):
     stated(kitchen, "  box: [60 mm, 50 mm, 80 mm]\n  yaw: 30 deg\n")
     x, y, _ = kitchen.scene().workpiece.pose.rotate((1.0, 0.0, 0.0))
     assert math.atan2(y, x) == pytest.approx(math.radians(30.0))
+
+
+def ratio_of(kitchen, collision):
+    """The ratio that the finding names; none without a finding."""
+    kitchen.scene()
+    found = list(mesh_volume_findings(kitchen.folder / "kitchen.yaml", label="kitchen.yaml"))
+    assert all(one.rule == "scene.mesh-volume" and one.severity is Severity.WARNING for one in found)
+    assert all(f"'collision: {collision}'" in one.message and one.hint for one in found)
+    return [float(re.search(r"with (.*) times", one.message)[1]) for one in found]
+
+
+@pytest.mark.parametrize(("collision", "warned"), [("hull", True), ("boxes", False), ("decompose", False)])
+def test_shapes_with_clearly_more_volume_than_their_mesh_are_a_warning(kitchen, collision, warned):
+    first, second = trimesh.creation.box((0.06, 0.01, 0.01)), trimesh.creation.box((0.01, 0.05, 0.01))
+    second.apply_translation((-0.025, 0.03, 0.0))
+    mesh_of(kitchen, trimesh.util.concatenate([first, second]))
+    stated(kitchen, f"  mesh: part.stl\n  collision: {collision}\n")
+    found = ratio_of(kitchen, collision)
+    # The hull of an L with arms of 60 mm, 10 mm thick, is their square without a triangle of 50 mm by 50 mm.
+    expected = round((0.06 * 0.06 - 0.05 * 0.05 / 2) / (0.06 * 0.01 + 0.05 * 0.01), 2)
+    assert found == ([expected] if warned else [])
+
+
+def test_a_box_about_a_round_body_is_a_warning(kitchen):
+    mesh_of(kitchen, trimesh.creation.cylinder(radius=0.03, height=0.08, sections=64))
+    stated(kitchen, "  mesh: part.stl\n  collision: boxes\n")
+    assert ratio_of(kitchen, "boxes") == [pytest.approx(4 / math.pi, abs=0.02)]

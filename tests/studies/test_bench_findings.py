@@ -50,6 +50,21 @@ def test_an_object_outside_of_it_is_found_with_the_range_and_has_no_payload(fold
     assert digests_of(spec, versions()).bench == ""
 
 
+def test_an_object_too_tall_for_the_middle_grasp_of_the_bench_only_lacks_its_payload(folder):
+    change(folder, "scenes/restaurant.yaml", "height: 100 mm", "height: 120 mm")
+    # With the stated grasp the trial fails for the same reason, which the check of the scene names.
+    assert list(bench_findings(load_project(folder))) == []
+    change(folder, "scenes/restaurant.yaml", "\ntask:\n", "\ntask:\n  grasp: automatic\n")
+    project = load_project(folder)
+    found = list(bench_findings(project))
+    assert found
+    assert all("gripped at its centre collides with the base of gripper" in one.message for one in found)
+    assert all(one.severity is Severity.WARNING for one in found)
+    spec = trial_specs(project, seeds=[1])[0]
+    assert bench_of(spec) is None
+    assert digests_of(spec, versions()).bench == ""
+
+
 def test_trials_without_contact_have_no_bench(folder):
     change(folder, "scenes/restaurant.yaml", "height: 100 mm", "height: 2 mm")
     change(folder, "studies/pick_place.yaml", "fidelity: contact", "fidelity: kinematic")

@@ -145,6 +145,15 @@ def test_what_contradicts_itself_is_told_at_its_place(append, problems, place_of
     assert [problem for problem in problems() if f"{place_of(STUDY, anchor)}: error: {expected} [" in problem]
 
 
+def test_a_constant_of_the_scene_cannot_be_correlated_by_a_study(append, problems, place_of):
+    append(SCENE, f"{OF_SCENE}  perception.z: {{constant: 1 mm, rationale: fixture}}\n")
+    group = "[perception.x, perception.z]"
+    append(STUDY, f"\ncorrelations:\n  - {{quantities: {group}, matrix: [[1, 0.2], [0.2, 1]], rationale: r}}\n")
+
+    message = "perception.z is constant in the scene and cannot be correlated (take it out of the group)"
+    assert [problem for problem in problems() if f"{place_of(STUDY, group)}: error: {message} [" in problem]
+
+
 def test_a_quantity_that_is_no_number_is_bad_input(append, problems, place_of):
     append(STUDY, "\nuncertainty:\n  workpiece.mass: {constant: heavy, rationale: r}\n")
 

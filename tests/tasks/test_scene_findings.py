@@ -97,3 +97,38 @@ def test_a_configuration_has_the_joints_of_the_arm_within_their_ranges(tmp_path,
         f"task.yaml:2:59: error: {last.name} is at 17.45, outside its range "
         f"(from {last.lower_rad:.4g} to {last.upper_rad:.4g}) [task.joint-range]"
     )
+
+
+@pytest.mark.parametrize(
+    ("steps", "at", "message"),
+    [
+        (
+            CARRY + "  - release: {}\n  - check: {held: true}\n",
+            "7:12",
+            "'check' requires 'held: true' of cup, which is not held (write 'held: false', or move the check)",
+        ),
+        (
+            CARRY + "  - check: {name: empty, held: false}\n  - release: {}\n",
+            "6:12",
+            "'empty' requires 'held: false' of cup, which is held since 'grip' (write 'held: true', or move the check)",
+        ),
+        (
+            GRASP + "  - check: {object: cup, held: true}\n",
+            "4:12",
+            "'check' requires 'held: true' of cup, which is not held (write 'held: false', or move the check)",
+        ),
+    ],
+)
+def test_a_check_that_contradicts_the_steps_before_it(tmp_path, scene, steps, at, message):
+    (finding,) = findings_of(tmp_path, scene, "steps:\n" + steps)
+    assert finding == f"task.yaml:{at}: error: {message} [task.held]"
+
+
+def test_checks_that_agree_with_the_steps_before_them(tmp_path, scene):
+    before, carried, after = (
+        f"  - check: {{name: {name}, held: {held}}}\n"
+        for name, held in (("before", "false"), ("carried", "true"), ("after", "false"))
+    )
+    again = "  - move: {name: again, to: grasp}\n"
+    steps = GRASP + before + again + CARRY.removeprefix(GRASP) + carried + "  - release: {}\n" + after
+    assert findings_of(tmp_path, scene, "steps:\n" + steps) == []

@@ -13,7 +13,7 @@ from rgss.evidence import Failure, Fidelity, PlanOutcome
 from rgss.kinematics import inverse_kinematics
 from rgss.motion import ClockKind, PlanningClock
 from rgss.scenes import Waypoint, waypoint_poses
-from rgss.tasks import MoveKind
+from rgss.tasks import MoveKind, load_task
 from rgss.trials.pieces import Pieces
 from rgss.trials.pieces.plan_json import plan_from_json, plan_to_json
 from rgss.trials.planning import direct_move, plan_of
@@ -25,6 +25,18 @@ from .spec_changes import with_moves
 pytestmark = pytest.mark.engine
 
 RESOLUTION_RAD = 0.01
+TASK = """task: transfer
+start: {{to: grasp_approach}}
+steps:
+  - move: {{to: grasp}}
+  - grip: {{}}
+  - move: {{to: lift, mode: straight}}
+  - move: {{to: grasp_departure}}
+  - move: {{to: place_approach, mode: {transfer}}}
+  - move: {{to: place}}
+  - release: {{}}
+  - move: {{name: return, to: grasp_approach, mode: {back}}}
+"""
 
 
 @pytest.fixture(scope="module")
@@ -125,6 +137,37 @@ def test_a_blocked_move_ends_the_trial_and_says_where_and_by_what(reference, pha
     assert record.metrics["attempt_time_s"] > 0.0
     again = plan_from_json(plan_to_json(plan_of(spec)))
     assert again.moves[Phase(phase)].detail == detail
+
+
+@pytest.mark.parametrize(
+    ("transfer", "back", "phase", "detail"),
+    [
+        (
+            "joint",
+            "planned",
+            "move_to_place_approach",
+            "the straight line of the joints is blocked at 44 % of the way: gripper_base is 3.0 mm from coffee_machine",
+        ),
+        (
+            "planned",
+            "straight",
+            "return",
+            "the straight line of the tool is blocked at 16 % of the way: finger_1 is 7.4 mm from menu_stand",
+        ),
+    ],
+)
+def test_a_direct_move_of_the_task_says_where_it_is_blocked_and_by_what(
+    reference, tmp_path, transfer, back, phase, detail
+):
+    path = tmp_path / "task.yaml"
+    path.write_text(TASK.format(transfer=transfer, back=back), encoding="utf-8")
+
+    planning = replace(reference.settings.planning, moves=())
+    spec = replace(reference, settings=replace(reference.settings, planning=planning), task=load_task(path).program)
+    record = Pieces().record(spec)
+
+    assert (record.failed_phase, record.failure) == (phase, Failure.MOVE_BLOCKED)
+    assert record.failure_detail == f"{detail}, 8 mm must be kept"
 
 
 def test_a_limit_that_the_check_does_not_keep_is_the_planning_limit(reference):

@@ -90,7 +90,7 @@ TRIALS = {
     ),
     "a lift out of reach": (
         lambda spec: with_task(spec, lift_height_m=0.9),
-        (Failure.UNREACHABLE_WAYPOINT, Phase.LIFT, "the arm cannot follow the straight line of the lift .*"),
+        (Failure.UNREACHABLE_WAYPOINT, Phase.LIFT, ".* straight line of the lift .*: no valid configuration .*"),
     ),
     "a place out of reach": (
         lambda spec: with_place(spec, centre_m=(-3.0, 0.7, 0.9)),
@@ -141,7 +141,7 @@ TRIALS = {
         (
             Failure.NOT_IN_PLACE_REGION,
             Phase.PLACE,
-            r"the object is 0\.\d mm from the place and 0\.\d mm off its height",
+            r"the object is 0\.\d mm from the place and 0\.\d mm off its height, at most 0\.0001 mm each",
         ),
     ),
     "a cup released high above the place": (
@@ -149,7 +149,7 @@ TRIALS = {
         (
             Failure.OBJECT_DAMAGED,
             Phase.PLACE,
-            r"the object landed with 1\.\d\d m/s after a drop of 25\d\.\d mm, above its limit of 1 m/s",
+            r"the object landed with 2\.2\d m/s after a drop of 25\d\.\d mm, above its limit of 1 m/s",
         ),
     ),
     "a cup that bears a fall and may be dropped": (
@@ -255,7 +255,7 @@ UNFORESEEN = {
         (
             Failure.NOT_IN_PLACE_REGION,
             Phase.PLACE,
-            r"the object is 60\.\d mm from the place and 0\.\d mm off its height",
+            r"the object is 60\.\d mm from the place and 0\.\d mm off its height, at most 40 mm each",
         ),
     ),
     "a counter that slopes and is slippery": (

@@ -123,8 +123,6 @@ def analyse_robustness(
     parts = PartComputer()
     generator = np.random.default_rng(project.study.seed)
     resamples = _resamples(table, generator, refused)
-    # Levels are compared on common seeds, since replicates may have been added to some variants only.
-    alike = common_seeds(project, measured)
     values = single_values(problem, table)
     weights = np.array([problem.weighting.weights[measure] for measure in problem.weighting.deciding_measures])
     chosen = None if decision.chosen is None else table.row_of(decision.chosen)
@@ -163,13 +161,18 @@ def analyse_robustness(
         prices=parts.compute(Part.PRICES, lambda: requirement_prices(problem, table), ()),
         reversals=parts.compute(Part.REVERSALS, lambda: _reversals(problem, table, feasible), ()),
         stretched=parts.compute(Part.STRETCHED, lambda: _stretched(problem, table, feasible, weights), ()),
-        effects=parts.compute(Part.EFFECTS, lambda: study_effects(project, alike, resamples), _NO_EFFECTS),
+        effects=parts.compute(Part.EFFECTS, lambda: _effects(project, measured, resamples), _NO_EFFECTS),
         draws=draws,
         resamples=0 if resamples is None else len(resamples.probabilities),
         all_resamples=resamples is not None and resamples.exact,
         refused=refused,
         not_computed=parts.missing,
     )
+
+
+def _effects(project: Project, measured: Sequence[VariantMeasures], resamples: Resamples | None) -> StudyEffects:
+    # Levels are compared on common seeds, since replicates may have been added to some variants only.
+    return study_effects(project, common_seeds(project, measured), resamples)
 
 
 def _assumed(

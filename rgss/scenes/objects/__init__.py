@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.scenes.objects.foot import foot_of
     from rgss.scenes.objects.further_objects import (
         colour_of,
         name_findings,
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
         other_solids,
         positive_values,
     )
+    from rgss.scenes.objects.mesh_findings import mesh_volume_findings
     from rgss.scenes.objects.object_entry import candidates_of, object_lengths
     from rgss.scenes.objects.object_file import object_solid, workpiece_of
     from rgss.scenes.objects.opening import grasp_opening_m

@@ -23,6 +23,7 @@ from rgss.scenes.findings import Location, named_file_findings
 from rgss.scenes.grasps import GivenGrasp, rotation_of
 from rgss.scenes.mass_properties import Gyration
 from rgss.scenes.mesh_shapes import mesh_mass, mesh_summary, shapes_of_mesh
+from rgss.scenes.objects.mesh_findings import mesh_findings
 from rgss.scenes.objects.object_entry import OWN, form_findings, object_lengths
 from rgss.scenes.pose import Pose
 from rgss.scenes.scene import ColourRgba, Workpiece
@@ -31,8 +32,6 @@ from rgss.scenes.shapes import Box, Cylinder, LyingCylinder, MeshShape, ObjectSh
 MOST_PARTS = 16
 """Greatest number of convex parts of an object; each is checked with each body and pad in every step."""
 
-_LARGEST_M, _SMALLEST_M = 3.0, 1.0e-3
-_CONVEX = 1.02
 _TIPPED = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (0.0, math.pi / 2, 0.0))
 
 
@@ -144,33 +143,7 @@ def _mesh_solid(
 ) -> ObjectSolid | None:
     summary = mesh_summary(path, scale=(entry.scale,) * 3)
     before, location = len(findings), (*at, "mesh")
-    size = max(summary.extent_m)
-    if not _SMALLEST_M <= size <= _LARGEST_M:
-        hint = "give 'scale: 0.001' for a mesh in millimetres" if size > _LARGEST_M else "give a greater 'scale'"
-        findings.append(
-            document.finding(
-                "scene.mesh-units", f"the mesh is {size:.3g} m long; lengths are in m", location, hint=hint
-            )
-        )
-    is_stated = entry.centre_of_mass is not None and entry.inertia is not None and entry.mass is not None
-    if not summary.is_closed and not is_stated:
-        findings.append(
-            document.finding(
-                "scene.mesh-open",
-                "the mesh must be closed for mass properties",
-                location,
-                hint="close it, or give mass, centre_of_mass and inertia",
-            )
-        )
-    if summary.is_closed and summary.hull_ratio > _CONVEX and entry.collision is None:
-        findings.append(
-            document.finding(
-                "scene.mesh-concave",
-                f"the mesh is concave: its hull has {summary.hull_ratio:.2f} times its volume",
-                location,
-                hint="write 'collision: decompose' (package coacd), or 'hull' for the hull",
-            )
-        )
+    findings.extend(mesh_findings(entry, summary, document, location))
     if len(findings) > before:
         return None
     how = entry.collision or CollisionShapes.HULL

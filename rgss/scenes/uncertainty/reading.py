@@ -55,8 +55,9 @@ def read_uncertainty(
     groups = []
     taken: set[str] = set()
     known = None if declared is None else {*values, *declared}
+    constants = {name for name, entry in values.items() if entry.constant is not None}
     for index, group in enumerate(correlations):
-        wrong = _wrong_group(group, taken, known)
+        wrong = _wrong_group(group, taken, known, constants)
         taken.update(group.quantities)
         if wrong:
             message, key, hint = wrong
@@ -166,7 +167,9 @@ class _Reader:
         self._findings.append(self._document.finding(rule, message, (*self._place, *place), hint=hint))
 
 
-def _wrong_group(group: CorrelationEntry, taken: set[str], known: set[str] | None) -> tuple[str, str, str] | None:
+def _wrong_group(
+    group: CorrelationEntry, taken: set[str], known: set[str] | None, constants: set[str]
+) -> tuple[str, str, str] | None:
     """Message, key and hint of the first error of a group; None if it is valid."""
     size = len(group.quantities)
     if len(set(group.quantities)) < size or taken.intersection(group.quantities):
@@ -174,6 +177,9 @@ def _wrong_group(group: CorrelationEntry, taken: set[str], known: set[str] | Non
     missing = [] if known is None else [name for name in group.quantities if name not in known]
     if missing:
         return f"{missing[0]} has no distribution", "quantities", "give it one under 'uncertainty'"
+    fixed = [name for name in group.quantities if name in constants]
+    if fixed:
+        return f"{fixed[0]} is constant and cannot be correlated", "quantities", "take it out of the group"
     if len({quantity_of(name).count for name in group.quantities}) > 1:
         return "a quantity of each joint can be correlated only with others of each joint", "quantities", ""
     if any(len(row) != size for row in group.matrix) or len(group.matrix) != size:

@@ -7,7 +7,11 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.studies.checks.bench_check import bench_findings
     from rgss.studies.checks.double_counting import double_counting_findings
+    from rgss.studies.checks.draw_check import draw_findings
     from rgss.studies.checks.impact_check import impact_findings
+    from rgss.studies.checks.object_limit_check import object_limit_findings
+    from rgss.studies.checks.step_check import step_findings
     from rgss.studies.checks.task_time_check import task_time_findings
+    from rgss.studies.checks.too_tall import TooTall, objects_too_tall
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from rgss.documents import read_document
 from rgss.evidence import Fidelity
 from rgss.findings import Finding, Severity
+from rgss.scenes import palm_fit
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
+
+if TYPE_CHECKING:
+    from rgss.trials import TrialSpec
 
 _BENCH_PAYLOAD = "trial.bench_payload_kg"
 
@@ -16,8 +21,8 @@ _BENCH_PAYLOAD = "trial.bench_payload_kg"
 def bench_findings(project: Project) -> Iterator[Finding]:
     """Findings on the quantities of the study's designs that are outside the payload bench's validated range.
 
-    A suction cup has no bench. It is a warning where a measure takes the payload from the bench, and only noted where
-    none does.
+    A suction cup has no bench, and an object too tall for the stated grasp has a finding of the scene. It is a warning
+    where a measure takes the payload from the bench, and only noted where none does.
 
     Args:
         project: The project with its study.
@@ -29,7 +34,7 @@ def bench_findings(project: Project) -> Iterator[Finding]:
     strange: dict[str, list[int]] = {}
     known: dict[object, tuple[str, ...]] = {}
     for spec in trial_specs(project, seeds=(project.study.seed,)):
-        if spec.gripper.suction is not None:
+        if spec.gripper.suction is not None or _is_too_tall(spec):
             continue
         if spec.gripper not in known:
             known[spec.gripper] = outside(payload_bench(spec))
@@ -45,6 +50,11 @@ def bench_findings(project: Project) -> Iterator[Finding]:
             severity=Severity.WARNING if is_measured else Severity.INFO,
             hint="bench_payload_kg is then missing, and with it every measure that depends on it",
         )
+
+
+def _is_too_tall(spec: TrialSpec) -> bool:
+    fit = palm_fit(spec.gripper.geometry, spec.scene)
+    return fit is not None and fit.top_m >= fit.palm_m
 
 
 def variants_text(numbers: list[int]) -> str:

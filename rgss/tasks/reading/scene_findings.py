@@ -8,7 +8,7 @@ from rgss.findings import Finding
 from rgss.scenes import Scene
 from rgss.tasks.reading.reader import Location
 from rgss.tasks.reading.task_file import LoadedTask
-from rgss.tasks.steps import Mention, MoveStep, Named, Target
+from rgss.tasks.steps import CheckStep, HandAction, Mention, MoveStep, Named, Target
 
 
 def task_findings(loaded: LoadedTask, scene: Scene) -> tuple[Finding, ...]:
@@ -27,7 +27,26 @@ def task_findings(loaded: LoadedTask, scene: Scene) -> tuple[Finding, ...]:
         found += _of_mentions(loaded, scene, step.mentions, at)
         if isinstance(step, MoveStep):
             found += _of_joints(loaded, scene, step.target)
+    found += _of_held(loaded, scene)
     return tuple(sorted(set(found)))
+
+
+def _of_held(loaded: LoadedTask, scene: Scene) -> Iterator[Finding]:
+    """Checks of whether an object is held that contradict the steps before."""
+    held = gripped = ""
+    for step, at in zip(loaded.program.steps, loaded.places, strict=True):
+        if isinstance(step, CheckStep) and step.held is not None:
+            name = step.object or scene.workpiece.id
+            if step.held is not (held == name):
+                stated = "held: true" if step.held else "held: false"
+                is_held = f"is held since {gripped!r}" if held == name else "is not held"
+                message = f"{step.name!r} requires '{stated}' of {name}, which {is_held}"
+                hint = f"write 'held: {str(not step.held).lower()}', or move the check"
+                yield loaded.document.finding("task.held", message, at, hint=hint)
+        if step.hand is HandAction.CLOSES:
+            held, gripped = step.object or scene.workpiece.id, step.name
+        elif step.hand is HandAction.OPENS:
+            held = ""
 
 
 def _of_mentions(loaded: LoadedTask, scene: Scene, mentions: Iterable[Mention], at: Location) -> Iterator[Finding]:

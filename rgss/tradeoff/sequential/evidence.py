@@ -92,17 +92,15 @@ class SequentialEvidence:
         replicates: Number of replicates of each, shape (n,).
         thresholds: Thresholds of the requirements.
         observed: The relevant measures observed in trials.
+        value_functions: Value functions of the measures that decide.
         fixed_value: Contribution to the value of the measures that depend only on the design, shape (n,).
         fixed_met: Mask of the alternatives that meet every threshold on such measures, shape (n,).
         values: Weighted value by the estimates, shape (n,); NaN where a measure is unknown.
-        feasible: Mask of the alternatives that meet all conditions by their estimates, within the tolerance, shape
-        (n,).
-        value_functions: Value functions of the measures that decide.
+        feasible: Mask of the alternatives that meet all conditions by their estimates, within the tolerance.
         tolerance: Share of a threshold on observed measures by which the choice may violate it.
         last_of_equals: True if the largest id of equals is the choice; the smallest otherwise.
         twins: The group of alternatives with which each shares all trials, for any seed, shape (n,).
-        levels: The level of each alternative in each factor of its design, shape (n, f), used by the posterior draws;
-        None if designs do not have levels.
+        levels: The level of each alternative in each factor of its design, shape (n, f); None without levels.
     """
 
     table: EvidenceTable
@@ -135,7 +133,7 @@ class SequentialEvidence:
             problem: The trade-off, whose alternatives have their replicates.
             proportions: The measures that are shares of trials.
             twins: By alternative, the group with which it shares all trials; each its own by default.
-            levels: The level of each alternative, by ascending id, in each factor of its design, shape (n, f).
+            levels: The level of each alternative, by ascending id, in each factor, shape (n, f).
             tolerance: As the attribute.
             last_of_equals: As the attribute.
 
@@ -146,15 +144,14 @@ class SequentialEvidence:
         table = tabulated(problem.alternatives)
         weights = problem.weighting.weights
         valued = problem.weighting.deciding_measures
-        fixed_value = np.zeros(len(table))
-        values = np.zeros(len(table))
+        fixed_value, values = np.zeros(len(table)), np.zeros(len(table))
         observed = []
         for measure in dict.fromkeys((*valued, *(one.measure for one in problem.thresholds))):
-            worth = np.zeros(len(table))
             function = problem.value_function(measure) if measure in valued else None
-            if function is not None:
-                worth = weights[measure] * _worth(function, table.column(measure))
-                values += worth
+            worth = (
+                np.zeros(len(table)) if function is None else weights[measure] * _worth(function, table.column(measure))
+            )
+            values += worth
             if measure not in table.samples:
                 fixed_value += worth
                 continue

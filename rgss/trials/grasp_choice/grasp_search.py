@@ -107,6 +107,10 @@ class GraspSearch:
         """Numbers of rejections by filter in one line, without any candidate with the widths that did not fit."""
         counts = [(reason.value, count) for reason, count in self.ranked.rejected_frames.items()]
         counts += [(reason.value, count) for reason, count in self.rejected.items()]
+        if not counts and not self.ranked.grasps:
+            if self.geometry.cup is not None:
+                return "its shape has no flat face for the cup"
+            return "its shape has no two surfaces that face each other within the friction of the pads"
         text = ", ".join(f"{reason}: {count}" for reason, count in counts)
         return text if self.ranked.grasps else text + self._widths()
 

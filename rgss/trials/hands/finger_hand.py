@@ -68,7 +68,8 @@ class FingerHand:
     def shortfall(self, forces_n: Sequence[float], needed_n: float) -> str:
         """Message with the force of each finger and the required force."""
         shown = ", ".join(f"{force:.2f}" for force in forces_n)
-        return f"fingers press with {shown} N, each needs {needed_n:.2f} N"
+        where = "" if any(forces_n) else "nothing is between the fingers: "
+        return f"{where}fingers press with {shown} N, each needs {needed_n:.2f} N"
 
     def is_firm(self, forces_n: Sequence[float], needed_n: float) -> bool:
         """True if each finger's force exceeds the stated threshold, or their sum the force that friction requires.

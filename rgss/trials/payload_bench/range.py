@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from rgss.errors import DefinitionError
 from rgss.physics import MOST_ITERATIONS
-from rgss.scenes import Cylinder
 from rgss.trials.payload_bench.spec import BenchSpec
 
 BOUND = 0.02
@@ -97,14 +97,17 @@ VALIDATED: tuple[ValidatedQuantity, ...] = (
 
 
 def outside(spec: BenchSpec) -> tuple[str, ...]:
-    """Quantities of a bench outside the validated range, one phrase each.
+    """Quantities of a bench outside the validated range, and what makes it impossible, one phrase each.
 
     Args:
         spec: The bench.
     """
     found = []
-    if spec.grasp is None and not isinstance(spec.shape, Cylinder):
-        found.append("no grasp of the object from above")
+    # A trial can choose another grasp than the bench: a bench that cannot be built has no result, and the trial runs.
+    try:
+        spec.check()
+    except DefinitionError as error:
+        found.append(error.message)
     for quantity in VALIDATED:
         value = quantity.of(spec)
         if not quantity.contains(value):

@@ -12,6 +12,11 @@ if TYPE_CHECKING:
     from rgss.trials.planning.planned_moves import PlannedMove, TaskPlan
     from rgss.trials.planning.planner_searches import searches_of
     from rgss.trials.planning.planning_costs import state_cost
-    from rgss.trials.planning.task_stops import every_stop_is_feasible, infeasible_waypoints, waypoint_configurations
+    from rgss.trials.planning.task_stops import (
+        every_stop_is_feasible,
+        infeasible_waypoints,
+        stops_of,
+        waypoint_configurations,
+    )
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

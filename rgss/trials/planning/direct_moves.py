@@ -81,16 +81,46 @@ def direct_move(
     if time_s > limit_s or (blocked is None and affordable < len(states)):
         return DirectMove(outcome=PlanOutcome.BUDGET_SPENT, checks=checks, time_s=min(time_s, limit_s))
     if blocked is not None:
-        place = f"{_NAMES[kind]} is blocked at {_percent(share * checks / len(states))}"
-        return DirectMove(
-            outcome=PlanOutcome.MOVE_BLOCKED,
-            checks=checks,
-            time_s=time_s,
-            detail=f"{place}: {_obstacle(model, states[blocked])}",
-        )
+        detail = _blocked(kind, states, blocked, share, model)
+        return DirectMove(outcome=PlanOutcome.MOVE_BLOCKED, checks=checks, time_s=time_s, detail=detail)
     if broken:
         return DirectMove(outcome=PlanOutcome.MOVE_UNREACHABLE, checks=checks, time_s=time_s, detail=broken)
     return DirectMove(outcome=PlanOutcome.SOLVED, checks=checks, time_s=time_s, path_rad=corners)
+
+
+def move_obstacle(
+    kind: MoveKind,
+    start: Array,
+    goal: Array,
+    goal_pose: Pose,
+    *,
+    inverse: InverseKinematics,
+    model: CollisionModel,
+    resolution_rad: float,
+) -> tuple[PlanOutcome, str] | None:
+    """Reason why a direct move cannot be made, without a planning clock; None if it can.
+
+    Args:
+        kind: Straight or joint.
+        start: Joint positions at its start, shape (n,).
+        goal: Joint positions at its end, shape (n,).
+        goal_pose: Transform of the tool-centre frame to the world at its end.
+        inverse: Inverse kinematics of the arm.
+        model: Collision model of the move.
+        resolution_rad: Greatest Euclidean distance in joint space between two checked states.
+    """
+    corners, share, broken = _line(kind, start, goal, goal_pose, inverse)
+    states = _states(corners, resolution_rad)
+    blocked = next((index for index, q in enumerate(states) if not model.is_valid(q)), None)
+    if blocked is not None:
+        return PlanOutcome.MOVE_BLOCKED, _blocked(kind, states, blocked, share, model)
+    return (PlanOutcome.MOVE_UNREACHABLE, broken) if broken else None
+
+
+def _blocked(kind: MoveKind, states: Array, index: int, share: float, model: CollisionModel) -> str:
+    """Place of the first invalid state along a move, and its reason."""
+    place = f"{_NAMES[kind]} is blocked at {_percent(share * (index + 1) / len(states))}"
+    return f"{place}: {_obstacle(model, states[index])}"
 
 
 def _line(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
 
+from rgss.evidence import PlanOutcome
 from rgss.kinematics import (
     CollisionModel,
     InverseKinematics,
@@ -20,6 +21,7 @@ from rgss.kinematics import (
 from rgss.motion import segment_states
 from rgss.scenes import Pose
 from rgss.tasks import MoveKind
+from rgss.trials.planning.direct_moves import move_obstacle
 from rgss.trials.planning.goal_reasons import GoalReason, infeasibility_reason
 from rgss.trials.reference import Array
 from rgss.trials.route import Leg, Stop
@@ -37,11 +39,13 @@ class TaskStops:
         configurations: Joint positions (n,) by the index of the stop, without stops that have no valid one.
         direct: Configurations (k, n) of each move that the task defines as straight; None if it is infeasible.
         reasons: Reason why a stop has no valid configuration, by its index.
+        obstacles: Outcome and detail of each infeasible straight move between stops that have one.
     """
 
     configurations: Mapping[int, Array]
     direct: Mapping[str, Array | None]
     reasons: Mapping[int, GoalReason]
+    obstacles: Mapping[str, tuple[PlanOutcome, str]] = field(default_factory=dict)
 
 
 @lru_cache(maxsize=4)
@@ -67,8 +71,9 @@ def stops_of(cell: Workcell) -> TaskStops:
     if chosen is None:
         return TaskStops(configurations={}, direct=none, reasons=reasons)
     found = dict(zip(order, chosen, strict=True))
-    direct = {**none, **_direct_moves(cell, found)}
-    return TaskStops(configurations=found, direct=direct, reasons=reasons)
+    obstacles: dict[str, tuple[PlanOutcome, str]] = {}
+    direct = {**none, **_direct_moves(cell, found, obstacles)}
+    return TaskStops(configurations=found, direct=direct, reasons=reasons, obstacles=obstacles)
 
 
 def every_stop_is_feasible(cell: Workcell) -> bool:
@@ -143,16 +148,24 @@ def _reasons(cell: Workcell, among: Iterable[int]) -> dict[int, GoalReason]:
     return found
 
 
-def _direct_moves(cell: Workcell, found: dict[int, Array]) -> dict[str, Array | None]:
+def _direct_moves(
+    cell: Workcell, found: dict[int, Array], obstacles: dict[str, tuple[PlanOutcome, str]]
+) -> dict[str, Array | None]:
     """Straight moves in order; the first one to reach a stop determines the configuration there."""
     direct: dict[str, Array | None] = {}
     reached = {cell.route.legs[0].start}
     for leg in cell.route.legs:
         if leg.step.mode is not MoveKind.PLANNED and leg.start in found and leg.goal in found:
-            line = _line(cell, leg, found, is_new=leg.goal not in reached)
+            is_new = leg.goal not in reached
+            line = _line(cell, leg, found, is_new=is_new)
             direct[leg.step.name] = line
             if line is None:
-                del found[leg.goal]
+                obstacle = _obstacle_of(cell, leg, found)
+                if obstacle is not None:
+                    obstacles[leg.step.name] = obstacle
+                # An earlier move comes to a stop that is not new, and can be made.
+                if is_new:
+                    del found[leg.goal]
             else:
                 found[leg.goal] = line[-1]
                 line.setflags(write=False)
@@ -178,6 +191,20 @@ def _line(cell: Workcell, leg: Leg, found: Mapping[int, Array], *, is_new: bool)
     if not is_new and np.max(np.abs(line[-1] - goal)) > _SAME_CONFIGURATION_RAD:
         return None
     return line
+
+
+def _obstacle_of(cell: Workcell, leg: Leg, found: Mapping[int, Array]) -> tuple[PlanOutcome, str] | None:
+    """Outcome and detail of an infeasible straight move."""
+    stop = cell.route.stops[leg.goal]
+    return move_obstacle(
+        leg.step.mode,
+        found[leg.start],
+        found[leg.goal],
+        cell.arm.tool_pose(found[leg.goal]) if stop.is_turn_free else goal_pose_of(cell, stop),
+        inverse=inverse_at(cell, stop),
+        model=cell.planning[leg.step.name],
+        resolution_rad=leg.step.resolution_rad or _JOINT_STEP_RAD,
+    )
 
 
 def _line_to(cell: Workcell, stop: Stop, start: Array, goal: Array) -> Array | None:

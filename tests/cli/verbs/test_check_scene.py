@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import re
 import sys
 
 import pytest
+import trimesh
 
 SCENE = "scenes/restaurant.yaml"
+LIFTED = "  - move: {to: grasp}\n  - grip: {}\n  - move: {to: lift, mode: straight}\n"
+BESIDE = "'grip' grips nothing: the ends of the fingers are "
+ABOVE = "'release' releases cup "
 
 
 @pytest.fixture
@@ -140,8 +145,47 @@ def test_a_cup_that_does_not_rest_on_its_support(check_with):
 
     one = next(one for one in findings if one["rule"] == "scene.object-unsupported")
     assert "at the start, cup does not rest on counter_pick" in one["message"]
-    assert one["message"].endswith("its centre is 150 mm beyond the edge")
+    assert one["message"].endswith("its centre of mass is 150 mm beyond the edge")
     assert "stands_on" in one["hint"]
+
+
+@pytest.mark.parametrize(
+    ("shape", "rule", "message", "severity"),
+    [
+        (
+            "box: [160 mm, 50 mm, 60 mm]\n  centre_of_mass: [79 mm, 0 mm, 0 mm]\n  at: [1.04 m, -0.30 m]",
+            "scene.object-unsupported",
+            "at the start, cup does not rest on counter_pick (scenes/restaurant.yaml:26:11): its centre of mass is 69",
+            "error",
+        ),
+        (
+            "mesh: cone.stl\n  collision: hull\n  at: [0.70 m, -0.30 m]",
+            "scene.object-unstable",
+            "cup cannot stand by itself on counter_pick: it touches it with a point of its shape, and its centre",
+            "warning",
+        ),
+        (
+            "mesh: leaning.stl\n  collision: boxes\n  at: [0.70 m, -0.30 m]",
+            "scene.object-unstable",
+            "it touches it with a face of its shape, and its centre of mass is 9 mm outside of it",
+            "warning",
+        ),
+    ],
+)
+def test_an_object_that_topples_by_itself(check_with, folder, shape, rule, message, severity):
+    cone = trimesh.creation.cone(radius=0.03, height=0.09)
+    cone.apply_transform(trimesh.transformations.rotation_matrix(math.pi, [1, 0, 0]))
+    cone.export(folder / "scenes/cone.stl")
+    # A foot 20 mm wide, beside which an equal block of 60 mm lies on top: together 19 mm from the middle of the foot.
+    blocks = [trimesh.creation.box((0.02, 0.04, 0.06)), trimesh.creation.box((0.096, 0.04, 0.0125))]
+    blocks[1].apply_translation((0.038, 0.0, 0.03625))
+    trimesh.util.concatenate(blocks).export(folder / "scenes/leaning.stl")
+    kind, at = shape.rsplit("\n  ", 1)
+    _, findings, _ = check_with(("radius: 35 mm\n  height: 100 mm", kind), ("at: [0.70 m, -0.30 m]", at))
+
+    one = next(one for one in findings if one["rule"] == rule)
+    assert message in one["message"]
+    assert one["severity"] == severity
 
 
 def test_a_place_that_is_taken(check_with):
@@ -264,3 +308,84 @@ def test_an_object_wider_than_its_place_region_is_noted_with_both_sizes(check_wi
         "cup does not fit its place region: half of its width is 35 mm, and the radius of the region is 30 mm"
     )
     assert one["hint"].startswith("make the radius at least 35 mm, or take a smaller object")
+
+
+@pytest.fixture
+def check_task(rgss, folder):
+    """Checks a project with a task; returns the findings on its steps."""
+
+    def check(steps, *edits):
+        (folder / "scenes/tasks").mkdir(exist_ok=True)
+        # The measures of the study have a row for each of five planned moves.
+        missing = 5 - len(re.findall(r"(?m)^  - move: (?!.*straight)", steps))
+        steps += "".join(f"  - move: {{name: away_{index}, to: grasp_approach}}\n" for index in range(missing))
+        (folder / "scenes/tasks/own.yaml").write_text(f"task: own\nsteps:\n{steps}", encoding="utf-8")
+        study = folder / "studies/pick_place.yaml"
+        text = study.read_text(encoding="utf-8")
+        text = re.sub(r"(?m)^scene: (.*)$", r"scene: \1\ntask: scenes/tasks/own.yaml", text)
+        study.write_text(text, encoding="utf-8")
+        scene = folder / "scenes/restaurant.yaml"
+        text = scene.read_text(encoding="utf-8")
+        for old, new in edits:
+            assert text.count(old) == 1, old
+            text = text.replace(old, new)
+        scene.write_text(text, encoding="utf-8")
+        told = rgss("check", "--json", "--project", folder)
+        return [one for one in told.document["findings"] if one["rule"].startswith("task.")]
+
+    return check
+
+
+@pytest.mark.parametrize(
+    ("steps", "rule", "line", "message"),
+    [
+        # The approach is 150 mm above the grasp, the fingers reach 30 mm below it and the cup 50 mm above.
+        (
+            "  - move: {to: grasp_approach}\n  - grip: {}\n  - move: {to: place}\n  - release: {}\n",
+            "task.grip-beside",
+            4,
+            f"{BESIDE}70 mm from cup",
+        ),
+        (
+            "  - move: {to: grasp, raised: 90 mm}\n  - grip: {}\n  - move: {to: place}\n  - release: {}\n",
+            "task.grip-beside",
+            4,
+            f"{BESIDE}10 mm from cup",
+        ),
+        (f"{LIFTED}  - release: {{}}\n", "task.release-height", 6, f"{ABOVE}60 mm above its place on counter_place"),
+        (
+            f"{LIFTED}  - move: {{to: place, raised: 15 mm}}\n  - release: {{}}\n",
+            "task.release-height",
+            7,
+            f"{ABOVE}20 mm above its place on counter_place, at most 10 mm",
+        ),
+    ],
+)
+def test_steps_of_the_hand_that_cannot_succeed(check_task, steps, rule, line, message):
+    (one,) = check_task(steps)
+    assert (one["rule"], one["line"], one["severity"]) == (rule, line, "error")
+    assert one["message"].startswith(message)
+    assert one["hint"].startswith("move to ")
+
+
+def test_steps_of_the_hand_that_can_succeed(check_task):
+    steps = "  - move: {to: grasp, raised: 70 mm}\n  - grip: {}\n  - move: {to: place, raised: 4 mm}\n  - release: {}\n"
+    assert check_task(steps) == []
+
+
+@pytest.mark.parametrize(("drop", "found"), [("65 mm", 0), ("55 mm", 1)])
+def test_the_height_of_a_release_is_compared_with_the_place(check_task, drop, found):
+    assert (
+        len(
+            check_task(
+                f"{LIFTED}  - release: {{}}\n", ("\nplace_region:\n", f"\nplace_region:\n  largest_drop: {drop}\n")
+            )
+        )
+        == found
+    )
+
+
+def test_a_chosen_grasp_is_approached_along_its_own_axis(check_task):
+    steps = "  - move: {to: grasp_approach}\n  - grip: {}\n  - move: {to: place}\n  - release: {}\n"
+    (one,) = check_task(steps, ("\ntask:\n", "\ntask:\n  grasp: automatic\n"))
+    assert one["rule"] == "task.grip-beside"

@@ -153,6 +153,14 @@ def test_what_comes_first_replaces_quantities_and_the_groups_that_share_one():
             "uncertainty.group perception.z has no distribution (give it one under 'uncertainty')",
         ),
         (
+            "quantities: [perception.x, workpiece.mass]",
+            "quantities: ¦[perception.x, gripper.force_sensor.noise]",
+            (
+                "uncertainty.group gripper.force_sensor.noise is constant and cannot be correlated "
+                "(take it out of the group)"
+            ),
+        ),
+        (
             "matrix: [[1, 0.5], [0.5, 1]]",
             "matrix: ¦[[1, 0.5], [0.5]]",
             "uncertainty.group the matrix must have 2 rows of 2 correlations",

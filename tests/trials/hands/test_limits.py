@@ -8,6 +8,7 @@ import pytest
 
 from rgss.errors import DefinitionError, SimulationError
 from rgss.physics import open_world
+from rgss.trials.hands import hand_of
 from rgss.trials.payload_bench import bench_of
 from rgss.trials.payload_bench.bench import run_bench
 from rgss.trials.payload_bench.of_trial import payload_bench
@@ -31,3 +32,11 @@ def test_drives_must_be_lighter_than_the_base(spec_of, tmp_path):
     expected = "the drives' inertia of 0.2 kg must be less than the base's mass of 0.2 kg"
     with pytest.raises(SimulationError, match=expected):
         open_world(spec_of().scene, gripper, spec_of().settings.physics)
+
+
+def test_a_hand_that_meets_nothing_says_so(spec_of):
+    hand = hand_of(spec_of().gripper)
+    assert hand.shortfall((0.0, 0.0), 1.75) == (
+        "nothing is between the fingers: fingers press with 0.00, 0.00 N, each needs 1.75 N"
+    )
+    assert hand.shortfall((0.5, 0.0), 1.75) == "fingers press with 0.50, 0.00 N, each needs 1.75 N"

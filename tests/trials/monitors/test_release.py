@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -106,6 +107,21 @@ def test_the_landing_speed_converges_to_that_of_the_fall_whatever_the_mass(lande
             # A step of the fall is lost, and the engine throws back what went in.
             assert -1.5 * 9.81 / rate_hz - 0.03 * fallen_m_s <= speed_m_s - fallen_m_s <= 0.12 * fallen_m_s
         assert speed_m_s == pytest.approx(fallen_m_s, rel=0.07)
+
+
+@pytest.mark.engine
+@pytest.mark.parametrize("rate_hz", LANDING_RATES_HZ)
+@pytest.mark.parametrize("height_m", [0.02, 0.043, 0.1, 0.243])
+def test_the_speed_that_is_compared_with_the_limit_is_that_of_the_fall(landed, height_m, rate_hz):
+    """Without that of the rebound: 1.02 m/s after a fall of 43 mm."""
+    fallen_m_s, step_m_s = math.sqrt(2 * 9.81 * height_m), 9.81 / rate_hz
+    for mass_kg in (0.05, 2.0):
+        fall = partial(landed, height_m, rate_hz=rate_hz, mass_kg=mass_kg)
+        # A light cup topples after a long fall.
+        assert fall(landing_limit_m_s=fallen_m_s + 0.4 * step_m_s + 0.01).failure is not Failure.OBJECT_DAMAGED
+        broken = fall(landing_limit_m_s=0.99 * fallen_m_s - 1.5 * step_m_s)
+        said_m_s = float(re.search(r"landed with ([\d.]+) m/s", broken.detail)[1])
+        assert -1.5 * step_m_s - 0.005 <= said_m_s - fallen_m_s <= 0.4 * step_m_s + 0.005
 
 
 @pytest.mark.engine

@@ -7,6 +7,7 @@ import math
 import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from rgss.evidence import Failure, Fidelity
@@ -110,6 +111,15 @@ def test_an_object_that_the_hand_cannot_close_on_is_a_finding(with_object):
     # Its height would fit from the side, where the table is in the way.
     assert "too wide: " in problem.detail
     assert problem.reason.obstacle is Obstacle.COLLISION
+
+
+def test_a_shape_without_candidates_is_a_finding_with_the_reason(with_object):
+    """Of a cone on its apex, no two surfaces face each other."""
+    rim = [(0.03 * math.cos(turn), 0.03 * math.sin(turn), 0.045) for turn in np.linspace(0.0, math.tau, 25)[:-1]]
+    spec = with_object(MeshShape(parts_m=((*rim, (0.0, 0.0, -0.045)),), sha256=""))
+    problems = reach_problems(spec.scene, spec.gripper.geometry, clearance_m=0.005, task=spec.task, friction=0.7)
+    (problem,) = [one for one in problems if one.kind is SceneProblemKind.NO_GRASP]
+    assert problem.detail == "its shape has no two surfaces that face each other within the friction of the pads"
 
 
 def test_an_object_that_does_not_enter_the_hand_is_given_with_both_sizes(with_object):

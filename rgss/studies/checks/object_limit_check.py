@@ -1,0 +1,72 @@
+"""Findings about objects that are too heavy for the robot, or too weak for the grip of the designs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.documents import Document, read_document
+from rgss.evidence import Fidelity
+from rgss.findings import Finding, Severity
+from rgss.studies.checks.bench_check import variants_text
+from rgss.studies.expansion import trial_specs
+from rgss.studies.project import Project
+
+
+def object_limit_findings(project: Project) -> Iterator[Finding]:
+    """Warn of objects heavier than the payload of the robot, and of grips that exceed the force limit of the object.
+
+    Args:
+        project: The project with its study.
+    """
+    label = project.study.scene
+    document = read_document(project.folder / label, label=label)
+    yield from _heavy(project, document)
+    yield from _fragile(project, document)
+
+
+def _heavy(project: Project, document: Document) -> Iterator[Finding]:
+    payload_kg = project.scene.robot.payload_kg
+    for index, object_ in enumerate(project.scene.objects):
+        workpiece = object_.workpiece
+        if workpiece.mass_kg <= payload_kg:
+            continue
+        at = ("workpieces", index - 1) if index else ("workpiece",)
+        yield document.finding(
+            "scene.payload",
+            f"{workpiece.id} of {workpiece.mass_kg:.3g} kg exceeds the payload of the robot, {payload_kg:g} kg",
+            (*at, "mass" if _states_mass(document, index) else "density"),
+            severity=Severity.WARNING,
+            hint="take a lighter object, or a robot with a greater 'payload'",
+        )
+
+
+def _states_mass(document: Document, index: int) -> bool:
+    data = document.data if isinstance(document.data, dict) else {}
+    others = data.get("workpieces")
+    entry = data.get("workpiece") if index == 0 or not isinstance(others, list) else others[index - 1]
+    return isinstance(entry, dict) and "mass" in entry
+
+
+def _fragile(project: Project, document: Document) -> Iterator[Finding]:
+    """Grips that damage the first object at rest, whatever the impact of the fingers."""
+    if project.study.fidelity is not Fidelity.CONTACT:
+        return
+    from rgss.trials import closing_impact
+
+    specs = [spec for spec in trial_specs(project, seeds=(project.study.seed,)) if spec.gripper.suction is None]
+    impacts = {spec.variant: closing_impact(spec) for spec in specs}
+    damaging = [variant for variant, impact in impacts.items() if impact.least_n > impact.limit_n]
+    if not damaging:
+        return
+    least_n = min(impacts[variant].least_n for variant in damaging)
+    is_of_all = len(damaging) == len(impacts)
+    yield document.finding(
+        "scene.force-limit",
+        f"{project.scene.workpiece.id} bears {project.scene.workpiece.force_limit_n:g} N, and the fingers hold it with "
+        f"{least_n:.3g} N or more in {variants_text(damaging)}",
+        ("workpiece", "force_limit"),
+        severity=Severity.WARNING if is_of_all else Severity.INFO,
+        hint="lower the force of the fingers"
+        if is_of_all
+        else "these designs fail at the grasp, and the others do not",
+    )

@@ -1,0 +1,48 @@
+"""Findings about steps of a task that no design can carry out, at their places in the task's file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from rgss.findings import Finding, Severity
+from rgss.studies.project import Project
+from rgss.tasks import HandAction
+
+if TYPE_CHECKING:
+    from rgss.trials import HandStepProblem
+
+
+def step_findings(
+    project: Project, problems: Mapping[HandStepProblem, Sequence[str]], *, grippers: int
+) -> Iterator[Finding]:
+    """Findings about grips beside the object, and releases high above the place.
+
+    Args:
+        project: The project; the task of the package, which has no file, has no such steps.
+        problems: The gripper files that have each problem.
+        grippers: Number of gripper files of the designs.
+    """
+    loaded = project.study.task_file
+    if loaded is None:
+        return
+    for problem, files in problems.items():
+        step, at = loaded.program.steps[problem.step], loaded.places[problem.step]
+        is_of_all = len(files) == grippers
+        of = "" if is_of_all else f" with {', '.join(files)}"
+        millimetres = f"{problem.distance_m * 1e3:.4g} mm"
+        if problem.hand is HandAction.CLOSES:
+            rule = "task.grip-beside"
+            message = (
+                f"{step.name!r} grips nothing{of}: the ends of the fingers are {millimetres} from {problem.object}"
+            )
+            hint = "move to grasp before it"
+        else:
+            rule = "task.release-height"
+            message = (
+                f"{step.name!r} releases {problem.object} {millimetres} above its place on {problem.support}{of}, "
+                f"at most {problem.most_m * 1e3:g} mm"
+            )
+            hint = "move to place before it, or increase largest_drop of the place region"
+        severity = Severity.ERROR if is_of_all else Severity.INFO
+        yield loaded.document.finding(rule, message, at, hint=hint, severity=severity)

@@ -1,0 +1,44 @@
+"""Objects that a hand cannot reach round, because they would touch its palm."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.scenes import GripperGeometry, at_object, initial_placements, palm_fit, scene_about
+from rgss.studies.project import Project
+from rgss.tasks import HandAction, stages_of
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TooTall:
+    """An object that is too tall for a hand.
+
+    Attributes:
+        object: The object.
+        top_m: Height of its top above the grasp.
+        most_m: The greatest height that leaves the clearance below the palm.
+    """
+
+    object: str
+    top_m: float
+    most_m: float
+
+
+def objects_too_tall(geometry: GripperGeometry, project: Project) -> tuple[TooTall, ...]:
+    """Gripped objects whose top would reach the palm, or come nearer to it than the clearance.
+
+    Args:
+        geometry: The gripper's shape.
+        project: The project.
+    """
+    scene, task = project.scene, project.study.task
+    placements = initial_placements(scene)
+    stages = stages_of(task, scene.workpiece.id)
+    found = []
+    for name in dict.fromkeys(stage.object for stage in stages if stage.step.hand is HandAction.CLOSES):
+        view = scene_about(scene, name, place="", placements=placements)
+        fit = palm_fit(at_object(geometry, view), view)
+        most_m = 0.0 if fit is None else fit.palm_m - project.study.planning.clearance_m
+        if fit is not None and fit.top_m > most_m:
+            found.append(TooTall(object=name, top_m=fit.top_m, most_m=most_m))
+    return tuple(found)

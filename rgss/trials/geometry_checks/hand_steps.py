@@ -1,0 +1,104 @@
+"""Steps of a task that cannot succeed by its geometry: grips beside the object, and releases high above the place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rgss.scenes import GripperGeometry, Pose, Scene, corners_of, least_height_m
+from rgss.tasks import HandAction, MoveStep, TaskProgram, stages_of
+from rgss.trials.route import Leg, Route, Stop, route_of
+from rgss.trials.workcell import grasp_searches_of
+
+_EXACT_M = 1e-6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HandStepProblem:
+    """Step that closes or opens the hand where it cannot succeed.
+
+    Attributes:
+        step: Index of the step.
+        hand: Whether the step closes or opens the hand.
+        object: The object.
+        support: The body below the place of a release; empty for a grip.
+        distance_m: Distance of the ends of the fingers from the object along the tool's axis, or height of the released
+        object above its place.
+        most_m: Greatest height of a release; 0 for a grip.
+    """
+
+    step: int
+    hand: HandAction
+    object: str
+    support: str = ""
+    distance_m: float
+    most_m: float = 0.0
+
+
+def hand_step_problems(
+    scene: Scene, geometry: GripperGeometry, *, clearance_m: float, task: TaskProgram, friction: float = 0.0
+) -> tuple[HandStepProblem, ...]:
+    """Grips with the object out of reach of the fingers, and releases from more than the largest drop.
+
+    Steps after a move to a configuration are not checked.
+
+    Args:
+        scene: The scene.
+        geometry: The gripper's shape.
+        clearance_m: Clearance of planned paths.
+        task: The task.
+        friction: Coefficient of the pads for the choice of grasp candidates; unused for a stated grasp.
+    """
+    if scene.task.candidates is not None:
+        searches = grasp_searches_of(scene, geometry, friction=friction, clearance_m=clearance_m, task=task)
+        if any(search.taken is None for search in searches):
+            return ()
+        scene = searches[-1].scene
+    return tuple(_problems(route_of(scene, geometry, task), geometry, task, scene.workpiece.id))
+
+
+def _problems(route: Route, geometry: GripperGeometry, task: TaskProgram, workpiece: str) -> Iterator[HandStepProblem]:
+    legs, last = iter(route.legs), None
+    for index, stage in enumerate(stages_of(task, workpiece)):
+        if isinstance(stage.step, MoveStep):
+            last = next(legs)
+            continue
+        if last is None or last.scene.workpiece.id != stage.object:
+            continue
+        stop = route.stops[last.goal]
+        if stop.pose is None:
+            continue
+        if stage.step.hand is HandAction.CLOSES:
+            beside_m = _beside(last.scene, stop.pose, geometry)
+            if beside_m > _EXACT_M:
+                yield HandStepProblem(step=index, hand=stage.step.hand, object=stage.object, distance_m=beside_m)
+        elif stage.step.hand is HandAction.OPENS:
+            height_m, most_m = _height(last, stop), last.scene.place.largest_drop_m
+            if height_m > most_m + _EXACT_M:
+                yield HandStepProblem(
+                    step=index,
+                    hand=stage.step.hand,
+                    object=stage.object,
+                    support=last.scene.place_support,
+                    distance_m=height_m,
+                    most_m=most_m,
+                )
+
+
+def _beside(scene: Scene, tool: Pose, geometry: GripperGeometry) -> float:
+    """Distance of the object beyond the ends of the fingers, along the tool's axis; negative where they reach it."""
+    if geometry.cup is not None:
+        return -geometry.cup.height_m
+    in_tool = tool.inverse() @ scene.workpiece.pose
+    corners = (corner for part in corners_of(scene.workpiece.shape) for corner in part)
+    nearest_m = min((in_tool @ Pose(position_m=corner)).position_m[2] for corner in corners)
+    return nearest_m - (geometry.tip_height_m - geometry.grasp_depth_m)
+
+
+def _height(leg: Leg, stop: Stop) -> float:
+    """Height in m of a carried object above its place at the end of a move; 0 if it is not carried."""
+    if leg.context.carried is None or stop.pose is None:
+        return 0.0
+    pose = stop.pose @ leg.context.carried
+    lowest_m = least_height_m(leg.scene.workpiece.shape, pose.inverse_rotate((0.0, 0.0, 1.0)))
+    return pose.position_m[2] + lowest_m - leg.scene.place.centre_m[2]
