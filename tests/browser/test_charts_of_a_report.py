@@ -88,6 +88,33 @@ def test_numbers_of_coinciding_variants_do_not_cover_each_other(reader, page, wi
     assert labelled > 0
 
 
+@pytest.mark.parametrize("width", [390, 1440])
+def test_no_line_of_the_parallel_coordinates_runs_through_a_number(reader, page, study, tmp_path, width):
+    reader.open(page, width=width)
+    reader.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
+    reader.script("document.querySelector(\"button[aria-label='Save parallel as SVG']\").click()")
+    file = tmp_path / f"{study.document['study']}-parallel.svg"
+    wait_until(lambda: file.exists() and file.stat().st_size > 0)
+    drawn = list(ET.fromstring(file.read_text(encoding="utf-8")))  # noqa: S314 - of our own page
+    paper = drawn[0].get("fill")
+    last_line = max(place for place, one in enumerate(drawn) if one.get("stroke") in ("#8a8a8a", "#0072b2", "#d55e00"))
+    labels = [(place, one) for place, one in enumerate(drawn) if one.get("text-anchor") == "end"]
+
+    assert len(labels) > 20
+    for place, label in labels:
+        assert "12px" in label.get("style")
+        box = drawn[place - 1]
+        assert place - 1 > last_line
+        assert box.tag.endswith("rect")
+        assert box.get("fill") == paper
+        left, top, wide, tall = (float(box.get(name)) for name in ("x", "y", "width", "height"))
+        # A digit of this size is at least 6 px wide; a line must not end where a minus sign would be.
+        assert left <= float(label.get("x")) - 6 * len(label.text) - 6
+        assert left + wide >= float(label.get("x"))
+        assert top <= float(label.get("y")) - 10
+        assert top + tall >= float(label.get("y")) + 2
+
+
 def test_pictures_of_failures_are_folded_until_a_link_leads_there(reader, study, pictures, tmp_path):
     (first,) = pictures
     file = tmp_path / "report.html"

@@ -64,6 +64,7 @@ const downloadsFor = (host, id, { svg = null, csv = false }) => {
 const svgPen = (width, height) => {
   const marks = [];
   let path = "";
+  const ruler = element("canvas").getContext("2d");
   const escaped = (text) => String(text).replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
   const look = (pen) => `stroke="${escaped(pen.strokeStyle)}" stroke-width="${pen.lineWidth}" opacity="${pen.globalAlpha}"${pen.dashes ? ` stroke-dasharray="${pen.dashes}"` : ""}`;
   const words = (pen, text, x, y, more) => marks.push(`<text x="${x}" y="${y}" text-anchor="${{ right: "end", center: "middle" }[pen.textAlign] ?? "start"}" style="font:${escaped(pen.font)}" ${more}>${escaped(text)}</text>`);
@@ -79,7 +80,7 @@ const svgPen = (width, height) => {
     fillRect(x, y, w, h) { marks.push(`<rect x="${n(x)}" y="${n(y)}" width="${n(w)}" height="${n(h)}" fill="${escaped(this.fillStyle)}"/>`); },
     strokeRect(x, y, w, h) { marks.push(`<rect x="${n(x)}" y="${n(y)}" width="${n(w)}" height="${n(h)}" fill="none" ${look(this)}/>`); },
     fillText(text, x, y) { words(this, text, n(x), n(y), `fill="${escaped(this.fillStyle)}"`); },
-    strokeText(text, x, y) { words(this, text, n(x), n(y), `fill="none" stroke="${escaped(this.strokeStyle)}" stroke-width="${this.lineWidth}"`); },
+    measureText(text) { ruler.font = this.font; return ruler.measureText(text); },
     text: () => `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${marks.join("")}</svg>`,
   };
 };
