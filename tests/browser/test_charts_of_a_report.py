@@ -151,6 +151,15 @@ def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
         "base": "0.2",
         "ends": [{"value": value, "lead": lead, "wins": "variant 1", "flip": "–"} for value, lead in ENDS],
         "range_is": "a share",
+        "numbers": {
+            "unit": "USD",
+            "base": 43000,
+            "exact": True,
+            "ends": [
+                {"value": 38700, "lead": None, "feasible": False, "flip": 40550},
+                {"value": 47300, "lead": -0.05, "feasible": True, "flip": None},
+            ],
+        },
     }
     document = copy.deepcopy(study.document)
     document["sensitivity"] = EMPTY | {
@@ -181,8 +190,17 @@ def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
     width, height = struct.unpack(">II", files["PNG"].read_bytes()[16:24])
     assert [width, height] == [2 * int(drawing.get(one)) for one in ("width", "height")]
     rows = list(csv.reader(files["CSV"].read_text(encoding="utf-8").splitlines()))
-    assert [len(one) for one in rows] == [11, 11]
-    assert rows[1][:4] == ["weight.S", "0.2", "0.1", "+0.05"]
+    (found,) = [dict(zip(rows[0], row, strict=True)) for row in rows[1:]]
+    assert [found[one] for one in ("input", "unit", "is", "low", "high")] == [
+        "weight.S",
+        "USD",
+        "43000",
+        "38700",
+        "47300",
+    ]
+    assert [found[f"low {one}"] for one in ("lead", "feasible", "wins")] == ["", "no", "variant 1"]
+    assert [found[f"high {one}"] for one in ("lead", "feasible", "wins")] == ["-0.05", "yes", "variant 1"]
+    assert [found[one] for one in ("changes below", "changes above", "changes are")] == ["40550", "", "exact"]
     assert reader.complaints() == []
 
 

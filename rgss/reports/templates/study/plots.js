@@ -137,8 +137,8 @@ const startMeasures = () => {
   });
   const update = tableIn("measures-table", {
     label: "Measures of the shown variants",
-    columns: [...variantColumns, ...effectiveness.map((measure) => ({ head: withUnit(measure.id, measure.unit), title: measure.name, number: true, cell: (place) => show(at(measure.value, place)) + (interval(measure, place) ? ` (${interval(measure, place)})` : ""), sort: (place) => at(measure.value, place), to: (place) => figureAddress(variants.id[place], measure.id) })),
-      { head: "trials", number: true, cell: (place) => show(at(variants.trials, place)), to: (place) => figureAddress(variants.id[place], "trials") }],
+    columns: [...variantColumns, ...effectiveness.map((measure) => ({ head: withUnit(measure.id, measure.unit), title: measure.name, number: true, cell: (place) => show(at(measure.value, place)) + (interval(measure, place) ? ` (${interval(measure, place)})` : ""), sort: (place) => at(measure.value, place), ends: measure.from_trials ? (place) => [at(measure.low, place), at(measure.high, place)] : null, to: (place) => figureAddress(variants.id[place], measure.id) })),
+      { head: "trials", number: true, cell: (place) => show(at(variants.trials, place)), value: (place) => at(variants.trials, place), to: (place) => figureAddress(variants.id[place], "trials") }],
     rows: byRank, search: finds,
   });
   onShown(update);
@@ -241,7 +241,7 @@ const startAcceptability = () => {
   });
   onShown(tableIn("acceptability-table", {
     label: "Acceptability of the shown variants",
-    columns: [{ head: "variant", cell: (one) => variantLink(one.variant) }, { head: "first", number: true, cell: (one) => percent(one.first) }, { head: "± (1.96 standard errors)", number: true, cell: (one) => percent(1.96 * one.error) }, { head: "confidence", number: true, cell: (one) => percent(one.confidence) }, { head: "feasible in", number: true, cell: (one) => percent(one.feasible) }, { head: "share of weights", number: true, cell: (one) => percent(one.region) }],
+    columns: [{ head: "variant", cell: (one) => variantLink(one.variant) }, { head: "first", number: true, cell: (one) => percent(one.first), value: (one) => one.first }, { head: "± (1.96 standard errors)", number: true, cell: (one) => percent(1.96 * one.error), value: (one) => 1.96 * one.error }, { head: "confidence", number: true, cell: (one) => percent(one.confidence), value: (one) => one.confidence }, { head: "feasible in", number: true, cell: (one) => percent(one.feasible), value: (one) => one.feasible }, { head: "share of weights", number: true, cell: (one) => percent(one.region), value: (one) => one.region }],
     rows, source: ANALYSED,
   }));
 };
@@ -293,7 +293,7 @@ const startEffects = () => {
   });
   const update = tableIn("effects-table", {
     label: "Main effects",
-    columns: [{ head: "factor", cell: (row) => row.factor }, { head: "share", number: true, cell: (row) => percent(row.share) }, { head: "level", cell: (row) => row.level }, { head: "effect", number: true, cell: (row) => show(row.effect) }, { head: "interval of 95 %", number: true, cell: (row) => (known(row.low) ? `${show(row.low)} to ${show(row.high)}` : "–") }, { head: "mean of the shown variants", number: true, cell: (row) => show(row.brushed) }],
+    columns: [{ head: "factor", cell: (row) => row.factor }, { head: "share", number: true, cell: (row) => percent(row.share), value: (row) => row.share }, { head: "level", cell: (row) => row.level }, { head: "effect", number: true, cell: (row) => show(row.effect), value: (row) => row.effect, ends: (row) => [row.low, row.high] }, { head: "interval of 95 %", number: true, merged: true, cell: (row) => (known(row.low) ? `${show(row.low)} to ${show(row.high)}` : "–") }, { head: "mean of the shown variants", number: true, cell: (row) => show(row.brushed), value: (row) => row.brushed }],
     rows, source: ANALYSED,
   });
   onShown(update);

@@ -32,7 +32,7 @@ const startPlanning = () => {
   onShown(tableIn("planning-table", {
     label: "Planning times by planner",
     columns: [{ head: "planner", cell: (row) => row.planner.name }, { head: "searches", number: true, cell: (row) => show(row.count) }, { head: "found a path", number: true, cell: (row) => show(row.solved) },
-      ...[["least", 0], ["quarter", 0.25], ["median", 0.5], ["three quarters", 0.75], ["most", 1]].map(([head, share]) => ({ head: `${head} [s]`, number: true, cell: (row) => show(quantile(row.times, share)) }))],
+      ...[["least", 0], ["quarter", 0.25], ["median", 0.5], ["three quarters", 0.75], ["most", 1]].map(([head, share]) => ({ head: `${head} [s]`, number: true, cell: (row) => show(quantile(row.times, share)), value: (row) => quantile(row.times, share) }))],
     rows, source: `From the searches that the trials in ${data.evidence} recorded; “rgss export ompl” writes each of them.`,
   }));
 };
@@ -108,7 +108,7 @@ const startTimeline = () => {
   });
   const update = tableIn("timeline-table", {
     label: "Phases of the trial",
-    columns: [{ head: "phase", cell: (row) => row.phase }, { head: "outcome", cell: (row) => row.outcome }, { head: "begins [s]", number: true, cell: (row) => (row.outcome === "not run" ? "–" : show(row.start)) }, { head: "planning [s]", number: true, cell: (row) => show(row.planning) }, { head: "phase [s]", number: true, cell: (row) => show(row.moving) }],
+    columns: [{ head: "phase", cell: (row) => row.phase }, { head: "outcome", cell: (row) => row.outcome }, { head: "begins [s]", number: true, cell: (row) => (row.outcome === "not run" ? "–" : show(row.start)), value: (row) => (row.outcome === "not run" ? null : row.start) }, { head: "planning [s]", number: true, cell: (row) => show(row.planning), value: (row) => row.planning }, { head: "phase [s]", number: true, cell: (row) => show(row.moving), value: (row) => row.moving }],
     rows, source: "From the record of the trial that is named above, with the command that runs it again.",
   });
   const tell = () => {
