@@ -12,6 +12,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from rgss.decision.sensitivity import InputKind, RangeBasis, Tornado, TornadoBar, TornadoEnd
+from rgss.reports.board_page import board_to_html
 from rgss.reports.decision.tornado_picture import tornado_svg
 from rgss.reports.study_page import study_report_to_html
 from tests.fixtures.processes import wait_until
@@ -81,6 +82,11 @@ def test_numbers_of_coinciding_variants_do_not_cover_each_other(reader, page, wi
             ".filter((one) => one.textContent.startsWith('\u00d7')).map((one) => {"
             " const box = one.getBoundingClientRect(); return [box.left, box.top, box.right, box.bottom]; })"
         )
+        sizes = reader.script(
+            "return Array.from(document.querySelectorAll('#pareto-plot .textpoint text'),"
+            " (one) => parseFloat(getComputedStyle(one).fontSize))"
+        )
+        assert min(sizes, default=12) >= 12
         labelled += len(boxes)
         for one, other in combinations(boxes, 2):
             apart = one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
@@ -130,7 +136,7 @@ def test_pictures_of_failures_are_folded_until_a_link_leads_there(reader, study,
     assert reader.script(folded) == [True]
 
 
-def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
+def tornado_of_one_input() -> str:
     def end(value, lead):
         return TornadoEnd(value=value, lead=lead, feasible=True, winners=(1,), rival=2, flip=None, flip_winners=())
 
@@ -145,7 +151,10 @@ def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
         swing=0.15,
         exact=True,
     )
-    drawn = tornado_svg(Tornado(chosen=1, rival=2, lead=0.1, bars=(bar,), without_range=()))
+    return tornado_svg(Tornado(chosen=1, rival=2, lead=0.1, bars=(bar,), without_range=()))
+
+
+def with_tornado(document):
     row = {
         "input": "weight.S",
         "base": "0.2",
@@ -161,7 +170,7 @@ def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
             ],
         },
     }
-    document = copy.deepcopy(study.document)
+    document = copy.deepcopy(document)
     document["sensitivity"] = EMPTY | {
         "tornado": {
             "chosen": 1,
@@ -173,6 +182,33 @@ def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
             "without_range": [],
         }
     }
+    return document
+
+
+@pytest.mark.parametrize("width", [390, 1440])
+@pytest.mark.parametrize("board", [False, True])
+def test_texts_of_the_tornado_are_at_least_12_px_and_the_page_does_not_scroll(reader, study, tmp_path, width, board):
+    document, drawn, file = with_tornado(study.document), tornado_of_one_input(), tmp_path / "report.html"
+    text = (
+        board_to_html(document, tornado=drawn) if board else study_report_to_html(document, study.trace, tornado=drawn)
+    )
+    file.write_text(text, encoding="utf-8")
+    reader.driver.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    )
+    reader.driver.get(file.as_uri())
+    size = (
+        "const svg = document.querySelector('svg.tornado'), text = svg.querySelector('text');"
+        "return parseFloat(getComputedStyle(text).fontSize) * svg.getBoundingClientRect().width"
+        " / svg.viewBox.baseVal.width"
+    )
+    assert reader.script(size) >= 12
+    assert reader.script("return document.documentElement.scrollWidth") <= width
+    assert reader.accessibility_findings() == []
+
+
+def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
+    document, drawn = with_tornado(study.document), tornado_of_one_input()
     file = tmp_path / "report.html"
     file.write_text(study_report_to_html(document, study.trace, tornado=drawn), encoding="utf-8")
     reader.open(file)

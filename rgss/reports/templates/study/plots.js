@@ -186,7 +186,7 @@ const startPareto = () => {
       const marker = markerOf(kind);
       traces.push({ x: mine.map(([place]) => at(horizontal.value, place)), y: mine.map(([place]) => at(vertical.value, place)), mode: "markers+text", name: KINDS[kind].name,
         marker: { ...marker, opacity: 1, size: mine.map(size) }, hoverinfo: "text", meta: mine.map(([place]) => variants.id[place]),
-        text: mine.map((group) => labels.get(group)?.text ?? ""), textposition: mine.map((group) => labels.get(group)?.position ?? "top right"), textfont: { size: 11 }, cliponaxis: false,
+        text: mine.map((group) => labels.get(group)?.text ?? ""), textposition: mine.map((group) => labels.get(group)?.position ?? "top right"), textfont: { size: 12 }, cliponaxis: false,
         hovertext: mine.map((group) => namesOf(group) + `<br>${plotText(`${horizontal.id}: ${together(horizontal, group)}`)}<br>${plotText(`${vertical.id}: ${together(vertical, group)}`)}`) });
     }
     return { traces, layout: { xaxis: { title: { text: plotText(withBetter(horizontal)) } }, yaxis: { title: { text: plotText(withBetter(vertical)) } } } };
