@@ -14,6 +14,7 @@ import pytest
 from rgss.decision.sensitivity import InputKind, RangeBasis, Tornado, TornadoBar, TornadoEnd
 from rgss.reports.board_page import board_to_html
 from rgss.reports.decision.tornado_picture import tornado_svg
+from rgss.reports.study.first_screen import first_screen_content
 from rgss.reports.study_page import study_report_to_html
 from tests.fixtures.processes import wait_until
 
@@ -38,9 +39,50 @@ def test_a_curve_of_planning_times_never_turns_back(reader, study, tmp_path):
 
     curves = reader.script("return document.getElementById('planning-plot').data.map((one) => Array.from(one.x))")
     assert curves
+    last = max(times[-2] for times in curves)
+    assert last == pytest.approx(limit + 0.3)
+    # The last step is seen: every curve goes on to the right of it, within the axis.
+    end = reader.script("return document.getElementById('planning-plot').layout.xaxis.range[1]")
     for times in curves:
         assert times == sorted(times)
-        assert times[-1] == pytest.approx(limit + 0.3)
+        assert times[-1] > 1.02 * last
+        assert times[-1] <= end
+    note = reader.text("#planning-note")
+    assert f"the longest limit is {limit:g} s" in note
+    assert f"a limit of its own of {planning['simplification_limit_s']:g} s" in note
+
+
+def test_an_interval_beyond_the_chart_ends_in_an_arrow_and_no_label_covers_one(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    limited = next(one for one in document["requirements"] if one["measure"] == "t_p")
+    measure = next(one for one in document["measures"] if one["id"] == "t_p")
+    measure["high"] = 100 * limited["threshold"]
+    file = tmp_path / "report.html"
+    file.write_text(study_report_to_html(document, study.trace), encoding="utf-8")
+    reader.open(file)
+    boxes = reader.script(
+        "const svg = Array.from(document.querySelectorAll('.bullet svg'))"
+        ".find((one) => one.getAttribute('aria-label').startsWith(arguments[0]));"
+        "return ['rect.track', 'path.beyond'].map((one) => {"
+        " const box = svg.querySelector(one).getBoundingClientRect(); return [box.right, box.height, box.width]; })",
+        measure["name"],
+    )
+    (track, arrow) = boxes
+    assert arrow[0] == pytest.approx(track[0], abs=0.5)
+    assert arrow[1] > track[1] / 2
+    assert arrow[2] > 2
+    arrows = reader.script("return document.querySelectorAll('.bullet path.beyond').length")
+    glance = first_screen_content(document)
+    assert arrows == sum(sum(one["beyond"]) for one in glance["bullets"])
+
+    reader.script(
+        "const choice = document.getElementById('measure-choice'); choice.value = 't_p';"
+        "choice.dispatchEvent(new Event('change'))"
+    )
+    _drawn(reader, "measures")
+    name = f"{limited['id']}: {limited['criterion']}"
+    reader.until("return document.querySelector('#measures-plot .legend')?.textContent.includes(arguments[0])", name)
+    assert reader.script("return document.querySelectorAll('#measures-plot .annotation').length") == 0
 
 
 def test_error_bars_of_shares_stay_between_0_and_1(reader, study, tmp_path):

@@ -129,9 +129,10 @@ const startMeasures = () => {
       });
     }
     const limits = data.requirements.filter((one) => one.measure === measure.id);
+    // The legend names the limits: a label in the plot would cover intervals.
+    traces.push(...limits.map((one) => ({ x: [null], y: [null], mode: "lines", line: { color: "#d55e00", dash: "dash", width: 1.5 }, name: plotText(`${one.id}: ${one.criterion}`), hoverinfo: "skip" })));
     return { traces, layout: {
       shapes: limits.map((one) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: one.threshold, y1: one.threshold, line: { color: "#d55e00", dash: "dash", width: 1.5 } })),
-      annotations: limits.map((one) => ({ xref: "paper", x: 1, xanchor: "right", y: one.threshold, yanchor: "bottom", showarrow: false, bgcolor: getComputedStyle(document.documentElement).getPropertyValue("--paper").trim(), opacity: 0.85, text: plotText(`${one.id}: ${one.criterion}`) })),
       xaxis: { title: { text: "variants, by this measure" } }, yaxis: { title: { text: plotText(withBetter(measure)) } },
     } };
   });
