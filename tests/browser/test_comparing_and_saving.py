@@ -12,6 +12,7 @@ import pandas as pd
 import pytest
 from selenium.webdriver.common.by import By
 
+from rgss.reports.study_page import study_report_to_html
 from tests.fixtures.processes import wait_until
 
 pytestmark = pytest.mark.browser
@@ -181,3 +182,23 @@ def test_numbers_of_a_file_are_numbers_and_intervals_have_columns(reader, page, 
     prices = next(one for one in study.document["measures"] if one["id"] == "C_total")["value"]
     assert float(compared.loc[price, chosen]) == prices[ids.index(int(chosen))]
     assert compared.loc[price, "unit"] == "USD"
+
+
+def test_of_one_variant_nothing_is_compared(reader, lone_study, tmp_path):
+    assert len(lone_study.document["variants"]["id"]) == 1
+    file = tmp_path / "report.html"
+    file.write_text(study_report_to_html(lone_study.document, lone_study.trace), encoding="utf-8")
+    reader.open(file)
+    reader.see_all_plots()
+
+    assert reader.text("#shown") == "The one variant is shown"
+    assert reader.text("#compare-note") == "The study has one variant, and none to compare it with."
+    assert not reader.driver.find_element(By.ID, "compare-choice").is_displayed()
+    assert not reader.driver.find_element(By.ID, "variant-compare").is_displayed()
+    across, up = reader.script("return ['pareto-x', 'pareto-y'].map((id) => document.getElementById(id).value)")
+    assert across != up
+    sensitivity = reader.text("#sensitivity")
+    assert "has no feasible rival" in sensitivity
+    assert "over the best other design" not in sensitivity
+    assert "Designs worth keeping" not in sensitivity
+    assert reader.complaints() == []

@@ -42,9 +42,10 @@ def tornado_lines(tornado: Tornado) -> Iterator[str]:
 
 
 def _bars(tornado: Tornado, bars: tuple[TornadoBar, ...]) -> Iterator[str]:
-    if not bars:
-        return
     leads = [end.lead for bar in bars for end in (bar.low, bar.high) if end.lead is not None]
+    # Without a rival anywhere there are no bars; the values at which the choice becomes infeasible follow.
+    if not bars or (tornado.lead is None and not leads):
+        return
     base = tornado.lead or 0.0
     least, most = min([0.0, base, *leads]), max([0.0, base, *leads])
     names = max(len(bar.id) for bar in bars)

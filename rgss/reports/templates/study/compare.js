@@ -6,6 +6,14 @@ const startCompare = () => {
   const best = variants.id.map((_, place) => place).filter((place) => known(variants.rank[place])).sort((one, other) => variants.rank[one] - variants.rank[other]).slice(0, 2);
   const first = best.length === 2 ? best : [0, 1].filter((place) => place < total);
   field.value = [...new Set([placeOf.get(data.decision.chosen) ?? first[0], placeOf.get(data.decision.runner_up) ?? first[1], ...first])].slice(0, 2).map((place) => variants.id[place]).join(", ");
+  // One variant has none to be compared with.
+  const alone = total < 2;
+  field.form.hidden = byId("variant-compare").hidden = alone;
+  if (alone) {
+    field.value = "";
+    note.textContent = "The study has one variant, and none to compare it with.";
+    return;
+  }
   const wanted = () => [...new Set(field.value.split(/[\s,;]+/).filter(Boolean))];
   const compared = () => wanted().map((text) => placeOf.get(Number(text))).filter(known).slice(0, MOST_COMPARED);
   const rowsOf = (places) => {

@@ -84,7 +84,7 @@ const arrivals = [];
 let waiting = false;
 const countShown = () => {
   const all = shownPlaces.length === total;
-  byId("shown").textContent = all ? `All ${total} variants are shown` : `${shownPlaces.length} of ${total} variants are shown`;
+  byId("shown").textContent = all ? (total === 1 ? "The one variant is shown" : `All ${total} variants are shown`) : `${shownPlaces.length} of ${total} variants are shown`;
   byId("clear").disabled = brushes.size === 0;
 };
 const tellShown = () => {

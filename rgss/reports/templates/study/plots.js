@@ -167,7 +167,7 @@ const startPareto = () => {
   for (const select of [across, up]) options(select, effectiveness.map((measure) => [measure.id, `${measure.id}: ${measure.name}`]));
   const spread = effectiveness.filter((measure) => Array.isArray(measure.value) && measure.weight !== null);
   across.value = (spread[1] || effectiveness[0]).id;
-  up.value = (spread[2] || spread[0] || effectiveness[0]).id;
+  up.value = ([spread[2], spread[0], ...effectiveness].find((measure) => measure && measure.id !== across.value) || effectiveness[0]).id;
   const redraw = plot("pareto", () => {
     const [horizontal, vertical] = [measureOf.get(across.value), measureOf.get(up.value)];
     const places = shownPlaces.filter((place) => known(at(horizontal.value, place)) && known(at(vertical.value, place)));
