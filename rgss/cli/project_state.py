@@ -58,6 +58,7 @@ def _project_lines(folder: Path, project: Project) -> Iterator[str]:
 
 
 def _evidence_lines(project: Project) -> Iterator[str]:
+    from rgss.assessment import read_record
     from rgss.cli.output import shown_path
     from rgss.decision import measure_survivors
     from rgss.evidence import EvidenceStore
@@ -68,7 +69,7 @@ def _evidence_lines(project: Project) -> Iterator[str]:
         yield "Next: rgss sweep    runs the study's trials"
         return
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
-        measured, screened = measure_survivors(project, store)
+        measured, screened = measure_survivors(project, store, recorded=read_record(project.folder))
     stored = sum(len(entry.records) for entry in measured)
     missing = sum(entry.missing for entry in measured)
     yield f"Trials: {stored} stored in {label}" + (f", {missing} missing" if missing else "")

@@ -266,13 +266,9 @@ def _explained(problem: TradeProblem, enumeration: Enumeration, seed: int, resam
     conflicts = find_conflicts(enumeration)
     if conflicts is None:
         return None
-    from rgss.tradeoff.infeasibility import RESAMPLES, conflict_survival, find_joint_repairs, find_repairs
+    from rgss.tradeoff.infeasibility import RESAMPLES, conflict_survival, with_repairs
 
-    conflicts = replace(
-        conflicts,
-        repairs=find_repairs(problem, enumeration),
-        joint_repairs=find_joint_repairs(problem, enumeration, conflicts.corrections),
-    )
+    conflicts = with_repairs(problem, enumeration, conflicts)
     if resamples is None:
         resamples = max(100, min(RESAMPLES, MOST_DRAWN // len(enumeration.table)))
     if resamples == 0:

@@ -80,6 +80,7 @@ class FlatMeasure:
         low: The least quantity that is known.
         high: The largest quantity that is known.
         among_feasible: Whether only the feasible alternatives do not differ in it.
+        value: Their common value, from 0 at the worst end to 1 at the best.
     """
 
     measure: str
@@ -87,6 +88,7 @@ class FlatMeasure:
     low: float
     high: float
     among_feasible: bool
+    value: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -129,7 +129,8 @@ def flat_measures(problem: TradeProblem, enumeration: Enumeration) -> tuple[Flat
         values = problem.value_function(measure).values_at(column)
         among_all = _is_flat(values, everyone)
         if among_all or _is_flat(values, enumeration.feasible):
-            known = column[~np.isnan(column) & (everyone if among_all else enumeration.feasible)]
+            flat = ~np.isnan(column) & (everyone if among_all else enumeration.feasible)
+            known = column[flat]
             found.append(
                 FlatMeasure(
                     measure=measure,
@@ -137,6 +138,7 @@ def flat_measures(problem: TradeProblem, enumeration: Enumeration) -> tuple[Flat
                     low=float(known.min()),
                     high=float(known.max()),
                     among_feasible=not among_all,
+                    value=float(values[flat][0]),
                 )
             )
     return tuple(found)

@@ -120,10 +120,8 @@ def made_record(spec) -> TrialRecord:
     )
 
 
-@pytest.fixture(scope="session")
-def study(tmp_path_factory) -> Study:
-    """The shipped study with a made record for each of its trials."""
-    folder = copy_project(tmp_path_factory.mktemp("report") / "project")
+def made_study(folder: Path) -> Study:
+    """The study of a project with a made record for each of its trials."""
     project = load_project(folder)
     with EvidenceStore.open(project.evidence) as store:
         for spec in trial_specs(project):
@@ -138,6 +136,24 @@ def study(tmp_path_factory) -> Study:
         definitions=project.measures,
     )
     return Study(document=document, trace=trace, folder=folder)
+
+
+@pytest.fixture(scope="session")
+def study(tmp_path_factory) -> Study:
+    """The shipped study with a made record for each of its trials."""
+    return made_study(copy_project(tmp_path_factory.mktemp("report") / "project"))
+
+
+@pytest.fixture(scope="session")
+def lone_study(tmp_path_factory) -> Study:
+    """The shipped study with rules that leave one variant."""
+    folder = copy_project(tmp_path_factory.mktemp("lone") / "project")
+    others = ["gripper_mass: light", "fingers: two", "velocity: slow"]
+    others += ["planner: rrt", "planner: stride", "planning_time: short", "planning_time: medium"]
+    with (folder / "designs" / "grasping_system.yaml").open("a", encoding="utf-8") as file:
+        for place, level in enumerate(others):
+            file.write(f"\n  - {{id: leave-{place}, rationale: One is enough., exclude: {{{level}}}}}\n")
+    return made_study(folder)
 
 
 @pytest.fixture(scope="session")

@@ -12,7 +12,9 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from rgss.decision.sensitivity import InputKind, RangeBasis, Tornado, TornadoBar, TornadoEnd
+from rgss.reports.board_page import board_to_html
 from rgss.reports.decision.tornado_picture import tornado_svg
+from rgss.reports.study.first_screen import first_screen_content
 from rgss.reports.study_page import study_report_to_html
 from tests.fixtures.processes import wait_until
 
@@ -37,9 +39,50 @@ def test_a_curve_of_planning_times_never_turns_back(reader, study, tmp_path):
 
     curves = reader.script("return document.getElementById('planning-plot').data.map((one) => Array.from(one.x))")
     assert curves
+    last = max(times[-2] for times in curves)
+    assert last == pytest.approx(limit + 0.3)
+    # The last step is seen: every curve goes on to the right of it, within the axis.
+    end = reader.script("return document.getElementById('planning-plot').layout.xaxis.range[1]")
     for times in curves:
         assert times == sorted(times)
-        assert times[-1] == pytest.approx(limit + 0.3)
+        assert times[-1] > 1.02 * last
+        assert times[-1] <= end
+    note = reader.text("#planning-note")
+    assert f"the longest limit is {limit:g} s" in note
+    assert f"a limit of its own of {planning['simplification_limit_s']:g} s" in note
+
+
+def test_an_interval_beyond_the_chart_ends_in_an_arrow_and_no_label_covers_one(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    limited = next(one for one in document["requirements"] if one["measure"] == "t_p")
+    measure = next(one for one in document["measures"] if one["id"] == "t_p")
+    measure["high"] = 100 * limited["threshold"]
+    file = tmp_path / "report.html"
+    file.write_text(study_report_to_html(document, study.trace), encoding="utf-8")
+    reader.open(file)
+    boxes = reader.script(
+        "const svg = Array.from(document.querySelectorAll('.bullet svg'))"
+        ".find((one) => one.getAttribute('aria-label').startsWith(arguments[0]));"
+        "return ['rect.track', 'path.beyond'].map((one) => {"
+        " const box = svg.querySelector(one).getBoundingClientRect(); return [box.right, box.height, box.width]; })",
+        measure["name"],
+    )
+    (track, arrow) = boxes
+    assert arrow[0] == pytest.approx(track[0], abs=0.5)
+    assert arrow[1] > track[1] / 2
+    assert arrow[2] > 2
+    arrows = reader.script("return document.querySelectorAll('.bullet path.beyond').length")
+    glance = first_screen_content(document)
+    assert arrows == sum(sum(one["beyond"]) for one in glance["bullets"])
+
+    reader.script(
+        "const choice = document.getElementById('measure-choice'); choice.value = 't_p';"
+        "choice.dispatchEvent(new Event('change'))"
+    )
+    _drawn(reader, "measures")
+    name = f"{limited['id']}: {limited['criterion']}"
+    reader.until("return document.querySelector('#measures-plot .legend')?.textContent.includes(arguments[0])", name)
+    assert reader.script("return document.querySelectorAll('#measures-plot .annotation').length") == 0
 
 
 def test_error_bars_of_shares_stay_between_0_and_1(reader, study, tmp_path):
@@ -81,11 +124,43 @@ def test_numbers_of_coinciding_variants_do_not_cover_each_other(reader, page, wi
             ".filter((one) => one.textContent.startsWith('\u00d7')).map((one) => {"
             " const box = one.getBoundingClientRect(); return [box.left, box.top, box.right, box.bottom]; })"
         )
+        sizes = reader.script(
+            "return Array.from(document.querySelectorAll('#pareto-plot .textpoint text'),"
+            " (one) => parseFloat(getComputedStyle(one).fontSize))"
+        )
+        assert min(sizes, default=12) >= 12
         labelled += len(boxes)
         for one, other in combinations(boxes, 2):
             apart = one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
             assert apart, (across, up, one, other)
     assert labelled > 0
+
+
+@pytest.mark.parametrize("width", [390, 1440])
+def test_no_line_of_the_parallel_coordinates_runs_through_a_number(reader, page, study, tmp_path, width):
+    reader.open(page, width=width)
+    reader.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
+    reader.script("document.querySelector(\"button[aria-label='Save parallel as SVG']\").click()")
+    file = tmp_path / f"{study.document['study']}-parallel.svg"
+    wait_until(lambda: file.exists() and file.stat().st_size > 0)
+    drawn = list(ET.fromstring(file.read_text(encoding="utf-8")))  # noqa: S314 - of our own page
+    paper = drawn[0].get("fill")
+    last_line = max(place for place, one in enumerate(drawn) if one.get("stroke") in ("#8a8a8a", "#0072b2", "#d55e00"))
+    labels = [(place, one) for place, one in enumerate(drawn) if one.get("text-anchor") == "end"]
+
+    assert len(labels) > 20
+    for place, label in labels:
+        assert "12px" in label.get("style")
+        box = drawn[place - 1]
+        assert place - 1 > last_line
+        assert box.tag.endswith("rect")
+        assert box.get("fill") == paper
+        left, top, wide, tall = (float(box.get(name)) for name in ("x", "y", "width", "height"))
+        # A digit of this size is at least 6 px wide; a line must not end where a minus sign would be.
+        assert left <= float(label.get("x")) - 6 * len(label.text) - 6
+        assert left + wide >= float(label.get("x"))
+        assert top <= float(label.get("y")) - 10
+        assert top + tall >= float(label.get("y")) + 2
 
 
 def test_pictures_of_failures_are_folded_until_a_link_leads_there(reader, study, pictures, tmp_path):
@@ -103,7 +178,7 @@ def test_pictures_of_failures_are_folded_until_a_link_leads_there(reader, study,
     assert reader.script(folded) == [True]
 
 
-def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
+def tornado_of_one_input() -> str:
     def end(value, lead):
         return TornadoEnd(value=value, lead=lead, feasible=True, winners=(1,), rival=2, flip=None, flip_winners=())
 
@@ -118,14 +193,26 @@ def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
         swing=0.15,
         exact=True,
     )
-    drawn = tornado_svg(Tornado(chosen=1, rival=2, lead=0.1, bars=(bar,), without_range=()))
+    return tornado_svg(Tornado(chosen=1, rival=2, lead=0.1, bars=(bar,), without_range=()))
+
+
+def with_tornado(document):
     row = {
         "input": "weight.S",
         "base": "0.2",
         "ends": [{"value": value, "lead": lead, "wins": "variant 1", "flip": "–"} for value, lead in ENDS],
         "range_is": "a share",
+        "numbers": {
+            "unit": "USD",
+            "base": 43000,
+            "exact": True,
+            "ends": [
+                {"value": 38700, "lead": None, "feasible": False, "flip": 40550},
+                {"value": 47300, "lead": -0.05, "feasible": True, "flip": None},
+            ],
+        },
     }
-    document = copy.deepcopy(study.document)
+    document = copy.deepcopy(document)
     document["sensitivity"] = EMPTY | {
         "tornado": {
             "chosen": 1,
@@ -137,6 +224,33 @@ def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
             "without_range": [],
         }
     }
+    return document
+
+
+@pytest.mark.parametrize("width", [390, 1440])
+@pytest.mark.parametrize("board", [False, True])
+def test_texts_of_the_tornado_are_at_least_12_px_and_the_page_does_not_scroll(reader, study, tmp_path, width, board):
+    document, drawn, file = with_tornado(study.document), tornado_of_one_input(), tmp_path / "report.html"
+    text = (
+        board_to_html(document, tornado=drawn) if board else study_report_to_html(document, study.trace, tornado=drawn)
+    )
+    file.write_text(text, encoding="utf-8")
+    reader.driver.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    )
+    reader.driver.get(file.as_uri())
+    size = (
+        "const svg = document.querySelector('svg.tornado'), text = svg.querySelector('text');"
+        "return parseFloat(getComputedStyle(text).fontSize) * svg.getBoundingClientRect().width"
+        " / svg.viewBox.baseVal.width"
+    )
+    assert reader.script(size) >= 12
+    assert reader.script("return document.documentElement.scrollWidth") <= width
+    assert reader.accessibility_findings() == []
+
+
+def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
+    document, drawn = with_tornado(study.document), tornado_of_one_input()
     file = tmp_path / "report.html"
     file.write_text(study_report_to_html(document, study.trace, tornado=drawn), encoding="utf-8")
     reader.open(file)
@@ -154,8 +268,17 @@ def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
     width, height = struct.unpack(">II", files["PNG"].read_bytes()[16:24])
     assert [width, height] == [2 * int(drawing.get(one)) for one in ("width", "height")]
     rows = list(csv.reader(files["CSV"].read_text(encoding="utf-8").splitlines()))
-    assert [len(one) for one in rows] == [11, 11]
-    assert rows[1][:4] == ["weight.S", "0.2", "0.1", "+0.05"]
+    (found,) = [dict(zip(rows[0], row, strict=True)) for row in rows[1:]]
+    assert [found[one] for one in ("input", "unit", "is", "low", "high")] == [
+        "weight.S",
+        "USD",
+        "43000",
+        "38700",
+        "47300",
+    ]
+    assert [found[f"low {one}"] for one in ("lead", "feasible", "wins")] == ["", "no", "variant 1"]
+    assert [found[f"high {one}"] for one in ("lead", "feasible", "wins")] == ["-0.05", "yes", "variant 1"]
+    assert [found[one] for one in ("changes below", "changes above", "changes are")] == ["40550", "", "exact"]
     assert reader.complaints() == []
 
 

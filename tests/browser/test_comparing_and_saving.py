@@ -8,9 +8,11 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import numpy as np
+import pandas as pd
 import pytest
 from selenium.webdriver.common.by import By
 
+from rgss.reports.study_page import study_report_to_html
 from tests.fixtures.processes import wait_until
 
 pytestmark = pytest.mark.browser
@@ -126,6 +128,77 @@ def test_a_plot_is_saved_as_png_svg_and_csv(reader, page, study, tmp_path, plot)
         assert sorted(int(row[0]) for row in rows[1:]) == study.document["variants"]["id"]
         head = rows[0].index("value")
         values = dict(zip(study.document["variants"]["id"], study.document["variants"]["value"], strict=True))
-        assert all(float(row[head]) == values[int(row[0])] for row in rows[1:] if row[head] != "–")
+        assert all(float(row[head]) == values[int(row[0])] for row in rows[1:] if row[head])
     assert reader.complaints() == []
     assert reader.requests() == []
+
+
+TEXTS = {
+    "acceptability": [],
+    "compare": ["of the variant", "kind", "unit"],
+    "distributions": ["measure", "of"],
+    "effects": ["factor", "level"],
+    "failures": ["failure", "in the phase", "see the first"],
+    "measures": ["stands"],
+    "pareto": ["stands", "support"],
+    "planning": ["planner"],
+    "timeline": ["phase", "outcome"],
+    "weights": [],
+}
+
+
+def test_numbers_of_a_file_are_numbers_and_intervals_have_columns(reader, page, study, tmp_path):
+    reader.open(page)
+    reader.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
+    reader.script("document.getElementById('compare-differing').click()")
+    frames = {}
+    for plot in TEXTS:
+        reader.script("document.querySelector(arguments[0]).click()", f"button[aria-label='Save {plot} as CSV']")
+        file = f"{study.document['study']}-{plot}.csv"
+        saved(tmp_path, file)
+        frames[plot] = pd.read_csv(tmp_path / file)
+
+    for plot, texts in TEXTS.items():
+        found = frames[plot].columns.difference(frames[plot].select_dtypes("number").columns, sort=False)
+        # Variants side by side have texts, such as planners and verdicts, in the rows of numbers.
+        assert list(found)[: len(texts)] == texts, plot
+        assert plot == "compare" or len(found) == len(texts), plot
+    ids = study.document["variants"]["id"]
+    measures = frames["measures"].set_index("Variant")
+    uncertain = [one for one in study.document["measures"] if one["from_trials"] and one["weight"] is not None]
+    assert uncertain
+    for one in uncertain:
+        for end, name in (("value", ""), ("low", " low"), ("high", " high")):
+            unit = "" if one["unit"] == "1" else f" [{one['unit']}]"
+            column = one[end] if isinstance(one[end], list) else [one[end]] * len(ids)
+            wanted = [np.nan if value is None else value for value in column]
+            assert measures.loc[ids, f"{one['id']}{name}{unit}"].tolist() == pytest.approx(wanted, nan_ok=True)
+    effects = frames["effects"]
+    assert (effects["effect low"] <= effects["effect"]).all()
+    assert (effects["effect"] <= effects["effect high"]).all()
+    compared = frames["compare"].set_index("of the variant")
+    price = next(name for name in compared.index if name.startswith("C_total"))
+    chosen = f"{study.document['decision']['chosen']}"
+    prices = next(one for one in study.document["measures"] if one["id"] == "C_total")["value"]
+    assert float(compared.loc[price, chosen]) == prices[ids.index(int(chosen))]
+    assert compared.loc[price, "unit"] == "USD"
+
+
+def test_of_one_variant_nothing_is_compared(reader, lone_study, tmp_path):
+    assert len(lone_study.document["variants"]["id"]) == 1
+    file = tmp_path / "report.html"
+    file.write_text(study_report_to_html(lone_study.document, lone_study.trace), encoding="utf-8")
+    reader.open(file)
+    reader.see_all_plots()
+
+    assert reader.text("#shown") == "The one variant is shown"
+    assert reader.text("#compare-note") == "The study has one variant, and none to compare it with."
+    assert not reader.driver.find_element(By.ID, "compare-choice").is_displayed()
+    assert not reader.driver.find_element(By.ID, "variant-compare").is_displayed()
+    across, up = reader.script("return ['pareto-x', 'pareto-y'].map((id) => document.getElementById(id).value)")
+    assert across != up
+    sensitivity = reader.text("#sensitivity")
+    assert "has no feasible rival" in sensitivity
+    assert "over the best other design" not in sensitivity
+    assert "Designs worth keeping" not in sensitivity
+    assert reader.complaints() == []

@@ -57,6 +57,29 @@ def test_the_search_finds_names_the_beginnings_of_words_and_what_is_misspelled(r
     assert reader.text("#found-count") == "Nothing found"
 
 
+def test_cells_of_a_found_row_do_not_run_together(reader, page):
+    reader.open(page)
+    found = find(reader, "S")
+    assert "S: Task success score" in found["Rows of tables"]
+    entries = reader.script(
+        "const group = Array.from(document.querySelectorAll('#found > div'))"
+        ".find((one) => one.querySelector('h3').textContent === 'Rows of tables');"
+        "return Array.from(group.querySelectorAll('li'), (one) => {"
+        " const link = one.querySelector('a'), row = link && document.getElementById(link.hash.slice(1));"
+        " const section = row?.closest('section').querySelector('h2').textContent;"
+        " return row && [one.querySelector('.small').textContent, section,"
+        "  Array.from(row.cells, (cell) => cell.textContent)]; }).filter(Boolean)"
+    )
+    assert len(entries) > 1
+    for text, section, cells in entries:
+        whole = f"{section}: " + " · ".join(" ".join(cell.split()) for cell in cells if cell.strip())
+        assert whole.startswith(text.strip().rstrip("…"))
+    assert not any(
+        "As a page" in text
+        for text in reader.script("return Array.from(document.querySelectorAll('#found li'), (one) => one.textContent)")
+    )
+
+
 def test_the_keyboard_leads_from_the_search_to_what_is_found(reader, page):
     reader.open(page)
     reader.driver.find_element(By.TAG_NAME, "body").send_keys("/")

@@ -301,7 +301,7 @@ def test_conflicts_are_shown_at_every_width(reader, study, tmp_path):
     document["decision"] |= {"chosen": None, "runner_up": None, "headline": "No variant is chosen.", "reasons": ["x"]}
     document["decision"]["demands"] = {"SYS-004": HOSTILE, "SYS-012": HOSTILE}
     document["conflicts"] = {
-        "conflicts": [{"requirements": ["SYS-004", "SYS-012"], "survives": 0.22}],
+        "conflicts": [{"requirements": ["SYS-004", "SYS-012"], "survives": 0.22, "unmeasured": False}],
         "more_conflicts": 0,
         "complete": True,
         "joint": [

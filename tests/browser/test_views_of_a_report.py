@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+import copy
+import re
+
 import pytest
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+
+from rgss.reports.study_page import study_report_to_html
+from rgss.studies import load_project
+from tests.fixtures.shipped_project import REPOSITORY
 
 pytestmark = pytest.mark.browser
 
@@ -84,15 +91,17 @@ def test_a_view_is_sent_by_its_address(reader, page, study):
 
 
 @pytest.mark.parametrize(
-    "sent",
+    ("sent", "named"),
     [
-        "#?only=zz:0:1&weights=x",
-        "#?only=d8:5:1&weights=t_e:-1",
-        "#?measure=zz&variant=99999&%E0%A4%A&compare=",
-        "#?only=&weights=,,",
+        ("#?only=zz:0:1&weights=x", ["only=zz:0:1 (no axis zz)", "no weight in this study: x"]),
+        ("#?only=d8:5:1&weights=t_p:-1", ["only=d8:5:1", "weights=t_p:-1 (not numbers of 0 or more, one above 0)"]),
+        ("#?measure=zz&variant=99999&%E0%A4%A&compare=", ["measure=zz", "variant=99999"]),
+        ("#?only=&weights=,,", ["only=", "weights=,,"]),
+        ("#?weights=t_m:0.6,C_total:0.4", ["weights=t_m:0.6,C_total:0.4 (no weight in this study: t_m)"]),
+        ("#?weights=t_p:", ["weights=t_p:"]),
     ],
 )
-def test_an_address_that_makes_no_sense_opens_the_page_as_it_is(reader, page, sent):
+def test_an_address_that_makes_no_sense_opens_the_page_as_it_is_and_says_so(reader, page, sent, named):
     reader.open(page)
     opened = seen(reader)
     reader.driver.get("about:blank")
@@ -100,7 +109,34 @@ def test_an_address_that_makes_no_sense_opens_the_page_as_it_is(reader, page, se
     reader.until("return document.documentElement.dataset.ready === 'yes'")
 
     assert seen(reader) == opened
+    note = reader.text("#address-note")
+    assert note.startswith("Ignored of the address: ")
+    assert [one for one in named if one not in note] == []
     assert reader.complaints() == []
+
+
+def test_the_address_in_the_docs_shows_its_variants_and_weights(reader, study, tmp_path):
+    """The page has the weights of the study as it is shipped; that of the other tests is of the nominal world."""
+    shipped = list(load_project(REPOSITORY).study.trade_off.weighting.weights)
+    document = copy.deepcopy(study.document)
+    for one, name in zip(document["weights"]["measures"], shipped, strict=True):
+        one["id"] = name
+    page = tmp_path / "report.html"
+    page.write_text(study_report_to_html(document, study.trace), encoding="utf-8")
+    (sent,) = re.findall(r"`report\.html(#\S+&weights=\S+)`", (REPOSITORY / "docs/report.md").read_text("utf-8"))
+    given = {one.split(":")[0]: float(one.split(":")[1]) for one in sent.split("weights=")[1].split(",")}
+    axis, low, high = re.search(r"only=(\w+):(\w+):(\w+)", sent).groups()
+    column = next(one["values"] for one in study.document["parameters"] if one["id"] == axis)
+    reader.open(page)
+    reader.driver.get("about:blank")
+    reader.driver.get(page.as_uri() + sent)
+    reader.until("return document.documentElement.dataset.ready === 'yes'")
+
+    assert set(given) < set(shipped)
+    assert weights(reader) == [given.get(name, 0.0) for name in shipped]
+    assert low == high
+    assert reader.text("#shown") == f"{column.count(low)} of {len(column)} variants are shown"
+    assert reader.text("#address-note") == ""
 
 
 def test_weights_sum_to_one_as_they_are_moved_and_those_at_0_return(reader, page):

@@ -71,7 +71,7 @@ def test_three_replicates_leave_the_choice_open(made, measured):
 def test_every_page_says_what_is_open(made):
     sentence = headline(made)
     assert "which do not show yet that it meets every requirement: 0 of 72 are shown" in sentence
-    assert "are open (SYS-005, SYS-024, SYS-033, SYS-040)" in sentence
+    assert "are open (by SYS-005, SYS-024, SYS-033, SYS-040)" in sentence
     assert sentence in list(decision_lines(made))
     assert sentence in decision_section(made)
     assert decision_part(made)["headline"] == sentence
@@ -97,10 +97,21 @@ def test_the_headline_of_a_choice_that_is_shown_to_miss(made):
     other = concluded(made, standing(chosen, missed=("A",)), standing(9999, open=("B",), undecided=("B",)))
     assert headline(other) == (
         f"Variant {chosen} is chosen by its estimates, but shown to miss a requirement: 0 of 2 are shown to meet every "
-        "requirement; 1 is open (B), 1 infeasible."
+        "requirement; 1 is open (by B), 1 infeasible."
     )
     assert standing_sentence(other) == (
-        f"Requirements of variant {chosen}: 0 met; 0 open; 1 missed (A); 0 not run (1 of them decided by no measure)."
+        f"Requirements of variant {chosen}: 0 met; 0 open; 1 missed (A); 1 decided by no measure."
+    )
+
+
+def test_a_requirement_without_valid_evidence_is_open_in_every_sentence(made):
+    chosen = made.decision.chosen
+    verdicts = standing(chosen, met=("C",), open=("B",), not_run=("A",), undecided=("B", "A"))
+    other = concluded(made, verdicts)
+    assert "1 is open (by A, B), 0 infeasible" in headline(other)
+    assert standing_sentence(other) == (
+        f"Requirements of variant {chosen}: 1 met; 2 open (B, A without valid evidence); 0 missed; "
+        "1 decided by no measure."
     )
 
 

@@ -83,9 +83,13 @@ def test_a_choice_without_rival(tornado):
 
     assert next(iter(tornado_lines(alone))) == "Tornado: variant 1 has no feasible rival, and so no lead."
     assert tornado_svg(alone) == ""
-    moved = replace(alone, bars=(bar("SYS-001.threshold", end(0.4, None, feasible=False), end(0.6, None), swing=1.0),))
-    assert not any(line.startswith("input") for line in tornado_lines(moved))
-    assert tornado_svg(moved) == ""
+    # Only an end at which it is infeasible: there is no lead to draw.
+    infeasible = bar("SYS-004.threshold", end(0.4, None, feasible=False, flip=0.45), end(0.6, None), swing=math.inf)
+    alone = replace(tornado, lead=None, rival=None, bars=(infeasible,))
+    lines = list(tornado_lines(alone))
+    assert tornado_svg(alone) == ""
+    assert not any("+0.0000" in line for line in lines)
+    assert any(line.startswith("SYS-004.threshold  below 0.45") for line in lines)
 
 
 def test_designs_that_are_tied_with_the_choice_are_named(tornado):
@@ -101,6 +105,13 @@ def test_designs_that_are_tied_with_the_choice_are_named(tornado):
     assert lines[0] == "Tornado: every other feasible design is tied with variant 1: variants 3, 4 are worth as much."
     assert any(line.startswith("weight.b") for line in lines)
     assert tornado_svg(equal)
+
+
+def test_a_lead_that_only_an_end_has_is_drawn_from_0_without_a_present_one(tornado):
+    moving = bar("weight.a", end(0.4, None), end(0.6, 0.3))
+    texts = [one.text for one in ET.fromstring(tornado_svg(replace(tornado, lead=None, rival=None, bars=(moving,))))]  # noqa: S314
+    assert "0" in texts
+    assert "0.0000" not in texts
 
 
 def test_the_picture_is_well_formed_and_to_scale(tornado):

@@ -363,10 +363,10 @@ def test_a_measure_in_which_nothing_differs_is_reported(build_problem):
     )
     decision = decide(problem)
     assert decision.chosen == 2
-    assert [(flat.measure, flat.low, flat.high, flat.among_feasible) for flat in decision.flat_measures] == [
-        ("b", 0.3, 0.3, False),
-        ("c", 5.0, 9.0, False),
-        ("d", 0.2, 0.2, True),
+    assert [(one.measure, one.low, one.high, one.among_feasible, one.value) for one in decision.flat_measures] == [
+        ("b", 0.3, 0.3, False, 0.3),
+        ("c", 5.0, 9.0, False, 1.0),
+        ("d", 0.2, 0.2, True, 0.2),
     ]
     assert decide(build_problem({1: {"a": 0.5}})).flat_measures == ()
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from rgss.cli.safe_output import own_stream
+from rgss.cli.terminal import colour_system
 
 
 @contextmanager
@@ -24,6 +25,10 @@ def film_progress(total: int, label: str = "Frames") -> Iterator[Callable[[], No
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (TextColumn(label), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(file=own_stream(sys.stderr)), disable=not sys.stderr.isatty()) as bar:
+    with Progress(
+        *columns,
+        console=Console(file=own_stream(sys.stderr), color_system=colour_system()),
+        disable=not sys.stderr.isatty(),
+    ) as bar:
         task = bar.add_task(label, total=total)
         yield lambda: bar.advance(task)

@@ -8,6 +8,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from rgss.cli.safe_output import own_stream
+from rgss.cli.terminal import colour_system
 
 if TYPE_CHECKING:
     from rgss.sweep import SweepState
@@ -42,7 +43,7 @@ class SweepProgress:
             # In a narrow terminal the end of this text is cut, not the numbers before it.
             TextColumn("{task.fields[course]}", table_column=Column(no_wrap=True, ratio=1)),
             expand=True,
-            console=Console(file=own_stream(sys.stderr)),
+            console=Console(file=own_stream(sys.stderr), color_system=colour_system()),
         )
         self._progress.start()
         self._task = self._progress.add_task("trials", total=self._total, outcomes="", course="")

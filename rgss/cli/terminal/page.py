@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, TextIO, cast
 from rgss.cli.safe_output import SafeStream, own_stream
 from rgss.cli.terminal.column_groups import GAP, column_groups
 from rgss.cli.terminal.pager import Pager
-from rgss.cli.terminal.styles import STYLES
+from rgss.cli.terminal.styles import STYLES, colour_system
 
 if TYPE_CHECKING:
     from rgss.reports import TextTable
@@ -68,7 +68,9 @@ class TerminalPage(SafeStream):
 
         from rgss.cli.terminal.console import PageConsole
 
-        console = PageConsole(file=self.own, width=self._width, force_terminal=True, highlight=False)
+        console = PageConsole(
+            file=self.own, width=self._width, force_terminal=True, highlight=False, color_system=colour_system()
+        )
         cells = (table.titles, *table.rows)
         parts = column_groups(cells, self._width)
         for place, (part, widths) in enumerate(parts):

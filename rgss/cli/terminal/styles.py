@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from types import MappingProxyType
+from typing import Literal
 
 STYLES = MappingProxyType(
     {
@@ -23,3 +25,8 @@ STYLES = MappingProxyType(
     }
 )
 """Style of a cell with a status word; other cells have none."""
+
+
+def colour_system() -> Literal["auto"] | None:
+    """Colour system of rich's consoles; None, which omits bold too, if NO_COLOR is set and not empty."""
+    return None if os.environ.get("NO_COLOR") else "auto"

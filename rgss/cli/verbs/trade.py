@@ -78,6 +78,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Decide; 1 if no variant meets every requirement, a choice is not proven best, or a part is not computed."""
+    from rgss.assessment import read_record
     from rgss.cli.assumption_trials import known_assumptions, scenario_measures
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import shown_path
@@ -107,7 +108,7 @@ def run(options: argparse.Namespace) -> int:
     label = shown_path(project.evidence)
     analysed = options.section or not options.brief
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
-        measured, screened = measure_survivors(project, store)
+        measured, screened = measure_survivors(project, store, recorded=read_record(project.folder))
         supposed = None if scenario is None else scenario_measures(options, project, scenario, measured, store)
         more = () if screened is None or scenario is None else _reopened(project, scenario, screened, store)
         asked = scenario is None and (analysed or options.run)

@@ -11,18 +11,23 @@ from rgss.assessment import VariantMeasures
 from rgss.studies import Project
 from rgss.tradeoff import Decision, FlatMeasure
 
+_WORST = 1e-9
+"""A value up to this is the worst."""
+
 
 class FlatRemedy(str, Enum):
     """Change that would let a weight separate designs.
 
     Attributes:
         MOVE_ENDS: The quantities differ, but all lie beyond one end of the value function: move the ends to them.
-        VARY_THE_WORLD: Trials give the same value for all: the task is too easy for the designs.
+        VARY_THE_WORLD: Trials give the same value for all, above the worst: the task is too easy for the designs.
+        EASE_THE_TASK: Trials give the worst value for all: the task is too hard for the designs.
         OTHER_DESIGNS: The quantity follows from the design, and the feasible designs do not differ in it.
     """
 
     MOVE_ENDS = "move_ends"
     VARY_THE_WORLD = "vary_the_world"
+    EASE_THE_TASK = "ease_the_task"
     OTHER_DESIGNS = "other_designs"
 
 
@@ -41,7 +46,7 @@ class FlatWeight:
         among_feasible: True if only the feasible designs do not differ.
         remedy: Change that would let it separate designs.
         effective: The effective weights, without all flat ones; they sum to 1, or are empty
-            if every weight is flat.
+            if every weight is flat, or a weighted measure has no value in any design.
     """
 
     measure: str
@@ -65,10 +70,11 @@ def flat_weights(project: Project, measured: Sequence[VariantMeasures], decision
         decision: The decision between them.
     """
     flat = {one.measure for one in decision.flat_measures}
+    unvalued = decision.conflicts is not None and decision.conflicts.unvalued
     weights = {
         name: weight
         for name, weight in project.study.trade_off.weighting.weights.items()
-        if weight > 0.0 and name not in flat
+        if weight > 0.0 and name not in flat and not unvalued
     }
     total = math.fsum(weights.values())
     effective = tuple((name, weight / total) for name, weight in weights.items())
@@ -83,8 +89,10 @@ def _weight(
     known = [value for value in estimates if value is not None]
     if one.high - one.low > 1e-9 * max(abs(one.low), abs(one.high)):
         remedy = FlatRemedy.MOVE_ENDS
+    elif not measure.from_trials:
+        remedy = FlatRemedy.OTHER_DESIGNS
     else:
-        remedy = FlatRemedy.VARY_THE_WORLD if measure.from_trials else FlatRemedy.OTHER_DESIGNS
+        remedy = FlatRemedy.EASE_THE_TASK if one.value <= _WORST else FlatRemedy.VARY_THE_WORLD
     return FlatWeight(
         measure=one.measure,
         unit=measure.unit,

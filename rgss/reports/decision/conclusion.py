@@ -24,7 +24,7 @@ def headline(made: StudyDecision) -> str:
     found, count = made.conclusion, len(made.conclusion.standings)
     shown = found.count(Feasibility.FEASIBLE)
     open_, infeasible = found.count(Feasibility.OPEN), found.count(Feasibility.INFEASIBLE)
-    by = f" ({', '.join(found.open_by)})" if found.open_by else ""
+    by = f" (by {', '.join(found.open_by)})" if found.open_by else ""
     counts = (
         f"{shown} of {count} {'is' if shown == 1 else 'are'} shown to meet every requirement; "
         f"{open_} {'is' if open_ == 1 else 'are'} open{by}, {infeasible} infeasible."
@@ -61,19 +61,22 @@ def rule_sentence(made: StudyDecision) -> str:
 def standing_sentence(made: StudyDecision) -> str:
     """The verdicts on the choice, counted, with the ids of those that are open and missed; empty without a choice.
 
+    Open is what the headline counts as open: inconclusive, or without valid evidence.
+
     Args:
         made: The decision.
     """
     chosen = made.conclusion.chosen
     if chosen is None:
         return ""
+    open_ = [one if one in chosen.open else f"{one} without valid evidence" for one in chosen.undecided]
     parts = [f"{len(chosen.met)} met"]
-    for ids, word in ((chosen.open, "open"), (chosen.missed, "missed")):
-        named = f" ({', '.join(ids)})" if ids else ""
-        parts.append(f"{len(ids)} {word}{named}")
-    unmeasured = len(made.conclusion.unmeasured)
-    why = f" ({unmeasured} of them decided by no measure)" if unmeasured else ""
-    return f"Requirements of variant {chosen.variant}: {'; '.join(parts)}; {len(chosen.not_run)} not run{why}."
+    for named, word in ((open_, "open"), (chosen.missed, "missed")):
+        parts.append(f"{len(named)} {word}" + (f" ({', '.join(named)})" if named else ""))
+    return (
+        f"Requirements of variant {chosen.variant}: {'; '.join(parts)}; "
+        f"{len(made.conclusion.unmeasured)} decided by no measure."
+    )
 
 
 def seeds_sentences(groups: Sequence[SeedGroup]) -> Iterator[str]:

@@ -41,6 +41,11 @@ def _remedy(one: FlatWeight) -> str:
             f"all are at {amount(one.high, one.unit)}{everyone}; let the world vary or make the task harder until "
             "designs differ, or drop the measure."
         )
+    if one.remedy is FlatRemedy.EASE_THE_TASK:
+        return (
+            f"all are at {amount(one.high, one.unit)}{everyone}, the worst; make the task easier, or raise the limits "
+            "at which trials fail, until designs differ."
+        )
     return (
         f"all are at {amount(one.high, one.unit)}{everyone}; leave it to its requirement and drop the measure, "
         "or add designs that differ in it."

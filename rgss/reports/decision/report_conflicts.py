@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterator, Sequence
 
-from rgss.reports.decision.sentences import noise_sentence
+from rgss.reports.decision.sentences import noise_sentence, unmeasured_sentence, violated_text
 from rgss.reports.decision.words import moved_limit
 from rgss.reports.plain_numbers import Plain
 from rgss.trace.views import rounded_away, share_in_words
@@ -36,7 +36,11 @@ def conflict_part(decision: Decision) -> Plain | None:
     alone = {one.requirement: one for one in conflicts.repairs}
     return {
         "conflicts": [
-            {"requirements": list(conflict), "survives": share}
+            {
+                "requirements": list(conflict),
+                "survives": share,
+                "unmeasured": conflict[0] in conflicts.unmeasured,
+            }
             for conflict, share in zip(conflicts.minimal_conflicts, shares, strict=True)
         ][:MOST_CONFLICTS_LISTED],
         "more_conflicts": max(0, len(conflicts.minimal_conflicts) - MOST_CONFLICTS_LISTED),
@@ -57,7 +61,7 @@ def conflict_part(decision: Decision) -> Plain | None:
             for one in conflicts.excluded_by
         ],
         "example": _example(conflicts),
-        "noise": noise_sentence(conflicts.survival),
+        "noise": f"{noise_sentence(conflicts.survival)} {unmeasured_sentence(conflicts.unmeasured)}".strip(),
         "nearest": {"variant": conflicts.nearest.variant, "requirements": list(conflicts.nearest.requirements)},
     }
 
@@ -73,8 +77,11 @@ def conflict_reasons(decision: Decision) -> Iterator[str]:
         return
     survival = conflicts.survival
     for place, conflict in enumerate(conflicts.minimal_conflicts[:MOST_CONFLICTS_LISTED]):
-        text = f"Nothing meets {conflict[0]}" if len(conflict) == 1 else f"{_listed(conflict)} cannot be met together"
         demands = ", ".join(decision.demands[one] for one in conflict)
+        if conflict[0] in conflicts.unmeasured:
+            yield f"Nothing is known to meet {conflict[0]} ({demands}). {unmeasured_sentence(conflict)}"
+            continue
+        text = f"Nothing meets {conflict[0]}" if len(conflict) == 1 else f"{_listed(conflict)} cannot be met together"
         sure = (
             "" if survival is None else f"; so it still is in {share_in_words(survival.conflicts[place])} of resamples"
         )
@@ -87,8 +94,7 @@ def conflict_reasons(decision: Decision) -> Iterator[str]:
         together = " together" if len(repair.changes) > 1 else ""
         chosen = "" if repair.winner is None else f"; then variant {repair.winner}{of} is chosen"
         yield f"The smallest repair: {moved}{together}{chosen}."
-    nearest = conflicts.nearest
-    yield f"Nearest is variant {nearest.variant}, which violates {_listed(nearest.requirements)}."
+    yield f"Nearest is variant {conflicts.nearest.variant}, which {violated_text(conflicts)}."
 
 
 def _easiest_first(conflicts: Conflicts) -> list[JointRepair]:

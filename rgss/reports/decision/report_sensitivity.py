@@ -14,7 +14,7 @@ from rgss.reports.decision.sensitivity_sentences import (
     range_sentence,
 )
 from rgss.reports.decision.words import UNKNOWN, amount, ids_text, score, variants_text
-from rgss.reports.plain_numbers import Plain
+from rgss.reports.plain_numbers import Plain, plain_number
 
 
 def sensitivity_part(found: Sensitivity | None) -> Plain | None:
@@ -60,6 +60,25 @@ def _row(bar: TornadoBar) -> Plain:
         "base": amount(bar.base, bar.unit),
         "range_is": bar.basis.value,
         "ends": [_end(bar, end) for end in (bar.low, bar.high)],
+        "numbers": _numbers(bar),
+    }
+
+
+def _numbers(bar: TornadoBar) -> Plain:
+    """Numbers of a row without units or signs, for the page's CSV."""
+    return {
+        "unit": "" if bar.unit == "1" else bar.unit,
+        "base": plain_number(bar.base),
+        "exact": bar.exact,
+        "ends": [
+            {
+                "value": plain_number(end.value),
+                "lead": plain_number(end.lead),
+                "feasible": end.feasible,
+                "flip": plain_number(end.flip),
+            }
+            for end in (bar.low, bar.high)
+        ],
     }
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from rgss.decision.study_decision import StudyDecision
@@ -11,7 +11,7 @@ from rgss.reports.decision.conclusion import share_text
 from rgss.reports.decision.flat_sentences import flat_sentences
 from rgss.reports.decision.words import amount, basis_text, ids_text, variants_text
 from rgss.trace.views import share_in_words, value_in_words
-from rgss.tradeoff import Agreement, Check, CheckKind, ConflictSurvival, DecisionStatus, PortfolioDecision
+from rgss.tradeoff import Agreement, Check, CheckKind, Conflicts, ConflictSurvival, DecisionStatus, PortfolioDecision
 from rgss.tradeoff.programs import Certificate
 
 
@@ -97,6 +97,7 @@ def cautions(made: StudyDecision) -> Iterator[str]:
         yield f"{overlap.whole} contains {overlap.part}, so {overlap.part} counts twice.{instead}"
     for shared in made.shared_parts:
         yield f"{shared.first} and {shared.second} both depend on {', '.join(shared.parts)}."
+    yield from unvalued_sentences(made.decision.conflicts)
     if made.sensitivity is not None:
         yield from flat_sentences(made.sensitivity.flat)
     else:
@@ -105,6 +106,16 @@ def cautions(made: StudyDecision) -> Iterator[str]:
             yield f"{flat.measure} is worth the same for all {among}, so its weight of {flat.weight:g} has no effect."
     for gap in made.gaps:
         yield f"{gap_sentence(gap)}."
+
+
+def unvalued_sentences(conflicts: Conflicts | None) -> Iterator[str]:
+    """Sentence on the weighted measures without a value in any variant.
+
+    Args:
+        conflicts: Explanation of infeasibility; None if a variant is feasible.
+    """
+    for measure in () if conflicts is None else conflicts.unvalued:
+        yield f"No variant has a value of {measure}, so that none has a weighted value: no trial that ran gives one."
 
 
 def gap_sentence(gap: ModelGap) -> str:
@@ -189,6 +200,30 @@ def portfolio_proof(portfolio: PortfolioDecision) -> str:
     )
 
 
+def unmeasured_sentence(names: Sequence[str]) -> str:
+    """Sentence on requirements without a value in any variant; empty if there are none.
+
+    Args:
+        names: Their ids.
+    """
+    if not names:
+        return ""
+    verdict = "Its verdicts are" if len(names) == 1 else "Their verdicts are"
+    return (
+        f"No trial that ran gives a value that {' or '.join(names)} limits. {verdict} inconclusive, and the choice "
+        "leaves out variants without an estimate."
+    )
+
+
+def violated_text(conflicts: Conflicts) -> str:
+    """Requirements that the nearest variant violates, and those for which it has no value."""
+    nearest = conflicts.nearest.requirements
+    without = [one for one in nearest if one in conflicts.unmeasured]
+    violated = [one for one in nearest if one not in conflicts.unmeasured]
+    parts = [f"violates {_listed(violated)}"] if violated else []
+    return " and ".join([*parts, *([f"has no value for {_listed(without)}"] if without else [])])
+
+
 def noise_sentence(survival: ConflictSurvival | None) -> str:
     """Method by which the survival of conflicts under noise was computed.
 
@@ -205,6 +240,10 @@ def noise_sentence(survival: ConflictSurvival | None) -> str:
         f"Survives noise: the share of {draws} resamples of the replicates in which the conflict remains; "
         f"nothing is feasible in {share_in_words(survival.nothing_feasible)} of them."
     )
+
+
+def _listed(names: Sequence[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
 def _gains(made: StudyDecision) -> str:

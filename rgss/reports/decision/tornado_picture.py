@@ -26,10 +26,10 @@ def tornado_svg(tornado: Tornado) -> str:
         An ``svg`` element without scripts, references or style attributes.
     """
     bars = tornado.moving[:MOST_BARS]
+    leads = [end.lead for bar in bars for end in (bar.low, bar.high) if end.lead is not None]
     if not bars or not tornado.has_leads:
         return ""
     base = tornado.lead or 0.0
-    leads = [end.lead for bar in bars for end in (bar.low, bar.high) if end.lead is not None]
     least, most = min([0.0, base, *leads]), max([0.0, base, *leads])
     scale = (_RIGHT - _LEFT) / ((most - least) or 1.0)
 
@@ -47,8 +47,9 @@ def tornado_svg(tornado: Tornado) -> str:
     ]
     for row, bar in enumerate(bars):
         parts += _bar(bar, _TOP + row * _ROW, base, across)
-    parts += [_line(across(base), height, "now"), _text(across(base), 32.0, score(base), "middle"), "</svg>"]
-    return "".join(parts)
+    if tornado.lead is not None:
+        parts += [_line(across(base), height, "now"), _text(across(base), 32.0, score(base), "middle")]
+    return "".join([*parts, "</svg>"])
 
 
 def _bar(bar: TornadoBar, top: float, base: float, across: Callable[[float], float]) -> Iterator[str]:

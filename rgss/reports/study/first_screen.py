@@ -69,9 +69,9 @@ def _bullet(requirement: Mapping[str, Any], measures: Mapping[str, Any], place: 
     limit, at_most = requirement["threshold"], requirement["comparison"] in ("<=", "<")
     top = max(abs(limit), abs(value), 0.0 if high is None else min(abs(high), 2.0 * abs(limit))) * _ROOM or 1.0
     unit = measure["unit"]
-    interval = None
+    interval, beyond = None, [False, False]
     if low is not None and high is not None and low < high:
-        interval = [_percent(low, top), _percent(high, top)]
+        interval, beyond = [_percent(low, top), _percent(high, top)], [low < 0.0, high > top]
     verdict = entry_at(requirement["verdict"], place)
     words = f"{_WORDS[requirement['comparison']]} {value_in_words(limit, unit)}"
     between = "" if interval is None else f" ({value_in_words(low)} to {value_in_words(high, unit)})"
@@ -88,6 +88,7 @@ def _bullet(requirement: Mapping[str, Any], measures: Mapping[str, Any], place: 
         "at": _percent(value, top),
         "limit": _percent(limit, top),
         "interval": interval,
+        "beyond": beyond,
         "allowed": [0.0, _percent(limit, top)] if at_most else [_percent(limit, top), 100.0],
     }
 

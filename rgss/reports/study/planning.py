@@ -31,8 +31,8 @@ def planning_columns(project: Project, measured: Sequence[VariantMeasures]) -> P
         measured: Every variant with its trials.
 
     Returns:
-        The planners, and a row for each search: planner, planning time (None if it found no
-        path), the longest limit, and the group of variants that share it.
+        The planners, and a row for each search: planner, planning time with simplification (None if it
+        found no path), the longest limit of the search, and the group of variants that share it.
     """
     records = {
         key: (place, record)
@@ -66,6 +66,9 @@ def planning_columns(project: Project, measured: Sequence[VariantMeasures]) -> P
             _summary(planner, [(time, spec.planning_limit_s) for name, time, _, spec in rows if name == planner])
             for planner in planners
         ],
+        "simplification_limit_s": max(
+            (spec.settings.planning.simplification_limit_s for *_, spec in rows), default=0.0
+        ),
         "thinned": len(rows) > MOST_SEARCHES,
     }
     if len(rows) <= MOST_SEARCHES:

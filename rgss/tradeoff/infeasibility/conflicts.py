@@ -137,6 +137,8 @@ class Conflicts:
         repairs: For each requirement, the limit that alone would make an alternative feasible.
         joint_repairs: The limits for each of the `corrections`, in their order.
         survival: Stability of the conflict under the noise of the replicates; None if no measure has more than one.
+        unmeasured: Requirements whose statistic is unknown for every alternative: none is shown to violate them.
+        unvalued: Weighted measures that are unknown for every alternative, so that none has a weighted value.
     """
 
     excluded_by: tuple[RequirementCount, ...]
@@ -148,6 +150,8 @@ class Conflicts:
     repairs: tuple[Repair, ...] = ()
     joint_repairs: tuple[JointRepair, ...] = ()
     survival: ConflictSurvival | None = None
+    unmeasured: tuple[str, ...] = ()
+    unvalued: tuple[str, ...] = ()
 
 
 def find_conflicts(enumeration: Enumeration) -> Conflicts | None:

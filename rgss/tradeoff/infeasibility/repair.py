@@ -3,19 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rgss.tradeoff.infeasibility.conflicts import JointRepair, LimitChange, Repair
+from rgss.tradeoff.infeasibility.conflicts import Conflicts, JointRepair, LimitChange, Repair
 from rgss.tradeoff.problem import ChanceBound, Comparison
 from rgss.tradeoff.programs import condition_column, keeps, ordering_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from rgss.tradeoff.problem import Condition
+    from rgss.tradeoff.problem import Condition, EvidenceTable
     from rgss.tradeoff.programs import Enumeration, Preferences
+
+
+def with_repairs(preferences: Preferences, enumeration: Enumeration, conflicts: Conflicts) -> Conflicts:
+    """Conflicts with their repairs, and with the evidence that no alternative has.
+
+    Args:
+        preferences: Preferences that the alternatives are compared by.
+        enumeration: Every alternative evaluated.
+        conflicts: The conflicts, from `find_conflicts`.
+    """
+    return replace(
+        conflicts,
+        repairs=find_repairs(preferences, enumeration),
+        joint_repairs=find_joint_repairs(preferences, enumeration, conflicts.corrections),
+        unmeasured=unmeasured_requirements(preferences, enumeration.table),
+        unvalued=unvalued_measures(preferences, enumeration.table),
+    )
 
 
 def find_repairs(preferences: Preferences, enumeration: Enumeration) -> tuple[Repair, ...]:
@@ -61,6 +79,31 @@ def find_joint_repairs(
         changes, unlocked, winner = _mended(preferences, enumeration, requirements)
         found.append(JointRepair(requirements=requirements, changes=changes, unlocked=unlocked, winner=winner))
     return tuple(found)
+
+
+def unmeasured_requirements(preferences: Preferences, table: EvidenceTable) -> tuple[str, ...]:
+    """Requirements with a condition whose statistic is unknown for every alternative.
+
+    Args:
+        preferences: Preferences that the alternatives are compared by.
+        table: The alternatives.
+
+    Returns:
+        Ids in the order of the conditions. Such a requirement excludes every alternative, though none is shown to
+        violate it.
+    """
+    unknown = [one.requirement for one in preferences.conditions if np.isnan(condition_column(one, table)).all()]
+    return tuple(dict.fromkeys(unknown))
+
+
+def unvalued_measures(preferences: Preferences, table: EvidenceTable) -> tuple[str, ...]:
+    """Weighted measures that are unknown for every alternative, in the order of the weights.
+
+    Args:
+        preferences: Preferences that the alternatives are compared by.
+        table: The alternatives.
+    """
+    return tuple(one for one in preferences.weighting.deciding_measures if np.isnan(table.column(one)).all())
 
 
 def _mended(

@@ -89,6 +89,7 @@ def test_a_chart_is_to_scale():
     assert time["allowed"] == [0.0, time["limit"]]
     assert time["at"] / time["limit"] == pytest.approx(20 / 25, abs=1e-3)
     assert cost["interval"] is None
+    assert [one["beyond"] for one in (share, time, cost)] == [[False, False]] * 3
     assert cost["label"] == "COST: 1000 USD, demanded at most 1200 USD: met"
     assert share["label"] == "SHARE: 0.95 (0.88 to 0.99), demanded at least 0.9: inconclusive"
 
@@ -98,6 +99,7 @@ def test_an_interval_that_goes_far_is_cut_at_the_end_of_the_chart():
     document["measures"][0]["high"] = [35.0, 900.0]
     time = first_screen_content(document)["bullets"][1]
     assert time["interval"][1] == 100.0
+    assert time["beyond"] == [False, True]
     assert time["limit"] == pytest.approx(100 / 2 / 1.12, abs=0.01)
 
 

@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 
-from rgss.tradeoff import NearestAlternative, RequirementCount
+from rgss.tradeoff import NearestAlternative, RequirementCount, decide
 from rgss.tradeoff.infeasibility.conflicts import find_conflicts, minimal_hitting_sets
 from rgss.tradeoff.programs.enumeration import enumerate_alternatives
 
@@ -40,6 +40,21 @@ def test_missing_evidence_is_a_requirement_like_others(build_problem):
     assert conflicts is not None
     assert conflicts.minimal_conflict == ("evidence:a",)
     assert conflicts.nearest == NearestAlternative(variant=4, requirements=("evidence:a",))
+
+
+def test_what_no_alternative_has_a_value_of_is_named(build_problem):
+    """R-2 excludes both, but none is shown to violate it; of R-1 one of them has a value."""
+    problem = build_problem(
+        {1: {"a": 0.1, "b": None}, 2: {"a": None, "b": None}},
+        thresholds=[("R-1", "a", ">=", 0.5), ("R-2", "b", ">=", 0.5)],
+        values={"a": (0.0, 1.0), "b": (0.0, 1.0)},
+        weights={"a": 0.5, "b": 0.5},
+    )
+    conflicts = decide(problem).conflicts
+    assert conflicts.unmeasured == ("R-2",)
+    assert conflicts.unvalued == ("b",)
+    known = decide(build_problem({1: {"a": 0.1}}, thresholds=[("R", "a", ">=", 0.5)])).conflicts
+    assert (known.unmeasured, known.unvalued) == ((), ())
 
 
 @pytest.mark.parametrize("seed", range(40))

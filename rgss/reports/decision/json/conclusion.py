@@ -41,6 +41,7 @@ def _standing(one: DesignStanding) -> Plain:
         "open": list(one.open),
         "missed": list(one.missed),
         "not_run": list(one.not_run),
+        "undecided": list(one.undecided),
     }
 
 

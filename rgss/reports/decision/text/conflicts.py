@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from rgss.reports.decision.sentences import noise_sentence
+from rgss.reports.decision.sentences import noise_sentence, unmeasured_sentence, violated_text
 from rgss.reports.decision.words import UNKNOWN, basis_text, moved_limit
 from rgss.reports.plain_text import aligned_table
 from rgss.trace.views import share_in_words
@@ -28,8 +28,7 @@ def conflict_lines(decision: Decision, *, shown_feasible: bool) -> Iterator[str]
     yield ""
     yield from _minimal(conflicts)
     yield from _joint_repairs(conflicts)
-    nearest = conflicts.nearest
-    yield from ("", f"Nearest: variant {nearest.variant}, which violates {', '.join(nearest.requirements)}.")
+    yield from ("", f"Nearest: variant {conflicts.nearest.variant}, which {violated_text(conflicts)}.")
 
 
 def _requirements(decision: Decision, conflicts: Conflicts) -> list[str]:
@@ -50,11 +49,14 @@ def _minimal(conflicts: Conflicts) -> Iterator[str]:
     rows = []
     for place, conflict in enumerate(conflicts.minimal_conflicts[:MOST_LISTED]):
         names = " and ".join(conflict) if len(conflict) > 1 else f"{conflict[0]} alone"
-        rows.append([names, *shares[place : place + 1]])
+        unmeasured = conflict[0] in conflicts.unmeasured
+        rows.append([names, *(["no value"] if unmeasured and shares else shares[place : place + 1])])
     heads = ["no variant meets", *(["survives noise"] if survival is not None else [])]
     yield from aligned_table(heads, rows, right=(1,))
     yield from _more(len(conflicts.minimal_conflicts), complete=conflicts.complete)
     yield f"({noise_sentence(survival)[:-1]})"
+    if conflicts.unmeasured:
+        yield unmeasured_sentence(conflicts.unmeasured)
 
 
 def _joint_repairs(conflicts: Conflicts) -> Iterator[str]:

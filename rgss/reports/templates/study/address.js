@@ -5,7 +5,11 @@ const addressNow = () => {
 };
 // Each part of a view writes its differences from the initial state into the URL, and reads them from it.
 const views = [];
-const inAddress = (write, read) => views.push({ write, read });
+const inAddress = (name, write, read) => views.push({ name, write, read });
+// What a URL names but the page cannot show is ignored, and reported to the reader.
+let refused = [];
+const refuse = (part, why = "") => refused.push(why ? `${part} (${why})` : part);
+const tellRefused = () => { byId("address-note").textContent = refused.length ? `Ignored of the address: ${refused.join("; ")}.` : ""; };
 let writing = 0, reading = false;
 const tellAddress = () => {
   if (reading) return;
@@ -23,24 +27,43 @@ const tellAddress = () => {
 const readAddress = () => {
   const { query } = addressNow();
   reading = true;
+  refused = [];
+  const names = new Set(views.map(({ name }) => name));
+  for (const name of new Set(query.keys())) if (!names.has(name)) refuse(name, "unknown");
   for (const { read } of views) read(query);
+  tellRefused();
   reading = false;
 };
 const choiceInAddress = (name, choice) => {
   const first = choice.value;
-  inAddress((query) => { if (choice.value !== first) query.set(name, choice.value); }, (query) => {
+  inAddress(name, (query) => { if (choice.value !== first) query.set(name, choice.value); }, (query) => {
     const wanted = query.get(name) ?? first;
-    if (choice.value === wanted || (choice.type === "number" && !placeOf.has(Number(wanted)))) return;
+    if (choice.value === wanted) return;
     const before = choice.value;
     choice.value = wanted;
-    if (choice.value === wanted) choice.dispatchEvent(new Event("change"));
-    else choice.value = before;
+    if (choice.value === wanted && (choice.type !== "number" || placeOf.has(Number(wanted)))) choice.dispatchEvent(new Event("change"));
+    else {
+      choice.value = before;
+      if (query.has(name)) refuse(`${name}=${wanted}`);
+    }
   });
   choice.addEventListener("change", tellAddress);
 };
+// The weights that a text such as "t_p:0.6,S:0.4" gives, with 0 for measures that it does not name; null if it is invalid.
+const weightsIn = (text) => {
+  const given = new Map(text.split(",").map((one) => {
+    const [id, number = ""] = one.split(":");
+    return [id, number === "" ? NaN : Number(number)];
+  }));
+  const unknown = [...given.keys()].filter((id) => !weighted.some((one) => one.id === id));
+  const sum = [...given.values()].reduce((before, one) => before + one, 0);
+  const wrong = unknown.length ? `no weight in this study: ${unknown.join(", ")}`
+    : [...given.values()].every((one) => one >= 0) && sum > 0 && Number.isFinite(sum) ? "" : "not numbers of 0 or more, one above 0";
+  if (wrong) refuse(`weights=${text}`, wrong);
+  return wrong ? null : weighted.map((one) => (given.get(one.id) ?? 0) / sum);
+};
 const startAddress = () => {
-  const numbers = (text) => text.split(":").map(Number);
-  inAddress((query) => {
+  inAddress("only", (query) => {
     for (const { axis, low, high } of brushes.values()) query.append("only", `${axis.id}:${axis.write(low, -1)}:${axis.write(high, 1)}`);
   }, (query) => {
     brushes.clear();
@@ -49,17 +72,15 @@ const startAddress = () => {
       const axis = axes.find((one) => one.id === id);
       const [low, high] = axis ? [axis.read(from), axis.read(to)] : [NaN, NaN];
       if (low <= high && (low > 0 || high < 1)) brushes.set(id, { axis, low, high });
+      else if (!(low <= high)) refuse(`only=${text}`, axis ? "no such range" : `no axis ${id}`);
     }
     for (const tell of axisControls) tell();
     applyBrushes();
   });
-  inAddress((query) => {
+  inAddress("weights", (query) => {
     if (raw.some((one, index) => Math.abs(one - weighted[index].weight) > 5e-5)) query.set("weights", weighted.map((one, index) => `${one.id}:${Number(raw[index].toFixed(4))}`).join(","));
   }, (query) => {
-    const given = new Map((query.get("weights") ?? "").split(",").map((one) => [one.split(":")[0], numbers(one)[1]]));
-    const found = weighted.map((one) => given.get(one.id));
-    const sum = found.reduce((before, one) => before + one, 0);
-    setWeights(found.every((one) => one >= 0) && sum > 0 && Number.isFinite(sum) ? found.map((one) => one / sum) : weighted.map((one) => one.weight));
+    setWeights((query.has("weights") ? weightsIn(query.get("weights")) : null) ?? weighted.map((one) => one.weight));
   });
   for (const [name, id] of [["measure", "measure-choice"], ["across", "pareto-x"], ["up", "pareto-y"], ["effect", "effect-choice"], ["trial", "timeline-choice"], ["variant", "variant-choice"], ["by", "distribution-by"], ["compare", "compare-choice"]]) choiceInAddress(name, byId(id));
   rankingWatchers.push(tellAddress);
@@ -67,7 +88,7 @@ const startAddress = () => {
   const follow = () => {
     const { anchor, sent } = addressNow();
     // A link within the page keeps the view.
-    if (!sent) { tellAddress(); return; }
+    if (!sent) { refused = []; tellRefused(); tellAddress(); return; }
     readAddress();
     byId(named(anchor))?.scrollIntoView();
   };

@@ -6,24 +6,32 @@ const startCompare = () => {
   const best = variants.id.map((_, place) => place).filter((place) => known(variants.rank[place])).sort((one, other) => variants.rank[one] - variants.rank[other]).slice(0, 2);
   const first = best.length === 2 ? best : [0, 1].filter((place) => place < total);
   field.value = [...new Set([placeOf.get(data.decision.chosen) ?? first[0], placeOf.get(data.decision.runner_up) ?? first[1], ...first])].slice(0, 2).map((place) => variants.id[place]).join(", ");
+  // One variant has none to be compared with.
+  const alone = total < 2;
+  field.form.hidden = byId("variant-compare").hidden = alone;
+  if (alone) {
+    field.value = "";
+    note.textContent = "The study has one variant, and none to compare it with.";
+    return;
+  }
   const wanted = () => [...new Set(field.value.split(/[\s,;]+/).filter(Boolean))];
   const compared = () => wanted().map((text) => placeOf.get(Number(text))).filter(known).slice(0, MOST_COMPARED);
   const rowsOf = (places) => {
     const rows = [];
-    const add = (name, kind, key, better, value, text) => {
+    const add = (name, kind, key, better, value, text, { unit = "", ends = () => [] } = {}) => {
       const values = places.map(value);
       const there = values.filter((one) => typeof one === "number");
       const top = better === "higher" ? Math.max(...there) : better === "lower" ? Math.min(...there) : null;
       // What is written alike neither differs nor is better.
       const differs = new Set(places.map(text)).size > 1;
       const topText = top === null ? "" : text(places.find((place) => value(place) === top));
-      rows.push({ name, kind, key, differs, text, best: (place) => differs && top !== null && text(place) === topText });
+      rows.push({ name, kind, key, differs, text, value, unit: unit === "1" ? "" : unit, ends, best: (place) => differs && top !== null && text(place) === topText });
     };
-    for (const one of data.parameters) add(one.name, "parameter", one.id, "none", (place) => at(one.values, place), (place) => show(at(one.values, place), one.unit));
+    for (const one of data.parameters) add(one.name, "parameter", one.id, "none", (place) => at(one.values, place), (place) => show(at(one.values, place), one.unit), { unit: one.unit });
     for (const one of data.measures) {
-      if (places.some((place) => known(at(one.value, place)))) add(`${one.id}: ${one.name}`, "measure", one.id, one.better, (place) => at(one.value, place), (place) => estimate(one, place));
+      if (places.some((place) => known(at(one.value, place)))) add(`${one.id}: ${one.name}`, "measure", one.id, one.better, (place) => at(one.value, place), (place) => estimate(one, place), { unit: one.unit, ends: (place) => [at(one.low, place), at(one.high, place)] });
     }
-    for (const one of data.requirements) add(`${one.id}: ${one.criterion}`, "verdict", one.id, "none", (place) => at(one.verdict, place), (place) => VERDICTS[at(one.verdict, place)].join(" "));
+    for (const one of data.requirements) add(`${one.id}: ${one.criterion}`, "verdict", one.id, "none", (place) => VERDICTS[at(one.verdict, place)][1], (place) => VERDICTS[at(one.verdict, place)].join(" "));
     add("weighted value", "value", "value", "higher", (place) => variants.value[place], (place) => show(variants.value[place]));
     add("rank", "value", "value", "lower", (place) => variants.rank[place], (place) => show(variants.rank[place]));
     return rows;
@@ -42,6 +50,9 @@ const startCompare = () => {
       label: "Variants side by side", size: 200,
       columns: [{ head: "of the variant", cell: (row) => row.name, sort: (row) => row.name }, { head: "kind", cell: (row) => row.kind },
         ...places.map((place) => ({ head: element("span", {}, variants.id[place] === data.decision.chosen ? `${variants.id[place]} (chosen)` : String(variants.id[place])), number: true, cell: (row) => cell(row, place) }))],
+      // In the file a number has its unit, and the ends of its interval, in columns of their own.
+      csv: [{ head: "of the variant", cell: (row) => row.name }, { head: "kind", cell: (row) => row.kind }, { head: "unit", cell: (row) => row.unit },
+        ...places.flatMap((place) => ["", " low", " high"].map((end, index) => ({ head: `${variants.id[place]}${end}`, cell: (row) => (index ? row.ends(place)[index - 1] : row.value(place)) })))],
       rows: () => rowsOf(places).filter((row) => row.differs || !differing.checked),
     };
     specifications.set("compare-table", specification);
@@ -112,7 +123,7 @@ const startDistributions = () => {
   const update = tableIn("distributions-table", {
     label: "Distributions of the measures over the shown variants",
     columns: [{ head: "measure", cell: (row) => withUnit(row.measure.id, row.measure.unit) }, { head: "of", cell: (row) => row.name }, { head: "variants", number: true, cell: (row) => String(row.values.length) },
-      ...[["least", 0], ["quarter", 0.25], ["median", 0.5], ["three quarters", 0.75], ["most", 1]].map(([head, share]) => ({ head, number: true, cell: (row) => show(quantile(row.values, share)) }))],
+      ...[["least", 0], ["quarter", 0.25], ["median", 0.5], ["three quarters", 0.75], ["most", 1]].map(([head, share]) => ({ head, number: true, cell: (row) => show(quantile(row.values, share)), value: (row) => quantile(row.values, share) }))],
     rows, source: "Computed here from the estimates of the shown variants; their evidence is below.",
   });
   by.addEventListener("change", () => { redraw(); update(); });

@@ -54,6 +54,16 @@ const element = (tag, attributes = {}, ...children) => {
   made.append(...children);
   return made;
 };
+// The text of a node as it is read: the cells of a row, and what is on lines of its own, do not run together.
+const textIn = (node) => {
+  const said = (one) => {
+    if (one.nodeType === Node.TEXT_NODE) return one.data;
+    if (one.tagName === "TR") return Array.from(one.cells, textIn).filter(Boolean).join(" · ");
+    const text = Array.from(one.childNodes, said).join("");
+    return /^(BR|LI|P|DIV|H\d|BUTTON)$/.test(one.tagName) || one.classList?.contains("words") ? ` ${text} ` : text;
+  };
+  return said(node).replace(/\s+/g, " ").trim();
+};
 const variantLink = (id) => element("a", { href: `#variant-${id}` }, String(id));
 // The anchor of a variant's figure with its evidence.
 const figureAddress = (id, name) => `#variant-${id}/${encodeURIComponent(name)}`;
@@ -74,7 +84,7 @@ const arrivals = [];
 let waiting = false;
 const countShown = () => {
   const all = shownPlaces.length === total;
-  byId("shown").textContent = all ? `All ${total} variants are shown` : `${shownPlaces.length} of ${total} variants are shown`;
+  byId("shown").textContent = all ? (total === 1 ? "The one variant is shown" : `All ${total} variants are shown`) : `${shownPlaces.length} of ${total} variants are shown`;
   byId("clear").disabled = brushes.size === 0;
 };
 const tellShown = () => {

@@ -20,13 +20,22 @@ const csvCell = (value) => {
   const safe = /^[=+@\t\r-]/.test(text) && Number.isNaN(Number(text)) ? `'${text}` : text;
   return /[",\r\n]/.test(safe) ? `"${safe.replace(/"/g, '""')}"` : safe;
 };
-const csvOf = ({ columns, rows }) => {
-  const textOf = (one) => (one instanceof Node ? one.textContent.trim() : one ?? "");
-  const figure = (column, row) => {
-    const value = column.number && column.sort ? column.sort(row) : undefined;
-    return typeof value === "number" ? value : textOf(column.cell(row));
+// A column of numbers has plain numbers, none where the value is unknown; the ends of an interval are columns of their own.
+const csvColumns = (column) => {
+  const textOf = (one) => (one instanceof Node ? textIn(one) : one ?? "");
+  const head = textOf(column.head), said = (row) => textOf(column.cell(row));
+  const figure = (row) => {
+    const value = column.value ?? column.sort;
+    if (value) return value(row) ?? "";
+    const text = said(row), plain = text.replace(/,(?=\d{3})/g, "").replace("−", "-");
+    return text === "–" ? "" : text !== "" && Number.isFinite(Number(plain)) ? Number(plain) : text;
   };
-  const lines = [columns.map((column) => csvCell(textOf(column.head))), ...rows().map((row) => columns.map((column) => csvCell(figure(column, row))))];
+  // "t_e [s]" has the ends "t_e low [s]" and "t_e high [s]".
+  const end = (index, name) => ({ head: head.replace(/( \[[^[]*\])?$/, ` ${name}$1`), cell: (row) => column.ends(row)[index] });
+  return [{ head, cell: column.number ? figure : said }, ...(column.ends ? [end(0, "low"), end(1, "high")] : [])];
+};
+const csvOf = ({ columns, csv = columns.filter((column) => !column.merged).flatMap(csvColumns), rows }) => {
+  const lines = [csv.map((column) => csvCell(column.head)), ...rows().map((row) => csv.map((column) => csvCell(column.cell(row))))];
   return `${lines.map((line) => line.join(",")).join("\r\n")}\r\n`;
 };
 // An SVG picture rasterised at twice the resolution of a screen.
@@ -64,6 +73,7 @@ const downloadsFor = (host, id, { svg = null, csv = false }) => {
 const svgPen = (width, height) => {
   const marks = [];
   let path = "";
+  const ruler = element("canvas").getContext("2d");
   const escaped = (text) => String(text).replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
   const look = (pen) => `stroke="${escaped(pen.strokeStyle)}" stroke-width="${pen.lineWidth}" opacity="${pen.globalAlpha}"${pen.dashes ? ` stroke-dasharray="${pen.dashes}"` : ""}`;
   const words = (pen, text, x, y, more) => marks.push(`<text x="${x}" y="${y}" text-anchor="${{ right: "end", center: "middle" }[pen.textAlign] ?? "start"}" style="font:${escaped(pen.font)}" ${more}>${escaped(text)}</text>`);
@@ -79,17 +89,21 @@ const svgPen = (width, height) => {
     fillRect(x, y, w, h) { marks.push(`<rect x="${n(x)}" y="${n(y)}" width="${n(w)}" height="${n(h)}" fill="${escaped(this.fillStyle)}"/>`); },
     strokeRect(x, y, w, h) { marks.push(`<rect x="${n(x)}" y="${n(y)}" width="${n(w)}" height="${n(h)}" fill="none" ${look(this)}/>`); },
     fillText(text, x, y) { words(this, text, n(x), n(y), `fill="${escaped(this.fillStyle)}"`); },
-    strokeText(text, x, y) { words(this, text, n(x), n(y), `fill="none" stroke="${escaped(this.strokeStyle)}" stroke-width="${this.lineWidth}"`); },
+    measureText(text) { ruler.font = this.font; return ruler.measureText(text); },
     text: () => `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${marks.join("")}</svg>`,
   };
 };
 
 // The tornado is inline SVG; its file includes the colours of the page's style sheet.
 const startTornado = () => {
-  const host = byId("tornado"), drawn = host?.querySelector("svg"), table = byId("tornado-table");
-  if (!drawn || !table) return;
-  const heads = Array.from(table.tHead.rows[0].cells, (head) => head.textContent.trim());
-  specifications.set("tornado-table", { columns: heads.map((head, index) => ({ head, cell: (row) => row.cells[index].textContent.trim() })), rows: () => Array.from(table.tBodies[0].rows) });
+  const host = byId("tornado"), drawn = host?.querySelector("svg");
+  if (!drawn) return;
+  const side = (name, index, beyond) => [{ head: name, cell: (row) => row.numbers.ends[index].value }, { head: `${name} lead`, cell: (row) => row.numbers.ends[index].lead },
+    { head: `${name} feasible`, cell: (row) => (row.numbers.ends[index].feasible ? "yes" : "no") }, { head: `${name} wins`, cell: (row) => row.ends[index].wins }, { head: `changes ${beyond}`, cell: (row) => row.numbers.ends[index].flip }];
+  specifications.set("tornado-table", { rows: () => data.sensitivity.tornado.rows, csv: [
+    { head: "input", cell: (row) => row.input }, { head: "unit", cell: (row) => row.numbers.unit }, { head: "is", cell: (row) => row.numbers.base },
+    ...side("low", 0, "below"), ...side("high", 1, "above"), { head: "changes are", cell: (row) => (row.numbers.exact ? "exact" : "approximate") }, { head: "range is", cell: (row) => row.range_is },
+  ] });
   downloadsFor(host, "tornado", { csv: true, svg: async () => {
     const copy = drawn.cloneNode(true), { width, height } = drawn.viewBox.baseVal;
     const parts = Array.from(drawn.querySelectorAll("*"));

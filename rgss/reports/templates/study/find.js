@@ -76,7 +76,7 @@ const everything = () => {
   const place = placeOf.get(data.decision.chosen ?? variants.id[0]) ?? 0;
   for (const head of document.querySelectorAll("main :is(h2, h3)")) {
     const section = head.id || head.closest("section, figure")?.id;
-    if (section && !head.closest("#variant-evidence")) add("Sections", head.textContent, "", `#${section}`);
+    if (section && !head.closest("#variant-evidence")) add("Sections", textIn(head), "", `#${section}`);
   }
   for (const one of data.requirements) {
     const verdict = VERDICTS[at(one.verdict, place)][1];
@@ -97,9 +97,9 @@ const everything = () => {
     if (host || head === null) return;
     if (!row.id) row.id = `row-${index}`;
     if (found.some((one) => one.to === `#${row.id}`)) return;
-    add("Rows of tables", (head.querySelector(".id") ?? head).textContent.trim(), `${row.closest("section")?.querySelector("h2")?.textContent ?? ""}: ${row.textContent.replace(/\s+/g, " ").trim()}`, `#${row.id}`);
+    add("Rows of tables", textIn(head.querySelector(".id") ?? head), `${row.closest("section")?.querySelector("h2")?.textContent ?? ""}: ${textIn(row)}`, `#${row.id}`);
   });
-  for (const figure of document.querySelectorAll("main figure[id]")) add("Diagrams", figure.querySelector("h3")?.textContent ?? figure.id, figure.querySelector("figcaption").textContent, `#${figure.id}`);
+  for (const figure of document.querySelectorAll("main figure[id]")) add("Diagrams", figure.querySelector("h3")?.textContent ?? figure.id, Array.from(figure.querySelector("figcaption").childNodes).filter((one) => !one.matches?.("h3, button, .as-page")).map(textIn).join(" ").trim(), `#${figure.id}`);
   return found;
 };
 

@@ -46,7 +46,7 @@ const countLabels = (groups, horizontal, vertical, size, host) => {
   const room = [0.9 * Math.max(100, host.clientWidth - 110), 0.85 * 220];
   const taken = [], found = new Map();
   for (const group of groups.filter((one) => one.length > 1).sort((one, other) => other.length - one.length)) {
-    const text = `×${group.length}`, wide = 7 * text.length + 6, tall = 16, gap = size(group) / 2 + 1;
+    const text = `×${group.length}`, wide = 7.5 * text.length + 6, tall = 19, gap = size(group) / 2 + 1;
     const x = room[0] * (at(horizontal.value, group[0]) - left) / width, y = -room[1] * (at(vertical.value, group[0]) - foot) / height;
     const [before, behind, above, below] = [x - gap - wide, x + gap, y - gap - tall, y + gap];
     const places = [["top right", behind, above], ["bottom right", behind, below], ["top left", before, above], ["bottom left", before, below], ["middle right", behind, y - tall / 2]];

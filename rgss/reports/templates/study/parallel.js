@@ -1,7 +1,7 @@
 // --------------------------------------------- parallel coordinates, drawn on a canvas
 const DENSE = 600;
 const BINS = 48;
-const TOP = 62, BOTTOM = 46, HEIGHT = 420, SIDE = 64, LEAST_STEP = 90, MOST_STEP = 160;
+const TOP = 62, BOTTOM = 46, HEIGHT = 420, SIDE = 64, AWAY = 9, LEAST_STEP = 90, MOST_STEP = 160;
 
 // Multiples of 1, 2, 2.5 or 5 times a power of ten within the ends, some four to seven of them.
 const roundTicks = (low, high) => {
@@ -141,22 +141,23 @@ const parallel = (() => {
       pen.fillStyle = ink;
       pen.font = "600 12px system-ui, sans-serif";
       titleLines(axis.title).forEach((text, row, lines) => pen.fillText(text, x(index), TOP - 28 - 14 * (lines.length - 1 - row), STEP - 6));
-      pen.font = "11px system-ui, sans-serif";
+      pen.font = "12px system-ui, sans-serif";
       pen.fillStyle = muted;
       const under = [axis.unit && axis.unit !== "1" ? `[${axis.unit}]` : "", axis.better].filter(Boolean).join("  ");
-      if (under) pen.fillText(under, x(index), TOP - 13, STEP - 6);
+      if (under) pen.fillText(under, x(index), TOP - 13, STEP - 12);
       for (const [share, text] of axis.ticks) {
-        const shown = text.length > 14 ? `${text.slice(0, 13)}…` : text;
+        const shown = fitting(pen, text);
         pen.lineWidth = 1;
         pen.strokeStyle = ink;
         pen.beginPath();
         pen.moveTo(x(index) - 4, y(share));
         pen.lineTo(x(index), y(share));
         pen.stroke();
+        // A line that runs through a number, or ends at its first digit as a minus sign, would make it another one.
+        const room = pen.measureText(shown).width + 2 + AWAY;
+        pen.fillStyle = paper;
+        pen.fillRect(x(index) - 5 - room, y(share) - 7.5, room, 15);
         pen.textAlign = "right";
-        pen.lineWidth = 3;
-        pen.strokeStyle = paper;
-        pen.strokeText(shown, x(index) - 7, y(share) + 4);
         pen.fillStyle = ink;
         pen.fillText(shown, x(index) - 7, y(share) + 4);
       }
@@ -174,6 +175,12 @@ const parallel = (() => {
         pen.strokeRect(x(index) - 9, y(brush.high), 18, y(brush.low) - y(brush.high));
       }
     });
+  };
+  // A label is cut where it would reach the axis before its own.
+  const fitting = (pen, text) => {
+    let shown = text;
+    for (let kept = text.length - 1; kept > 0 && pen.measureText(shown).width > STEP - 12 - AWAY; kept -= 1) shown = `${text.slice(0, kept)}…`;
+    return shown;
   };
   const titleLines = (title) => {
     if (title.length <= 15 || !title.includes(" ")) return [title];

@@ -129,16 +129,17 @@ const startMeasures = () => {
       });
     }
     const limits = data.requirements.filter((one) => one.measure === measure.id);
+    // The legend names the limits: a label in the plot would cover intervals.
+    traces.push(...limits.map((one) => ({ x: [null], y: [null], mode: "lines", line: { color: "#d55e00", dash: "dash", width: 1.5 }, name: plotText(`${one.id}: ${one.criterion}`), hoverinfo: "skip" })));
     return { traces, layout: {
       shapes: limits.map((one) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: one.threshold, y1: one.threshold, line: { color: "#d55e00", dash: "dash", width: 1.5 } })),
-      annotations: limits.map((one) => ({ xref: "paper", x: 1, xanchor: "right", y: one.threshold, yanchor: "bottom", showarrow: false, bgcolor: getComputedStyle(document.documentElement).getPropertyValue("--paper").trim(), opacity: 0.85, text: plotText(`${one.id}: ${one.criterion}`) })),
       xaxis: { title: { text: "variants, by this measure" } }, yaxis: { title: { text: plotText(withBetter(measure)) } },
     } };
   });
   const update = tableIn("measures-table", {
     label: "Measures of the shown variants",
-    columns: [...variantColumns, ...effectiveness.map((measure) => ({ head: withUnit(measure.id, measure.unit), title: measure.name, number: true, cell: (place) => show(at(measure.value, place)) + (interval(measure, place) ? ` (${interval(measure, place)})` : ""), sort: (place) => at(measure.value, place), to: (place) => figureAddress(variants.id[place], measure.id) })),
-      { head: "trials", number: true, cell: (place) => show(at(variants.trials, place)), to: (place) => figureAddress(variants.id[place], "trials") }],
+    columns: [...variantColumns, ...effectiveness.map((measure) => ({ head: withUnit(measure.id, measure.unit), title: measure.name, number: true, cell: (place) => show(at(measure.value, place)) + (interval(measure, place) ? ` (${interval(measure, place)})` : ""), sort: (place) => at(measure.value, place), ends: measure.from_trials ? (place) => [at(measure.low, place), at(measure.high, place)] : null, to: (place) => figureAddress(variants.id[place], measure.id) })),
+      { head: "trials", number: true, cell: (place) => show(at(variants.trials, place)), value: (place) => at(variants.trials, place), to: (place) => figureAddress(variants.id[place], "trials") }],
     rows: byRank, search: finds,
   });
   onShown(update);
@@ -166,7 +167,7 @@ const startPareto = () => {
   for (const select of [across, up]) options(select, effectiveness.map((measure) => [measure.id, `${measure.id}: ${measure.name}`]));
   const spread = effectiveness.filter((measure) => Array.isArray(measure.value) && measure.weight !== null);
   across.value = (spread[1] || effectiveness[0]).id;
-  up.value = (spread[2] || spread[0] || effectiveness[0]).id;
+  up.value = ([spread[2], spread[0], ...effectiveness].find((measure) => measure && measure.id !== across.value) || effectiveness[0]).id;
   const redraw = plot("pareto", () => {
     const [horizontal, vertical] = [measureOf.get(across.value), measureOf.get(up.value)];
     const places = shownPlaces.filter((place) => known(at(horizontal.value, place)) && known(at(vertical.value, place)));
@@ -186,7 +187,7 @@ const startPareto = () => {
       const marker = markerOf(kind);
       traces.push({ x: mine.map(([place]) => at(horizontal.value, place)), y: mine.map(([place]) => at(vertical.value, place)), mode: "markers+text", name: KINDS[kind].name,
         marker: { ...marker, opacity: 1, size: mine.map(size) }, hoverinfo: "text", meta: mine.map(([place]) => variants.id[place]),
-        text: mine.map((group) => labels.get(group)?.text ?? ""), textposition: mine.map((group) => labels.get(group)?.position ?? "top right"), textfont: { size: 11 }, cliponaxis: false,
+        text: mine.map((group) => labels.get(group)?.text ?? ""), textposition: mine.map((group) => labels.get(group)?.position ?? "top right"), textfont: { size: 12 }, cliponaxis: false,
         hovertext: mine.map((group) => namesOf(group) + `<br>${plotText(`${horizontal.id}: ${together(horizontal, group)}`)}<br>${plotText(`${vertical.id}: ${together(vertical, group)}`)}`) });
     }
     return { traces, layout: { xaxis: { title: { text: plotText(withBetter(horizontal)) } }, yaxis: { title: { text: plotText(withBetter(vertical)) } } } };
@@ -241,7 +242,7 @@ const startAcceptability = () => {
   });
   onShown(tableIn("acceptability-table", {
     label: "Acceptability of the shown variants",
-    columns: [{ head: "variant", cell: (one) => variantLink(one.variant) }, { head: "first", number: true, cell: (one) => percent(one.first) }, { head: "± (1.96 standard errors)", number: true, cell: (one) => percent(1.96 * one.error) }, { head: "confidence", number: true, cell: (one) => percent(one.confidence) }, { head: "feasible in", number: true, cell: (one) => percent(one.feasible) }, { head: "share of weights", number: true, cell: (one) => percent(one.region) }],
+    columns: [{ head: "variant", cell: (one) => variantLink(one.variant) }, { head: "first", number: true, cell: (one) => percent(one.first), value: (one) => one.first }, { head: "± (1.96 standard errors)", number: true, cell: (one) => percent(1.96 * one.error), value: (one) => 1.96 * one.error }, { head: "confidence", number: true, cell: (one) => percent(one.confidence), value: (one) => one.confidence }, { head: "feasible in", number: true, cell: (one) => percent(one.feasible), value: (one) => one.feasible }, { head: "share of weights", number: true, cell: (one) => percent(one.region), value: (one) => one.region }],
     rows, source: ANALYSED,
   }));
 };
@@ -293,7 +294,7 @@ const startEffects = () => {
   });
   const update = tableIn("effects-table", {
     label: "Main effects",
-    columns: [{ head: "factor", cell: (row) => row.factor }, { head: "share", number: true, cell: (row) => percent(row.share) }, { head: "level", cell: (row) => row.level }, { head: "effect", number: true, cell: (row) => show(row.effect) }, { head: "interval of 95 %", number: true, cell: (row) => (known(row.low) ? `${show(row.low)} to ${show(row.high)}` : "–") }, { head: "mean of the shown variants", number: true, cell: (row) => show(row.brushed) }],
+    columns: [{ head: "factor", cell: (row) => row.factor }, { head: "share", number: true, cell: (row) => percent(row.share), value: (row) => row.share }, { head: "level", cell: (row) => row.level }, { head: "effect", number: true, cell: (row) => show(row.effect), value: (row) => row.effect, ends: (row) => [row.low, row.high] }, { head: "interval of 95 %", number: true, merged: true, cell: (row) => (known(row.low) ? `${show(row.low)} to ${show(row.high)}` : "–") }, { head: "mean of the shown variants", number: true, cell: (row) => show(row.brushed), value: (row) => row.brushed }],
     rows, source: ANALYSED,
   });
   onShown(update);

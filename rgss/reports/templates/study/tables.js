@@ -24,7 +24,7 @@ const sortable = (heads, changed) => {
   heads.forEach((head, index) => {
     // The link of a head is kept beside the button.
     const linked = head.querySelector("a") !== null;
-    const button = element("button", { type: "button", class: "sort", "aria-label": linked ? `Sort by ${head.textContent}` : null }, ...(linked ? [] : head.childNodes));
+    const button = element("button", { type: "button", class: "sort", "aria-label": linked ? `Sort by ${textIn(head)}` : null }, ...(linked ? [] : head.childNodes));
     if (linked) head.append(" ", button);
     else head.replaceChildren(button);
     button.addEventListener("click", () => {
@@ -56,7 +56,7 @@ const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROW
   const order = sortable(columns.map((column) => element("th", { scope: "col", title: column.title || null }, column.head)), () => { first = 0; update(); });
   const said = (column, row) => {
     const cell = column.cell(row);
-    return cell instanceof Node ? cell.textContent : cell ?? "";
+    return cell instanceof Node ? textIn(cell) : cell ?? "";
   };
   const sortedBy = (index) => columns[index].sort ?? ((row) => (columns[index].number || index === 0 ? numberOf(said(columns[index], row)) : said(columns[index], row)));
   const has = search ?? ((row, word) => columns.some((column) => said(column, row).toLowerCase().includes(word)));

@@ -1,7 +1,9 @@
 // ----------------------------------------------------- planning times, failures, timelines
 const startPlanning = () => {
   const planning = data.planning;
-  byId("planning-note").textContent = "Each search once, however many variants share it, with the longest limit of these. A curve that ends below 100 % found no path in the other searches." + (planning.thinned ? " There are so many that quantiles stand for them, of all variants whatever is brushed." : "");
+  const longest = Math.max(...planning.planners.map((planner) => planner.longest_limit_s), 0), simplifying = planning.simplification_limit_s;
+  const limits = longest ? ` The time is that of the search, for which the longest limit is ${show(longest, "s")}, and of the simplification of its path${simplifying ? `, which has a limit of its own of ${show(simplifying, "s")}` : ""}: it can exceed the first limit.` : "";
+  byId("planning-note").textContent = "Each search once, however many variants share it, with the longest limit of these. A curve that ends below 100 % found no path in the other searches." + limits + (planning.thinned ? " There are so many that quantiles stand for them, of all variants whatever is brushed." : "");
   const searchesOf = (index) => {
     const planner = planning.planners[index];
     if (planning.thinned) return { count: planner.searches, times: planner.quantiles_s.length ? planner.quantiles_s : planner.quartiles_s, solved: planner.solved };
@@ -24,15 +26,15 @@ const startPlanning = () => {
   plot("planning", () => {
     const found = rows();
     if (!found.length) return null;
-    // The last search may exceed the limit by the charge of its last check; no curve turns back.
-    const end = found.reduce((most, row) => Math.max(most, row.planner.longest_limit_s, row.times[row.times.length - 1] ?? 0), 0);
+    // A time includes the simplification, beyond the limit of the search. The margin shows the last step; no curve turns back.
+    const end = 1.04 * found.reduce((most, row) => Math.max(most, row.planner.longest_limit_s, row.times[row.times.length - 1] ?? 0), 0);
     return { traces: found.map((row, index) => ({ x: [0, ...row.times, end], y: [0, ...row.times.map((_, place) => ((place + 1) / row.times.length) * (row.solved / row.count)), row.solved / row.count], mode: "lines", name: plotText(row.planner.name), line: { shape: "hv", color: PALETTE[index % PALETTE.length], dash: DASHES[index % DASHES.length], width: 2.5 }, hovertemplate: "%{x:.3g} s: %{y:.0%}<extra>%{fullData.name}</extra>" })),
-      layout: { xaxis: { title: { text: "planning time [s]" }, rangemode: "tozero" }, yaxis: { title: { text: "searches that had found a path" }, tickformat: ".0%", range: [0, 1.02] } } };
+      layout: { xaxis: { title: { text: "planning time [s]" }, range: [0, end] }, yaxis: { title: { text: "searches that had found a path" }, tickformat: ".0%", range: [0, 1.02] } } };
   });
   onShown(tableIn("planning-table", {
     label: "Planning times by planner",
     columns: [{ head: "planner", cell: (row) => row.planner.name }, { head: "searches", number: true, cell: (row) => show(row.count) }, { head: "found a path", number: true, cell: (row) => show(row.solved) },
-      ...[["least", 0], ["quarter", 0.25], ["median", 0.5], ["three quarters", 0.75], ["most", 1]].map(([head, share]) => ({ head: `${head} [s]`, number: true, cell: (row) => show(quantile(row.times, share)) }))],
+      ...[["least", 0], ["quarter", 0.25], ["median", 0.5], ["three quarters", 0.75], ["most", 1]].map(([head, share]) => ({ head: `${head} [s]`, number: true, cell: (row) => show(quantile(row.times, share)), value: (row) => quantile(row.times, share) }))],
     rows, source: `From the searches that the trials in ${data.evidence} recorded; “rgss export ompl” writes each of them.`,
   }));
 };
@@ -108,7 +110,7 @@ const startTimeline = () => {
   });
   const update = tableIn("timeline-table", {
     label: "Phases of the trial",
-    columns: [{ head: "phase", cell: (row) => row.phase }, { head: "outcome", cell: (row) => row.outcome }, { head: "begins [s]", number: true, cell: (row) => (row.outcome === "not run" ? "–" : show(row.start)) }, { head: "planning [s]", number: true, cell: (row) => show(row.planning) }, { head: "phase [s]", number: true, cell: (row) => show(row.moving) }],
+    columns: [{ head: "phase", cell: (row) => row.phase }, { head: "outcome", cell: (row) => row.outcome }, { head: "begins [s]", number: true, cell: (row) => (row.outcome === "not run" ? "–" : show(row.start)), value: (row) => (row.outcome === "not run" ? null : row.start) }, { head: "planning [s]", number: true, cell: (row) => show(row.planning), value: (row) => row.planning }, { head: "phase [s]", number: true, cell: (row) => show(row.moving), value: (row) => row.moving }],
     rows, source: "From the record of the trial that is named above, with the command that runs it again.",
   });
   const tell = () => {

@@ -1,0 +1,46 @@
+"""A requirement that changed after its evidence is open on every page, by one rule."""
+
+from __future__ import annotations
+
+import re
+import shutil
+
+import pytest
+
+OPEN = re.compile(r"are open \(by ([^)]*)\)")
+
+
+@pytest.fixture
+def changed(with_evidence, tmp_path, rgss):
+    """The project with recorded verdicts, and a requirement whose text changed since."""
+    project = tmp_path / "project"
+    shutil.copytree(with_evidence, project)
+    assert rgss("measure", "--project", project, "--record").status == 0
+    file = project / "requirements" / "system" / "2-gripper.yaml"
+    text = file.read_text(encoding="utf-8")
+    assert "at least 0.8 kg" in text
+    file.write_text(text.replace("at least 0.8 kg", "not less than 0.8 kg", 1), encoding="utf-8")
+    return project
+
+
+def test_every_page_counts_it_as_open(changed, rgss, monkeypatch):
+    before = rgss("measure", "--project", changed, "--verdicts").output
+    assert "SYS-012" in before
+    assert "stale" in before
+    said = rgss("trade", "--project", changed, "--brief").output
+    (by,) = OPEN.findall(said)
+    assert "SYS-012" in by.split(", ")
+    standing = next(line for line in said.splitlines() if line.startswith("Requirements of variant"))
+    assert "SYS-012 without valid evidence" in standing
+    (count, named) = re.search(r"(\d+) open \(([^)]*)\)", standing).groups()
+    assert len(named.split(", ")) == int(count)
+
+    document = rgss("trade", "--project", changed, "--brief", "--json").document
+    chosen = document["conclusion"]["chosen"]
+    assert set(chosen["undecided"]) == {one.split()[0] for one in named.split(", ")}
+    assert "SYS-012" in chosen["not_run"]
+    monkeypatch.chdir(changed)
+    assert OPEN.findall(rgss().output) == [by]
+    page = rgss("report", "--no-film", "--json", "--out", changed / "report.html").document["report"]["decision"]
+    assert OPEN.findall(page["headline"]) == [by]
+    assert standing in page["standing"]
