@@ -110,7 +110,7 @@ def _report_interrupted_import(options: argparse.Namespace | None) -> None:
     from rgss.studies import find_project
 
     try:
-        folder = None if options is None else find_project(options.project)
+        folder = None if options is None else find_project(getattr(options, "project", None))
     except RgssError:
         return
     if folder is not None and was_interrupted(folder):

@@ -217,6 +217,9 @@ def with_tornado(document):
         "tornado": {
             "chosen": 1,
             "rival": 2,
+            "tied": [],
+            "no_rival": None,
+            "has_leads": True,
             "lead": "0.1",
             "rows": [row],
             "ranges": "All are shares.",

@@ -212,7 +212,7 @@ def test_every_page_states_the_rule_of_the_choice(made):
     assert rule == {"sentence": sentence, "practical_margin": margin, "tolerance": 0.05, "of_equals": "last"}
     assert rule_sentence(dataclasses.replace(made, tolerance=0.0)) == (
         "Rule: of the variants whose estimates meet every requirement, the one of the highest value is chosen; of "
-        "equals the smallest id."
+        "equals one that no other surpasses in the quantities of the valued measures, then the smallest id."
     )
 
 

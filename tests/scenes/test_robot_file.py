@@ -170,7 +170,7 @@ def test_a_mesh_that_collides_but_is_none_is_found(kitchen):
     with_mesh(kitchen, '<collision><geometry>\n <mesh filename="part.stl"/></geometry></collision></link>')
     (finding,) = kitchen.findings("robot")
     assert "scene.mesh the collision mesh 'part.stl' of 'base': part.stl " in finding
-    assert "(use STL, OBJ or PLY)" in finding
+    assert "(export the mesh again)" in finding
 
 
 @pytest.mark.parametrize(

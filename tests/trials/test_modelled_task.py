@@ -206,7 +206,10 @@ def timing_failures(spec, monkeypatch):
     for outcome in set(TimingOutcome) - {TimingOutcome.TIMED}:
         untimed = SimpleNamespace(outcome=outcome, trajectory=None)
         monkeypatch.setattr(timing, "time_move", lambda *_, result=untimed, **__: result)
-        for lift in ((0.0,), None):
+        blocked, unreached = ({"lift": (one, "")} for one in (PlanOutcome.MOVE_BLOCKED, PlanOutcome.MOVE_UNREACHABLE))
+        for lift, obstacles in (((0.0,), {}), (None, {}), (None, blocked), (None, unreached)):
+            stops = SimpleNamespace(obstacles=obstacles, reasons={})
+            monkeypatch.setattr(timing, "stops_of", lambda _, found=stops: found)
             timed = time_task(cell, plan(lift_rad=lift), tool_speed_m_s=1.0, settings=spec.settings.planning)
             found |= {(phase, failure) for phase, (failure, _) in timed.failures.items()}
     return found
