@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rgss.api.trade_frames import portfolio_frame
-from rgss.decision import choose_portfolio, measure_survivors, portfolio_projects
+from rgss.decision import choose_portfolio, measured_studies
 from rgss.evidence import EvidenceStore
 from rgss.studies import Project
 
@@ -21,7 +21,6 @@ def portfolio_of_study(project: Project) -> pd.DataFrame:
         EvidenceError: Trials of one of the studies have no evidence.
         TradeoffError: The choice is ill posed.
     """
-    projects = portfolio_projects(project)
     with EvidenceStore.open(project.evidence, create=False) as store:
-        measured = {name: (each, measure_survivors(each, store)[0]) for name, each in projects.items()}
+        measured = measured_studies(project, store)
     return portfolio_frame(choose_portfolio(project, measured))

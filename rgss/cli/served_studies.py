@@ -29,13 +29,14 @@ def served_studies(
     if project.study.trade_off.portfolio is None:
         return {}
     from rgss.cli.assumption_trials import scenario_measures
-    from rgss.decision import measure_survivors, portfolio_projects
+    from rgss.decision import measured_studies
     from rgss.decision.what_if import suppose_known
 
-    served: dict[str, tuple[Project, Sequence[VariantMeasures]]] = {}
-    for name, each in portfolio_projects(project).items():
-        measured = measure_survivors(each, store)[0]
-        served[name] = each, measured
-        if supposing is not None and (scenario := suppose_known(each, supposing.what_if)) is not None:
+    served = measured_studies(project, store)
+    if supposing is None:
+        return served
+    for name, (each, measured) in served.items():
+        scenario = suppose_known(each, supposing.what_if)
+        if scenario is not None:
             served[name] = scenario.project, scenario_measures(supposing, each, scenario, measured, store)
     return served

@@ -6,8 +6,10 @@ from collections.abc import Mapping, Sequence
 
 from rgss.assessment import VariantMeasures
 from rgss.decision.choosing import trade_problem
+from rgss.decision.screening import measure_survivors
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError
+from rgss.evidence import EvidenceStore
 from rgss.studies import Project, load_project
 from rgss.studies.trade_off import PortfolioEntry
 from rgss.tradeoff import PortfolioDecision, PortfolioProblem, PortfolioTask, SolverRun, decide_portfolio
@@ -24,6 +26,21 @@ def portfolio_projects(project: Project) -> Mapping[str, Project]:
         DocumentError: A study's file is wrong.
     """
     return {each.study: load_project(project.folder, each.study) for each in _portfolio(project).studies}
+
+
+def measured_studies(project: Project, store: EvidenceStore) -> dict[str, tuple[Project, Sequence[VariantMeasures]]]:
+    """Project and measured variants of each study that the portfolio of a study serves, by the study's file.
+
+    Args:
+        project: The project with the study of the portfolio.
+        store: The evidence.
+
+    Raises:
+        DefinitionError: The study has no portfolio.
+        EvidenceError: The store is damaged.
+    """
+    projects = portfolio_projects(project)
+    return {name: (each, measure_survivors(each, store)[0]) for name, each in projects.items()}
 
 
 def choose_portfolio(

@@ -71,9 +71,8 @@ def stops_of(cell: Workcell) -> TaskStops:
     if chosen is None:
         return TaskStops(configurations={}, direct=none, reasons=reasons)
     found = dict(zip(order, chosen, strict=True))
-    obstacles: dict[str, tuple[PlanOutcome, str]] = {}
-    direct = {**none, **_direct_moves(cell, found, obstacles)}
-    return TaskStops(configurations=found, direct=direct, reasons=reasons, obstacles=obstacles)
+    direct, obstacles = _direct_moves(cell, found)
+    return TaskStops(configurations=found, direct={**none, **direct}, reasons=reasons, obstacles=obstacles)
 
 
 def every_stop_is_feasible(cell: Workcell) -> bool:
@@ -149,10 +148,14 @@ def _reasons(cell: Workcell, among: Iterable[int]) -> dict[int, GoalReason]:
 
 
 def _direct_moves(
-    cell: Workcell, found: dict[int, Array], obstacles: dict[str, tuple[PlanOutcome, str]]
-) -> dict[str, Array | None]:
-    """Straight moves in order; the first one to reach a stop determines the configuration there."""
+    cell: Workcell, found: dict[int, Array]
+) -> tuple[dict[str, Array | None], dict[str, tuple[PlanOutcome, str]]]:
+    """Straight moves in order, and the obstacles of those that are infeasible.
+
+    The first move to reach a stop determines the configuration there.
+    """
     direct: dict[str, Array | None] = {}
+    obstacles: dict[str, tuple[PlanOutcome, str]] = {}
     reached = {cell.route.legs[0].start}
     for leg in cell.route.legs:
         if leg.step.mode is not MoveKind.PLANNED and leg.start in found and leg.goal in found:
@@ -170,7 +173,7 @@ def _direct_moves(
                 found[leg.goal] = line[-1]
                 line.setflags(write=False)
         reached.add(leg.goal)
-    return direct
+    return direct, obstacles
 
 
 def _line(cell: Workcell, leg: Leg, found: Mapping[int, Array], *, is_new: bool) -> Array | None:
