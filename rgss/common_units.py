@@ -42,6 +42,7 @@ _ATOMS: Mapping[str, tuple[str, Mapping[str, int]]] = MappingProxyType(
         "kN": ("1000", _FORCE),
         "J": ("1", _ENERGY),
         "kJ": ("1000", _ENERGY),
+        "Nm": ("1", _ENERGY),
         "W": ("1", {**_ENERGY, _TIME: -3}),
         "kW": ("1000", {**_ENERGY, _TIME: -3}),
         "Pa": ("1", _PRESSURE),

@@ -139,8 +139,13 @@ def _registry() -> Any:
     import pint
 
     # Decimals keep "35 mm" exact: with floats, cm**3 would be 1.0000000000000002e-06 m**3.
-    registry: Any = pint.UnitRegistry(autoconvert_offset_to_baseunit=False, cache_folder=None, non_int_type=Decimal)
+    registry: Any = pint.UnitRegistry(
+        autoconvert_offset_to_baseunit=False, cache_folder=None, non_int_type=Decimal, on_redefinition="ignore"
+    )
     registry.define("US_dollar = [currency] = USD = dollar")
+    # Torques as data sheets write them. To pint, Nm is the number of a yarn, and Ncm and Nmm are unknown.
+    for symbol, length in (("Nm", "meter"), ("Ncm", "centimeter"), ("Nmm", "millimeter")):
+        registry.define(f"newton_{length} = newton * {length} = {symbol}")
     return registry
 
 

@@ -41,7 +41,8 @@ def registry() -> pint.UnitRegistry:
 
 
 def pint_unit(registry, text):
-    cleaned = text.replace("·", "*").replace("^", "**").replace("%", "percent")
+    # To pint itself, Nm is the number of a yarn.
+    cleaned = text.replace("·", "*").replace("^", "**").replace("%", "percent").replace("Nm", "N*m")
     return registry.Unit("dimensionless" if text == "1" else cleaned)
 
 

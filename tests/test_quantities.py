@@ -72,6 +72,14 @@ def test_reading(text, unit, value):
 
 
 @pytest.mark.parametrize(
+    ("text", "torque_nm"),
+    [("5 Nm", 5.0), ("5 mNm", 0.005), ("2 kNm", 2000.0), ("30 Ncm", 0.3), ("30 Nmm", 0.03), ("5 N m", 5.0)],
+)
+def test_torques_are_read_as_data_sheets_write_them(text, torque_nm):
+    assert parse_quantity(text, "N*m") == torque_nm
+
+
+@pytest.mark.parametrize(
     ("text", "unit", "message"),
     [
         ("", "m", "'' is not a quantity (write a number and a unit, such as \"1 m\")"),

@@ -10,6 +10,11 @@ from rgss.trace.sentences.numbers import NOT_WITHIN, NUMBER, readings
 from rgss.trace.sentences.units import ANY_CURRENCY, CURRENCIES, unit_of
 
 _DIGIT = re.compile(r"\d")
+# A unit goes on after a spaced operator, "5 m / s", and after a space where a symbol of a time or a length follows:
+# "5 N m", "0.1 kg m²", "10 N s".
+_GOES_ON = re.compile(
+    r"\s?[/*·⋅]\s?(?P<operand>[A-Za-zµμ°Ω\u2126][A-Za-z0-9µμ°Ω\u2126^*⁻¹²³⁴]*)|\s(?P<symbol>(?:[mc]?m|s|h)(?:\^?-?[1-4]|⁻?[¹²³⁴])?)(?![\w^])"
+)
 _QUANTITY = re.compile(
     rf"""(?:(?<![\w.])(?P<currency>{ANY_CURRENCY})\s?|{NOT_WITHIN})
         (?P<number>{NUMBER})
@@ -47,6 +52,8 @@ def quantities_in(sentence: str) -> Iterator[TextQuantity]:
         before = match["currency"]
         found = unit_of(f"{before}{match['rate'] or ''}" if before else match["unit"] or "")
         end = match.end() if found else match.end("number")
+        if found and not before:
+            found, end = _whole_unit(sentence, found, match.start("unit"), end)
         unit, currency = found or (("USD", CURRENCIES[before]) if before else ("1", ""))
         values = readings(match.groupdict(), is_money=bool(currency), is_pure=unit == "1")
         if not values:
@@ -59,3 +66,10 @@ def quantities_in(sentence: str) -> Iterator[TextQuantity]:
             start=match.start(),
             end=end,
         )
+
+
+def _whole_unit(sentence: str, found: tuple[str, str], start: int, end: int) -> tuple[tuple[str, str], int]:
+    """The longest unit that begins where one was found, and where it ends."""
+    while (more := _GOES_ON.match(sentence, end)) and (longer := unit_of(sentence[start : more.end()])):
+        found, end = longer, more.end()
+    return found, end
