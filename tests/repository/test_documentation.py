@@ -82,3 +82,12 @@ def test_files_exist(page):
     ]
 
     assert missing == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_tables_begin_after_an_empty_line(page):
+    lines = ["", *page.read_text(encoding="utf-8").splitlines()]
+    rules = [number for number, line in enumerate(lines) if re.fullmatch(r"\|[-| :]+\|", line)]
+
+    assert [lines[number - 1] for number in rules if not lines[number - 1].startswith("|")] == []
+    assert [lines[number - 2] for number in rules if lines[number - 2].strip()] == []
