@@ -1,24 +1,26 @@
-"""Scan the validated range of the payload bench against Coulomb's law; write a table in Markdown.
+"""Scan the validated range of the payload bench against statics; write tables in Markdown.
 
-Every quantity at both ends of its range with the others as in the reference study, corners of the whole range,
-and random benches within it. The law is computed here and not by the bench.
+Of fingers every quantity at both ends of its range with the others as in the reference study, corners of the whole
+range, and random benches within it; of suction cups corners and random benches. The laws, of Coulomb and of a lip that
+lifts off on one side, are computed here and not by the bench.
 
 Run it from the repository's folder: ``python benchmarks/bench_range.py [CASES]``.
 """
 
 from __future__ import annotations
 
+import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from rgss.physics import PhysicsSettings
-from rgss.scenes import Cylinder, Gripper, load_gripper, load_scene
+from rgss.scenes import Box, Cylinder, Gripper, at_top, load_gripper, load_gripper_file, load_scene
 from rgss.trials.payload_bench.bench import run_bench
-from rgss.trials.payload_bench.range import BOUND, VALIDATED, outside
+from rgss.trials.payload_bench.range import BOUND, VALIDATED, VALIDATED_CUP, ValidatedQuantity, outside
 from rgss.trials.payload_bench.spec import BenchSpec, bench_spec
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
@@ -28,16 +30,23 @@ CASES = 20
 
 def main(cases: int = CASES) -> int:
     """Scan, write, and return 1 if a bench is farther from the law than the bound."""
+    worst = [_scan(VALIDATED, [(name, deviation(spec)) for name, spec in benches(cases)])]
+    worst.append(_scan(VALIDATED_CUP, [(name, cup_deviation(spec)) for name, spec in cup_benches(cases)]))
+    return int(max(worst) > BOUND)
+
+
+def _scan(validated: Sequence[ValidatedQuantity], scanned: Sequence[tuple[str, float]]) -> float:
+    """Write the ranges and the deviations of the groups; the greatest of these."""
     out = sys.stdout
     out.write("| quantity | from | to | unit |\n|---|---|---|---|\n")
-    for quantity in VALIDATED:
+    for quantity in validated:
         out.write(f"| {quantity.name} | {quantity.lowest:g} | {quantity.highest:g} | {quantity.unit} |\n")
-    scanned = [(name, deviation(spec)) for name, spec in benches(cases)]
     out.write("\n| benches | number | least − theory (%) | greatest − theory (%) |\n|---|---|---|---|\n")
     for group in dict.fromkeys(name for name, _ in scanned):
         errors = [100.0 * error for name, error in scanned if name == group]
         out.write(f"| {group} | {len(errors)} | {min(errors):+.2f} | {max(errors):+.2f} |\n")
-    return int(max(abs(error) for _, error in scanned) > BOUND)
+    out.write("\n")
+    return max(abs(error) for _, error in scanned)
 
 
 def deviation(spec: BenchSpec) -> float:
@@ -45,6 +54,17 @@ def deviation(spec: BenchSpec) -> float:
     gripper = spec.gripper
     normal_n = len(gripper.geometry.azimuths_rad) * gripper.finger_force_n
     law_kg = gripper.friction * spec.object_friction * normal_n / (spec.gravity_m_s2 + spec.acceleration_m_s2)
+    return run_bench(spec).payload_kg / law_kg - 1.0
+
+
+def cup_deviation(spec: BenchSpec) -> float:
+    """Relative deviation of a cup's bench from F (1 - leak) / ((g + a) (1 + d / r)), whose factors are read off."""
+    gripper, suction = spec.gripper, spec.gripper.suction
+    if suction is None or gripper.geometry.cup is None or spec.suction is None:
+        raise AssertionError("asked of a bench with a cup")
+    lever = math.dist(spec.centre_of_mass_m[:2], spec.suction.position_m[:2]) / gripper.geometry.cup.radius_m
+    vacuum_n = gripper.finger_force_n * (1.0 - suction.leak)
+    law_kg = vacuum_n / ((spec.gravity_m_s2 + spec.acceleration_m_s2) * (1.0 + lever))
     return run_bench(spec).payload_kg / law_kg - 1.0
 
 
@@ -73,6 +93,76 @@ def benches(cases: int) -> Iterator[tuple[str, BenchSpec]]:
             if not outside(spec):
                 found += 1
                 yield group, spec
+
+
+def cup_benches(cases: int) -> Iterator[tuple[str, BenchSpec]]:
+    """Benches of suction cups by the group that they are in, all within the validated range."""
+    generator = np.random.default_rng(2)
+    for group in ("corners", "random"):
+        found = 0
+        while found < cases:
+            shares = generator.random(len(CUP_RANGES))
+            shares = np.round(shares) if group == "corners" else shares
+            drawn = {
+                name: float(low + (high - low) * share) if low == 0.0 else float(low * (high / low) ** share)
+                for (name, (low, high)), share in zip(CUP_RANGES.items(), shares.tolist(), strict=True)
+            }
+            spec = cup_bench(float(generator.choice((240.0, 480.0))), float(generator.uniform(0.0, 6.3)), **drawn)
+            if not outside(spec):
+                found += 1
+                yield group, spec
+
+
+CUP_RANGES = {
+    "acceleration": (0.001, 10.0),
+    "gravity": (1.6, 12.0),
+    "force": (0.5, 60.0),
+    "lip": (0.005, 0.03),
+    "lever": (0.0, 0.7),
+    "leak": (0.0, 0.3),
+    "height": (0.01, 0.2),
+}
+"""What the scan of cups varies."""
+
+
+def cup_bench(
+    rate_hz: float,
+    towards_rad: float,
+    *,
+    acceleration: float,
+    gravity: float,
+    force: float,
+    lip: float,
+    lever: float,
+    leak: float,
+    height: float,
+) -> BenchSpec:
+    """A bench of the Lite6's cup with other figures in SI units, over a box whose centre of mass is beside its axis."""
+    file = load_gripper_file(SCENES / "grippers/lite6_vacuum.yaml")
+    shape = Box(size_m=(2.2 * lip, 2.6 * lip, height))
+    geometry = at_top(replace(file.geometry, cup=Cylinder(radius_m=lip, height_m=0.02)), shape)
+    if file.suction is None:
+        raise AssertionError("the gripper has a cup")
+    gripper = Gripper(
+        geometry=geometry,
+        base_mass_kg=0.3,
+        finger_mass_kg=0.0,
+        finger_velocity_m_s=1.0,
+        finger_force_n=force / (1.0 - leak),
+        friction=1.0,
+        suction=replace(file.suction, leak=leak),
+    )
+    scene = load_scene(SCENES / "restaurant.yaml")
+    across_m = (lever * lip * math.cos(towards_rad), lever * lip * math.sin(towards_rad))
+    workpiece = replace(scene.workpiece, shape=shape, centre_of_mass_across_m=across_m)
+    spec = bench_spec(
+        replace(scene, workpiece=workpiece, gravity_m_s2=gravity),
+        gripper,
+        acceleration_m_s2=acceleration,
+        rated_kg=1000.0,
+        physics=PhysicsSettings(rate_hz=rate_hz),
+    )
+    return replace(spec, force_limit_n=1.0e6)
 
 
 RANGES = {

@@ -20,7 +20,7 @@ class PyBulletBond:
     """Implementation of `SuctionBond` in one physics client."""
 
     def __init__(
-        self, engine: Any, client: int, *, robot: int, cup_link: int, body: int, greatest_force_n: float
+        self, engine: Any, client: int, *, robot: int, cup_link: int, bond_link: int, body: int, greatest_force_n: float
     ) -> None:
         """Start detached, with a compliant support of the workpiece.
 
@@ -29,11 +29,12 @@ class PyBulletBond:
             client: The physics client.
             robot: The robot's body.
             cup_link: Link of the cup.
+            bond_link: Link that the constraint holds; the cup's, or one to which it is fixed.
             body: The workpiece's body.
             greatest_force_n: Greatest normal force of the cup.
         """
         self._engine, self._client = engine, client
-        self._robot, self._link, self._body = robot, cup_link, body
+        self._robot, self._cup_link, self._bond_link, self._body = robot, cup_link, bond_link, body
         self._greatest_force_n = greatest_force_n
         self._bond: int | None = None
         for number in links_of(engine, client, body):
@@ -53,13 +54,13 @@ class PyBulletBond:
     def attach(self) -> None:
         """Bond the workpiece to the cup at their present poses."""
         engine, client = self._engine, self._client
-        state = engine.getLinkState(self._robot, self._link, computeForwardKinematics=1, physicsClientId=client)
+        state = engine.getLinkState(self._robot, self._bond_link, computeForwardKinematics=1, physicsClientId=client)
         at, turned = engine.getBasePositionAndOrientation(self._body, client)
         back = engine.invertTransform(state[0], state[1])
         position, orientation = engine.multiplyTransforms(*back, at, turned)
         self._bond = engine.createConstraint(
             self._robot,
-            self._link,
+            self._bond_link,
             self._body,
             -1,
             engine.JOINT_FIXED,
@@ -97,5 +98,5 @@ class PyBulletBond:
         engine, client = self._engine, self._client
         for number in links_of(engine, client, self._body):
             engine.setCollisionFilterPair(
-                self._robot, self._body, self._link, number, int(touching), physicsClientId=client
+                self._robot, self._body, self._cup_link, number, int(touching), physicsClientId=client
             )

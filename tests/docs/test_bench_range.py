@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rgss.trials.payload_bench.range import VALIDATED
+import pytest
+
+from rgss.trials.payload_bench.range import VALIDATED, VALIDATED_CUP
 
 PAGE = Path(__file__).parents[2] / "docs" / "grasping.md"
 
 
-def test_the_page_has_a_row_for_each_validated_quantity():
+@pytest.mark.parametrize("validated", [VALIDATED, VALIDATED_CUP], ids=["fingers", "cup"])
+def test_the_page_has_a_row_for_each_validated_quantity(validated):
     text = PAGE.read_text(encoding="utf-8")
-    rows = [f"| {one.name} | {one.lowest:g} | {one.highest:g} | {one.unit} |" for one in VALIDATED]
+    rows = [f"| {one.name} | {one.lowest:g} | {one.highest:g} | {one.unit} |" for one in validated]
     assert "\n".join(rows) in text

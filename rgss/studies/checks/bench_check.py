@@ -21,8 +21,8 @@ _BENCH_PAYLOAD = "trial.bench_payload_kg"
 def bench_findings(project: Project) -> Iterator[Finding]:
     """Findings on the quantities of the study's designs that are outside the payload bench's validated range.
 
-    A suction cup has no bench, and an object too tall for the stated grasp has a finding of the scene. It is a warning
-    where a measure takes the payload from the bench, and only noted where none does.
+    An object too tall for the stated grasp has a finding of the scene. It is a warning where a measure takes the
+    payload from the bench, and only noted where none does.
 
     Args:
         project: The project with its study.
@@ -34,7 +34,7 @@ def bench_findings(project: Project) -> Iterator[Finding]:
     strange: dict[str, list[int]] = {}
     known: dict[object, tuple[str, ...]] = {}
     for spec in trial_specs(project, seeds=(project.study.seed,)):
-        if spec.gripper.suction is not None or _is_too_tall(spec):
+        if _is_too_tall(spec):
             continue
         if spec.gripper not in known:
             known[spec.gripper] = outside(payload_bench(spec))

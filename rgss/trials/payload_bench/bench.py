@@ -24,7 +24,7 @@ class PayloadResult:
         payload_kg: Greatest mass that was lifted and held; 0 if none was.
         limited_by: Failure of the next greater mass, or `RATED` if all masses were held.
         bracket_kg: Greatest mass held and smallest mass not held; both the rated mass if all were held.
-        theory_kg: mu N_f F / (g + a_m).
+        theory_kg: mu N_f F / (g + a_m); of a cup F (1 - leak) / ((g + a_m) (1 + d / r)), see `BenchSpec.theory_kg`.
         eq_4_8_kg: The same divided by the safety factor.
         probes: All probed masses, in order.
     """
@@ -62,7 +62,7 @@ def run_bench(spec: BenchSpec, *, probe_mass: Callable[[BenchSpec, float], Probe
     if strange:
         raise DefinitionError(
             f"the payload bench is not validated for {strange[0]}",
-            hint="it is valid only where simulation and Coulomb's law agree within 2 %",
+            hint="it is valid only where simulation and statics agree within 2 %",
         )
     low, high = probe_mass(spec, spec.first_kg), probe_mass(spec, spec.rated_kg)
     probes = [low, high]

@@ -12,15 +12,12 @@ from rgss.trials.trial_spec import TrialSpec
 def bench_of(spec: TrialSpec) -> BenchSpec | None:
     """Payload bench of a trial's gripper; None if there is none.
 
-    There is none below contact physics, for a suction cup, for an object that does not fit the gripper, and outside the
-    validated range.
+    There is none below contact physics, for an object that does not fit the gripper, and outside the validated range.
 
     Args:
         spec: The trial.
     """
     if spec.fidelity is not Fidelity.CONTACT:
-        return None
-    if spec.gripper.suction is not None:
         return None
     bench = payload_bench(spec)
     if misfit(spec.gripper.geometry, spec.scene):

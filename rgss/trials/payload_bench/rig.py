@@ -5,51 +5,28 @@ specified acceleration for any mass, and a probe takes milliseconds. The hand is
 as on the arm, so that masses, finger control and contacts are those of a trial.
 """
 
-# long file: one class builds, drives and monitors the rig.
-
 from __future__ import annotations
 
 import math
-import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from enum import Enum
 from types import TracebackType
 
 from rgss.physics import Contacts, open_world
-from rgss.scenes import (
-    ChosenGrasp,
-    Cylinder,
-    Joint,
-    PlaceRegion,
-    Pose,
-    Robot,
-    Scene,
-    SceneBody,
-    Task,
-    Workpiece,
-    grasp_opening_m,
-    half_extents_m,
-    motion_of,
-)
+from rgss.scenes import Pose, grasp_opening_m, motion_of
 from rgss.trials.monitors import ForceSensor
+from rgss.trials.payload_bench.rig_scene import rig_scene
 from rgss.trials.payload_bench.spec import BenchSpec
 
-_CARRIAGE = "carriage"
-_RAIL_JOINT = "rail_joint"
-_CARRIAGE_MASS_KG = 10.0
-_CARRIAGE_INERTIA_KG_M2 = 0.1
-_RAIL_FORCE_N = 1.0e6
-_RAIL_LENGTH_M = 1.0e3
-_POST_HEIGHT_M = 0.2
-_POST_SHARE = 0.5
-_POST = "post"
-_BLACK = (0.0, 0.0, 0.0, 1.0)
+_ONSET_S = 0.6
+_WHOLE = 0.999
 
 
 class PayloadLimit(str, Enum):
     """Cause that limits the payload of a gripper."""
 
     SLIP = "slip"
+    SEAL = "seal"
     DAMAGE = "damage"
     NO_FIRM_GRASP = "no_firm_grasp"
     RATED = "rated"
@@ -65,7 +42,8 @@ class Probe:
         slip_m: Displacement of the object in the hand since the firm grasp.
         creep_m_s: Mean speed of that displacement over the second half of the lift; None if it ended before.
         peak_force_n: Greatest normal force of a finger on the object, averaged over the object's force window.
-        grip_margin_min: Least mu ΣN / (m (g + a)) during the lift; None if there was none.
+        grip_margin_min: Least mu ΣN / (m (g + a)) during the lift, of a cup the least factor by which the load could
+        have grown before its seal broke; None if there was no lift.
     """
 
     mass_kg: float
@@ -94,6 +72,8 @@ def probe(spec: BenchSpec, mass_kg: float) -> Probe:
     half_s = spec.lift_s / 2
     with PayloadRig(spec, mass_kg) as rig:
         rig.grasp()
+        if spec.suction is not None:
+            rig.begin_to_accelerate(spec.acceleration_m_s2)
         rig.accelerate(spec.acceleration_m_s2, half_s)
         halfway_m = rig.slip_m
         rig.accelerate(spec.acceleration_m_s2, half_s)
@@ -114,7 +94,8 @@ class PayloadRig:
         stopped_by: Cause of the failure, after which the rig no longer moves; None so far.
         slip_m: Displacement of the object in the hand since the firm grasp.
         peak_force_n: Greatest normal force of a finger on the object so far, averaged over its force window.
-        grip_margin_min: Least mu ΣN / (m (g + a)) while the hand moves; None before.
+        grip_margin_min: Least mu ΣN / (m (g + a)) while the hand moves, of a cup the least margin of its seal; None
+        before.
         height_m: Commanded height of the hand above the grasp.
         speed_m_s: Commanded upward speed of the hand.
     """
@@ -139,7 +120,7 @@ class PayloadRig:
         self._spec = spec
         self._mass_kg = mass_kg
         self._held_at = Pose()
-        self._world = open_world(_rig_scene(spec, mass_kg), spec.gripper, spec.physics_for(mass_kg))
+        self._world = open_world(rig_scene(spec, mass_kg), spec.gripper, spec.physics_for(mass_kg))
         self._world.reset_arm((0.0,))
 
     def __enter__(self) -> PayloadRig:
@@ -159,17 +140,22 @@ class PayloadRig:
         return self._world.tool_pose()
 
     def grasp(self) -> None:
-        """Close until every finger has pressed firmly for long enough."""
+        """Close until every finger has pressed firmly for long enough, or the cup has held its whole vacuum so long."""
         spec, settings, gripper = self._spec, self._spec.settings, self._spec.gripper
         step_s = spec.physics.step_s
-        firm_n = settings.firm_share * self._least_force_n()
-        longest_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s + settings.grasp_timeout_s
+        if gripper.suction is None:
+            firm_n = settings.firm_share * self._least_force_n()
+            longest_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s + settings.grasp_timeout_s
+        else:
+            # A vacuum switch reports a firm grasp; a cup that cannot hold the weight has none.
+            firm_n = max(_WHOLE * spec.total_force_n, self._mass_kg * spec.gravity_m_s2)
+            longest_s = gripper.suction.build_up_s + settings.grasp_timeout_s
         self._world.drive_fingers(gripper.finger_velocity_m_s, gripper.finger_force_n)
         firm_s, steps = 0.0, 0
         while firm_s < settings.firm_grasp_s - 1e-9 and self.stopped_by is None:
             contacts = self._step(0.0)
             steps += 1
-            firm_s = firm_s + step_s if min(contacts.finger_forces_n) > firm_n else 0.0
+            firm_s = firm_s + step_s if min(contacts.finger_forces_n, default=0.0) > firm_n else 0.0
             if steps * step_s > longest_s:
                 self._stop(PayloadLimit.NO_FIRM_GRASP)
         self._held_at = self._object_in_hand()
@@ -181,18 +167,43 @@ class PayloadRig:
             acceleration_m_s2: The acceleration; zero keeps the speed.
             duration_s: Duration.
         """
-        step_s = self._spec.physics.step_s
+        for _ in range(round(duration_s / self._spec.physics.step_s)):
+            self._move(acceleration_m_s2)
+
+    def begin_to_accelerate(self, acceleration_m_s2: float) -> None:
+        """Raise the acceleration from zero to a value without a jump of it or of its rate, a quintic in time.
+
+        A cup is bonded to the object rigidly. A jump of the acceleration while the post still bears the object would
+        strain the bond by more than the load, as no compliant cup is strained.
+
+        Args:
+            acceleration_m_s2: The acceleration at the end.
+        """
+        steps = round(_ONSET_S / self._spec.physics.step_s)
+        for number in range(steps):
+            share = number / steps
+            self._move(acceleration_m_s2 * share**3 * (10.0 - 15.0 * share + 6.0 * share**2))
+
+    def _move(self, acceleration_m_s2: float) -> None:
+        """Move the hand by one step and check the grip, unless it has failed."""
+        if self.stopped_by is not None:
+            return
+        contacts = self._step(acceleration_m_s2)
+        margin = self._margin(contacts, acceleration_m_s2)
+        if margin is not None:
+            self.grip_margin_min = min(margin, math.inf if self.grip_margin_min is None else self.grip_margin_min)
+        if self._world.grip_fault:
+            self._stop(PayloadLimit.SEAL)
+        self.slip_m = math.dist(self._object_in_hand().position_m, self._held_at.position_m)
+        if self.slip_m > self._spec.settings.largest_slip_m:
+            self._stop(PayloadLimit.SLIP)
+
+    def _margin(self, contacts: Contacts, acceleration_m_s2: float) -> float | None:
+        """Load that the grip would bear, divided by that of the step; None if there is none or it is unknown."""
+        if self._spec.suction is not None:
+            return self._world.seal_margin
         needed_n = self._mass_kg * (self._spec.gravity_m_s2 + acceleration_m_s2)
-        for _ in range(round(duration_s / step_s)):
-            if self.stopped_by is not None:
-                return
-            contacts = self._step(acceleration_m_s2)
-            if needed_n > 0.0:
-                margin = self._spec.friction * contacts.finger_force_sum_n / needed_n
-                self.grip_margin_min = min(margin, self.grip_margin_min or math.inf)
-            self.slip_m = math.dist(self._object_in_hand().position_m, self._held_at.position_m)
-            if self.slip_m > self._spec.settings.largest_slip_m:
-                self._stop(PayloadLimit.SLIP)
+        return self._spec.friction * contacts.finger_force_sum_n / needed_n if needed_n > 0.0 else None
 
     def _least_force_n(self) -> float:
         """Force of a finger on an object whose friction opposes the travel of its pad along the tool axis.
@@ -228,120 +239,3 @@ class PayloadRig:
 
     def _object_in_hand(self) -> Pose:
         return self._world.tool_pose().inverse() @ self._world.workpiece_pose()
-
-
-def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
-    """Scene with the object on top of a post, the origin at its foot below the grasp centre, and the rail above."""
-    half_m = spec.shape.half_height_m
-    radius_m = min(half_extents_m(spec.shape)[:2])
-    stands, tool_m, taken = Pose(position_m=(0.0, 0.0, half_m)), half_m, None
-    if spec.grasp is not None:
-        tool_m += spec.grasp.position_m[2]
-        tool = Pose.from_roll_pitch_yaw((0.0, 0.0, tool_m), (math.pi, 0.0, 0.0))
-        stands = tool @ spec.grasp.inverse()
-        taken = ChosenGrasp(
-            id="bench",
-            tool_in_object=spec.grasp,
-            opening_m=spec.gripper.geometry.largest_opening_m,
-            place_yaw_rad=0.0,
-            quality_1=0.0,
-            com_distance_m=0.0,
-            candidates=1,
-            rejected=0,
-        )
-    workpiece = Workpiece(
-        id="object",
-        shape=spec.shape,
-        mass_kg=mass_kg,
-        friction=spec.object_friction,
-        force_limit_n=spec.force_limit_n,
-        force_window_s=spec.force_window_s,
-        gyration_m2=spec.gyration_m2,
-        pose=stands,
-        colour=_BLACK,
-    )
-    return Scene(
-        id="payload-bench",
-        gravity_m_s2=spec.gravity_m_s2,
-        robot=_rail(tool_m + spec.gripper.geometry.grasp_depth_m),
-        bodies=(_post(stands, radius_m),),
-        support=_POST,
-        place_support=_POST,
-        workpiece=workpiece,
-        # A scene has a task; nothing is placed on the bench.
-        place=PlaceRegion(centre_m=(0.0, 0.0, 0.0), radius_m=radius_m, largest_tilt_rad=math.pi),
-        task=Task(
-            approach_height_m=0.0,
-            lift_height_m=0.0,
-            departure_height_m=0.0,
-            place_approach_height_m=0.0,
-            place_clearance_m=0.0,
-            largest_carry_tilt_rad=math.pi,
-            grasp_yaw_rad=0.0,
-            place_yaw_rad=0.0,
-            grasp=taken,
-        ),
-    )
-
-
-def _post(stands: Pose, radius_m: float) -> SceneBody:
-    """Post under the middle of the object, which three fingers hold beside their axis if it is a box.
-
-    It is thinner than the object, so that low fingers pass it, and without friction: on a rough post the object can jam
-    between post and hand, and geared fingers then press unevenly.
-    """
-    x, y, _ = stands.position_m
-    return SceneBody(
-        id=_POST,
-        shape=Cylinder(radius_m=_POST_SHARE * radius_m, height_m=_POST_HEIGHT_M),
-        pose=Pose(position_m=(x, y, -_POST_HEIGHT_M / 2)),
-        friction=0.0,
-        colour=_BLACK,
-    )
-
-
-def _rail(flange_height_m: float) -> Robot:
-    """Robot with one vertical prismatic joint at the flange, whose z points down; up is positive.
-
-    The limits are in m and N despite their names, and so large that they are never active.
-    """
-    root = ET.Element("robot", {"name": "rail"})
-    ET.SubElement(root, "link", {"name": "rail"})
-    carriage = ET.SubElement(root, "link", {"name": _CARRIAGE})
-    inertial = ET.SubElement(carriage, "inertial")
-    ET.SubElement(inertial, "mass", {"value": repr(_CARRIAGE_MASS_KG)})
-    along, across = repr(_CARRIAGE_INERTIA_KG_M2), "0"
-    ET.SubElement(
-        inertial, "inertia", {"ixx": along, "iyy": along, "izz": along, "ixy": across, "ixz": across, "iyz": across}
-    )
-    joint = ET.SubElement(root, "joint", {"name": _RAIL_JOINT, "type": "prismatic"})
-    ET.SubElement(joint, "origin", {"xyz": "0 0 0", "rpy": f"{math.pi!r} 0 0"})
-    ET.SubElement(joint, "parent", {"link": "rail"})
-    ET.SubElement(joint, "child", {"link": _CARRIAGE})
-    ET.SubElement(joint, "axis", {"xyz": "0 0 -1"})
-    limits = {
-        "lower": repr(-_RAIL_LENGTH_M),
-        "upper": repr(_RAIL_LENGTH_M),
-        "velocity": repr(_RAIL_LENGTH_M),
-        "effort": repr(_RAIL_FORCE_N),
-    }
-    ET.SubElement(joint, "limit", limits)
-    return Robot(
-        id="rail",
-        urdf=ET.tostring(root, encoding="unicode"),
-        flange=_CARRIAGE,
-        joints=(
-            Joint(
-                name=_RAIL_JOINT,
-                lower_rad=-_RAIL_LENGTH_M,
-                upper_rad=_RAIL_LENGTH_M,
-                speed_rad_s=_RAIL_LENGTH_M,
-                acceleration_rad_s2=_RAIL_LENGTH_M,
-                torque_n_m=_RAIL_FORCE_N,
-            ),
-        ),
-        base=Pose(position_m=(0.0, 0.0, flange_height_m)),
-        payload_kg=_RAIL_LENGTH_M,
-        tool_acceleration_m_s2=_RAIL_LENGTH_M,
-        home_rad=(0.0,),
-    )

@@ -4,24 +4,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import lru_cache
 
 from rgss.errors import DefinitionError
-from rgss.grasping.candidates import ranked_grasps
 from rgss.physics import MOST_ITERATIONS, PhysicsSettings
 from rgss.scenes import (
     FORCE_WINDOW_S,
-    Approach,
     Cylinder,
-    GraspCandidates,
     Gripper,
-    GripperGeometry,
     Gyration,
     ObjectShape,
     Pose,
     Scene,
-    Workpiece,
+    SuctionPoint,
+    centre_of_mass,
 )
+from rgss.trials.payload_bench.from_above import grasp_from_above, suction_from_above
 
 SAFETY_FACTOR = 1.5
 """Safety factor of a gripper's payload by friction (thesis, eq. 4.8)."""
@@ -65,14 +62,16 @@ class BenchSpec:
         shape: The object's solid; an upright cylinder is gripped at its centre.
         object_friction: The object's coefficient; the contact's is the product with the pads'.
         force_limit_n: Normal force of a finger, averaged over the window, above which the object is damaged.
-        force_window_s: The averaging window. gravity_m_s2: Magnitude of gravity.
+        force_window_s: The averaging window.
+        gravity_m_s2: Magnitude of gravity.
         acceleration_m_s2: Acceleration a_m at which the object is lifted.
         rated_kg: Upper end of the search, the rated payload of the arm.
         physics: Step length and solver.
         settings: Settings of grasping, lifting and slip detection.
         grasp: Transform of the grasp-centre frame to the object's frame, from above; None for an upright cylinder.
-        gyration_m2: The object's inertia divided by its mass; None for that of the homogeneous shape. Its centre of
-        mass is in the middle.
+        gyration_m2: The object's inertia divided by its mass; None for that of the homogeneous shape.
+        centre_of_mass_m: The object's centre of mass in its frame; of an object between fingers it is in the middle.
+        suction: Place of the suction cup on the object, from above; None for fingers.
     """
 
     gripper: Gripper
@@ -87,6 +86,8 @@ class BenchSpec:
     force_window_s: float = FORCE_WINDOW_S
     grasp: Pose | None = None
     gyration_m2: Gyration | None = None
+    centre_of_mass_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    suction: SuctionPoint | None = None
 
     @property
     def friction(self) -> float:
@@ -95,13 +96,32 @@ class BenchSpec:
 
     @property
     def total_force_n(self) -> float:
-        """F_max of eq. 4.8 with the force limit of one finger: N_f times that force."""
+        """F_max of eq. 4.8 with the force limit of one finger: N_f times that force; of a cup that of its vacuum."""
+        if self.gripper.suction is not None:
+            return (1.0 - self.gripper.suction.leak) * self.gripper.finger_force_n
         return self.gripper.geometry.fingers * self.gripper.finger_force_n
 
     @property
     def theory_kg(self) -> float:
-        """Greatest mass by Coulomb's law under the acceleration: mu N_f F / (g + a_m)."""
-        return self.friction * self.total_force_n / (self.gravity_m_s2 + self.acceleration_m_s2)
+        """Greatest mass by statics under the acceleration a_m.
+
+        Of fingers by Coulomb's law, mu N_f F / (g + a_m). Of a cup F (1 - leak) / ((g + a_m) (1 + d / r)) with d the
+        distance of the centre of mass from its axis and r the radius of its lip, which lifts off on one side.
+        """
+        held_n = self.total_force_n * (self.friction if self.gripper.suction is None else 1.0 / (1.0 + self.lever_1))
+        return held_n / (self.gravity_m_s2 + self.acceleration_m_s2)
+
+    @property
+    def lever_1(self) -> float:
+        """Distance of the centre of mass from a cup's axis, divided by the radius of its lip; 0 for fingers."""
+        if self.suction is None or self.gripper.geometry.cup is None:
+            return 0.0
+        (px, py, pz), (nx, ny, nz) = self.suction.position_m, self.suction.normal
+        x, y, z = self.centre_of_mass_m
+        lever_m = math.hypot(
+            (y - py) * nz - (z - pz) * ny, (z - pz) * nx - (x - px) * nz, (x - px) * ny - (y - py) * nx
+        )
+        return lever_m / self.gripper.geometry.cup.radius_m
 
     @property
     def eq_4_8_kg(self) -> float:
@@ -144,6 +164,8 @@ class BenchSpec:
     @property
     def first_kg(self) -> float:
         """Smallest mass of the first probes, with the default iterations; a smaller one needs more."""
+        if self.gripper.suction is not None:
+            return self.settings.smallest_kg
         return max(self.settings.smallest_kg, self.lightest_body_kg)
 
     @property
@@ -157,11 +179,6 @@ class BenchSpec:
         Raises:
             DefinitionError: A number is out of range, or the open hand does not fit over the object.
         """
-        if self.gripper.suction is not None:
-            raise DefinitionError(
-                f"the payload bench needs fingers, gripper {self.gripper.geometry.id!r} has a suction cup",
-                hint="the payload of a cup is its normal force minus the leak, divided by gravity plus acceleration",
-            )
         positive = {
             "the acceleration": self.acceleration_m_s2,
             "the rated mass": self.rated_kg,
@@ -183,7 +200,7 @@ class BenchSpec:
                 hint="give the width of the final bracket as a share of its upper end",
             )
         lightest_kg = self._lightest_body_kg(MOST_ITERATIONS)
-        if self.gripper.driven_mass_kg < lightest_kg:
+        if self.gripper.suction is None and self.gripper.driven_mass_kg < lightest_kg:
             raise DefinitionError(
                 f"fingers of {self.gripper.driven_mass_kg:g} kg are too light for the solver to press with "
                 f"{self.gripper.finger_force_n:g} N; it needs {lightest_kg:.3g} kg",
@@ -198,6 +215,13 @@ class BenchSpec:
 
     def _check_fit(self) -> None:
         geometry = self.gripper.geometry
+        if geometry.cup is not None:
+            if self.suction is None or self.suction.room_m < geometry.cup.radius_m:
+                raise DefinitionError(
+                    f"the object has no flat place on its top for the cup of gripper {geometry.id!r}",
+                    hint="use a smaller cup or an object with a larger flat face",
+                )
+            return
         if not isinstance(self.shape, Cylinder):
             if self.grasp is None:
                 raise DefinitionError(
@@ -239,31 +263,26 @@ def bench_spec(
         physics: Step length and solver, with defaults.
         settings: Settings of grasping, lifting and slip detection, with defaults.
     """
+    workpiece = scene.workpiece
+    suction, grasp, centre_m = None, None, (0.0, 0.0, 0.0)
+    if gripper.suction is None:
+        grasp = grasp_from_above(workpiece.shape, gripper.geometry, gripper.friction * workpiece.friction)
+    else:
+        suction, grasp = suction_from_above(scene, gripper)
+        centre_m = centre_of_mass(workpiece)
     return BenchSpec(
         gripper=gripper,
-        shape=scene.workpiece.shape,
-        grasp=_grasp_from_above(scene.workpiece.shape, gripper.geometry, gripper.friction * scene.workpiece.friction),
-        gyration_m2=scene.workpiece.gyration_m2,
-        object_friction=scene.workpiece.friction,
-        force_limit_n=scene.workpiece.force_limit_n,
-        force_window_s=scene.workpiece.force_window_s,
+        shape=workpiece.shape,
+        grasp=grasp,
+        gyration_m2=workpiece.gyration_m2,
+        centre_of_mass_m=centre_m,
+        suction=suction,
+        object_friction=workpiece.friction,
+        force_limit_n=workpiece.force_limit_n,
+        force_window_s=workpiece.force_window_s,
         gravity_m_s2=scene.gravity_m_s2,
         acceleration_m_s2=acceleration_m_s2,
         rated_kg=rated_kg,
         physics=physics or PhysicsSettings(),
         settings=settings or BenchSettings(),
     )
-
-
-@lru_cache(maxsize=64)
-def _grasp_from_above(shape: ObjectShape, geometry: GripperGeometry, friction: float) -> Pose | None:
-    """Best grasp from above of an object other than an upright cylinder; None if there is none."""
-    if isinstance(shape, Cylinder):
-        return None
-    # A grasp depends on no mass property other than the centre of mass.
-    sample = Workpiece(
-        id="object", shape=shape, mass_kg=1.0, friction=1.0, force_limit_n=1.0, pose=Pose(), colour=(0.0, 0.0, 0.0, 1.0)
-    )
-    options = GraspCandidates(approaches=(Approach.ABOVE,), heights=1)
-    found = ranked_grasps(sample, geometry, options, friction=friction).grasps
-    return found[0].tool_in_object if found else None

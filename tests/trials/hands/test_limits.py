@@ -6,21 +6,22 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.errors import DefinitionError, SimulationError
+from rgss.errors import SimulationError
 from rgss.physics import open_world
 from rgss.trials.hands import hand_of
 from rgss.trials.payload_bench import bench_of
-from rgss.trials.payload_bench.bench import run_bench
 from rgss.trials.payload_bench.of_trial import payload_bench
+from rgss.trials.payload_bench.range import outside
 from tests.trials.hands.gripper_files import gripper_of
 
 
-def test_the_payload_bench_has_no_cups(spec_of, tmp_path):
+def test_the_payload_bench_of_a_cup_is_that_of_its_place_on_the_object(spec_of, tmp_path):
     spec = replace(spec_of(), gripper=gripper_of(tmp_path, "vacuum"))
+    bench = payload_bench(spec)
 
-    assert bench_of(spec) is None
-    with pytest.raises(DefinitionError, match="the payload bench needs fingers, gripper 'cup' has a suction cup"):
-        run_bench(payload_bench(spec))
+    assert bench.suction is not None
+    assert bench.suction.position_m == (0.0, 0.0, spec.scene.workpiece.shape.half_height_m)
+    assert bench_of(spec) == (None if outside(bench) else bench)
 
 
 def test_there_is_no_bench_for_an_object_that_the_gripper_cannot_hold(spec_of, tmp_path):

@@ -1,0 +1,61 @@
+"""Grasps of the object of a payload bench, which is lifted from above."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+from rgss.grasping.candidates import ranked_grasps, ranked_suction
+from rgss.scenes import (
+    Approach,
+    Cylinder,
+    GraspCandidates,
+    Gripper,
+    GripperGeometry,
+    ObjectShape,
+    Pose,
+    Scene,
+    SuctionPoint,
+    Workpiece,
+    suction_point_of,
+)
+
+
+def suction_from_above(scene: Scene, gripper: Gripper) -> tuple[SuctionPoint | None, Pose | None]:
+    """Place of a cup on the object: the stated one, or the best from above if the task chooses among candidates.
+
+    Args:
+        scene: The scene with the object as its workpiece.
+        gripper: A gripper with a cup.
+
+    Returns:
+        The place, and the transform of the grasp-centre frame to the object's frame; None if there is no place.
+    """
+    workpiece, geometry = scene.workpiece, gripper.geometry
+    if scene.task.candidates is None:
+        point = suction_point_of(scene)
+        return point, Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (math.pi, 0.0, 0.0))
+    options = GraspCandidates(approaches=(Approach.ABOVE,), heights=1)
+    tangential_1 = gripper.grip_coefficient(workpiece.friction)
+    found = ranked_suction(workpiece, geometry, options, tangential_1=tangential_1).grasps
+    return (found[0].suction, found[0].tool_in_object) if found else (None, None)
+
+
+@lru_cache(maxsize=64)
+def grasp_from_above(shape: ObjectShape, geometry: GripperGeometry, friction: float) -> Pose | None:
+    """Best grasp from above of an object other than an upright cylinder; None if there is none.
+
+    Args:
+        shape: The object's solid.
+        geometry: The gripper's shape, with fingers.
+        friction: Coulomb coefficient of a finger on the object.
+    """
+    if isinstance(shape, Cylinder):
+        return None
+    # A grasp depends on no mass property other than the centre of mass.
+    sample = Workpiece(
+        id="object", shape=shape, mass_kg=1.0, friction=1.0, force_limit_n=1.0, pose=Pose(), colour=(0.0, 0.0, 0.0, 1.0)
+    )
+    options = GraspCandidates(approaches=(Approach.ABOVE,), heights=1)
+    found = ranked_grasps(sample, geometry, options, friction=friction).grasps
+    return found[0].tool_in_object if found else None
