@@ -48,6 +48,7 @@ from rgss.scenes.hands import (
     too_narrow,
     too_wide,
     tool_with_pads_at,
+    unsealed,
 )
 from rgss.scenes.link_solids import LinkSolid, link_solid
 from rgss.scenes.linkage import Linkage, LinkageMotion, motion_of

@@ -18,7 +18,7 @@ from rgss.scenes import (
     mesh_volume_findings,
     misfit,
 )
-from rgss.studies.checks import TooTall, objects_too_tall, step_findings
+from rgss.studies.checks import TooTall, objects_too_tall, seal_finding, step_findings, unsealed_objects
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
@@ -55,11 +55,14 @@ def check_scene(project: Project) -> SceneCheck:
         of_reach: dict[SceneProblem, list[str]] = {}
         of_steps: dict[HandStepProblem, list[str]] = {}
         too_tall: dict[TooTall, list[str]] = {}
+        not_sealed: dict[tuple[str, str], list[str]] = {}
         for file in _gripper_files(project):
             geometry = _mounting_that_holds(project, file)
             tall = objects_too_tall(geometry, project)
             for one in tall:
                 too_tall.setdefault(one, []).append(file)
+            for unsealed in unsealed_objects(geometry, project):
+                not_sealed.setdefault(unsealed, []).append(file)
             clearance_m, task = project.study.planning.clearance_m, project.study.task
             friction = _pad_friction(project, file)
             for step in hand_step_problems(
@@ -85,6 +88,10 @@ def check_scene(project: Project) -> SceneCheck:
     found += step_findings(project, of_steps, grippers=every)
     found += places.outgrown_regions()
     found += mesh_volume_findings(project.folder / label, label=label)
+    found += [
+        seal_finding(document, (*places.at[name][:-1], "id"), reason, files, every=every)
+        for (name, reason), files in not_sealed.items()
+    ]
     found += [places.too_tall(tall, files, serves=len(files) < every) for tall, files in too_tall.items()]
     return SceneCheck(findings=tuple(sorted(found)))
 

@@ -10,7 +10,7 @@ from rgss.scenes import GripperGeometry, Scene
 from rgss.tasks import TaskProgram
 from rgss.trials.conditions import conditions_of
 from rgss.trials.grasp_choice import GraspSearch, NoGrasp, search_grasps, with_stated_suction
-from rgss.trials.route import route_of
+from rgss.trials.route import Leg, route_of
 from rgss.trials.trial_spec import TrialSpec
 
 _SHARE_KEPT = 0.25
@@ -51,6 +51,17 @@ class Workcell:
         self.planning: Mapping[str, CollisionModel] = _models(contexts, geometry, clearance_m)
         # Between two checked states, and by compliance of a held object, some clearance may be lost.
         self.running: Mapping[str, CollisionModel] = _models(contexts, geometry, _SHARE_KEPT * clearance_m)
+
+    def ungraspable(self, leg: Leg) -> str:
+        """Reason why a move for an object without any grasp candidate is not made; empty for other moves.
+
+        Its stops are those of the stated grasp, which the task does not allow.
+
+        Args:
+            leg: The move.
+        """
+        ungrasped = self.ungrasped.get(leg.scene.workpiece.id)
+        return "" if ungrasped is None or ungrasped.is_any_ranked else ungrasped.detail("")
 
 
 def _models(

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.scenes.hands.fit import misfit, suction_point_of, too_narrow, too_wide
+    from rgss.scenes.hands.fit import misfit, suction_point_of, too_narrow, too_wide, unsealed
     from rgss.scenes.hands.height_fit import palm_fit
     from rgss.scenes.hands.kinds import kind_of_gripper
     from rgss.scenes.hands.linkage_document import LinkageGripperDocument

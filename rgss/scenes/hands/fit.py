@@ -56,9 +56,14 @@ def unsealed(geometry: GripperGeometry, scene: Scene) -> str:
         geometry: The gripper's shape.
         scene: The scene, with the object as its workpiece.
     """
-    room_m = suction_point_of(scene).room_m
+    taken, room_m = scene.task.grasp, suction_point_of(scene).room_m
     if geometry.cup is None or room_m >= geometry.cup.radius_m:
         return ""
+    if (taken is None or taken.suction is None) and not isinstance(scene.workpiece.shape, (Box, Cylinder)):
+        return (
+            f"{_named(geometry)} takes {scene.workpiece.id} by candidates alone: the stated grasp of a cup is in the "
+            "middle of the top of a box or an upright cylinder"
+        )
     return (
         f"the top of the object of {_millimetres(2 * room_m)} is smaller than the cup of "
         f"{_named(geometry)}, {_millimetres(2 * geometry.cup.radius_m)}"

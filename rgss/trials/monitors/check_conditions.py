@@ -28,8 +28,11 @@ def violated_condition(world: ContactWorld, control: ControlSettings, step: Chec
     if step.at:
         region = _region_now(world, step.at)
         error_m = math.dist(pose.position_m[:2], region.centre_m[:2])
-        if error_m > region.radius_m:
-            return f"{name} is {error_m * 1e3:.1f} mm from {step.at}, at most {region.radius_m * 1e3:g} mm are allowed"
+        height_error_m = abs(pose.position_m[2] - region.centre_m[2] - about.workpiece.shape.half_height_m)
+        if max(error_m, height_error_m) > region.radius_m:
+            off = f" and {height_error_m * 1e3:.1f} mm off its height there" if height_error_m > region.radius_m else ""
+            allowed = f"at most {region.radius_m * 1e3:g} mm are allowed"
+            return f"{name} is {error_m * 1e3:.1f} mm from {step.at}{off}, {allowed}"
     if step.near is not None:
         point_m, name_of_point = _point(world, step.near, about.workpiece.shape.half_height_m)
         distance_m = math.dist(pose.position_m, point_m)

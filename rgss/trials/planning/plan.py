@@ -61,6 +61,9 @@ def plan_task(
     moves: dict[str, PlannedMove] = {}
     for leg in (leg for leg in cell.route.legs if leg.step.name in kinds):
         phase, kind = leg.step.name, kinds[leg.step.name]
+        if ungraspable := cell.ungraspable(leg):
+            moves[phase] = _ill_posed(phase, PlanOutcome.INVALID_GOAL, ungraspable)
+            break
         start, goal = stops.configurations.get(leg.start), stops.configurations.get(leg.goal)
         if start is None or goal is None:
             outcome = PlanOutcome.INVALID_START if start is None else PlanOutcome.INVALID_GOAL

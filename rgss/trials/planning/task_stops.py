@@ -160,10 +160,12 @@ def _direct_moves(
     for leg in cell.route.legs:
         if leg.step.mode is not MoveKind.PLANNED and leg.start in found and leg.goal in found:
             is_new = leg.goal not in reached
-            line = _line(cell, leg, found, is_new=is_new)
+            ungraspable = cell.ungraspable(leg)
+            line = None if ungraspable else _line(cell, leg, found, is_new=is_new)
             direct[leg.step.name] = line
             if line is None:
-                obstacle = _obstacle_of(cell, leg, found)
+                without = PlanOutcome.INVALID_GOAL, ungraspable
+                obstacle = without if ungraspable else _obstacle_of(cell, leg, found)
                 if obstacle is not None:
                     obstacles[leg.step.name] = obstacle
                 # An earlier move comes to a stop that is not new, and can be made.

@@ -44,12 +44,12 @@ def test_a_check_ends_the_task_unless_its_conditions_hold(spec_of):
 class Placed:
     """A world with one object at a place, which some fingers touch."""
 
-    def __init__(self, spec, *, aside_m=0.0, tilt_rad=0.0, touching=0):
+    def __init__(self, spec, *, aside_m=0.0, above_m=0.0, tilt_rad=0.0, touching=0):
         region = spec.scene.place
         named = NamedPlace(id="counter_end", region=region, support=spec.scene.place_support)
         self.scene, self.gripper = replace(spec.scene, places=(named,)), spec.gripper
         x, y, z = region.centre_m
-        above = z + spec.scene.workpiece.shape.half_height_m
+        above = z + spec.scene.workpiece.shape.half_height_m + above_m
         self.pose = Pose.from_roll_pitch_yaw((x + aside_m, y, above), (tilt_rad, 0.0, 0.0))
         self._touching = touching
 
@@ -62,6 +62,11 @@ class Placed:
 
 CASES = {
     "beside its place": ({"at": "counter_end"}, {"aside_m": 0.0501}, "cup is 50.1 mm from counter_end, at most "),
+    "above its place": (
+        {"at": "counter_end"},
+        {"above_m": 0.0501},
+        "cup is 0.0 mm from counter_end and 50.1 mm off its height there, at most 40 mm are allowed",
+    ),
     "leaning": ({"is_upright": True}, {"tilt_rad": 0.5}, "cup is tilted by 28.6 deg"),
     "moving": ({"is_at_rest": True}, {}, "cup has moved by 30.00 mm in "),
     "not held": ({"held": True}, {"touching": 1}, "1 of 2 fingers touch cup"),
