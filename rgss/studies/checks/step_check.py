@@ -33,9 +33,8 @@ def step_findings(
         millimetres = f"{problem.distance_m * 1e3:.4g} mm"
         if problem.hand is HandAction.CLOSES:
             rule = "task.grip-beside"
-            message = (
-                f"{step.name!r} grips nothing{of}: the ends of the fingers are {millimetres} from {problem.object}"
-            )
+            what = "the lip of the cup is" if problem.has_cup else "the ends of the fingers are"
+            message = f"{step.name!r} grips nothing{of}: {what} {millimetres} from {problem.object}"
             hint = "move to grasp before it"
         else:
             rule = "task.release-height"

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from rgss.scenes import GripperGeometry, Pose, Scene, corners_of, least_height_m
+from rgss.scenes import GripperGeometry, Pose, Scene, Workpiece, corners_of, least_height_m, suction_point_of
 from rgss.tasks import HandAction, MoveStep, TaskProgram, stages_of
+from rgss.trials.grasp_choice import with_stated_suction
 from rgss.trials.route import Leg, Route, Stop, route_of
 from rgss.trials.workcell import grasp_searches_of
 
@@ -22,8 +23,9 @@ class HandStepProblem:
         hand: Whether the step closes or opens the hand.
         object: The object.
         support: The body below the place of a release; empty for a grip.
-        distance_m: Distance of the ends of the fingers from the object along the tool's axis, or height of the released
-        object above its place.
+        distance_m: Distance of the ends of the fingers from the object along the tool's axis, or of the lip of the cup
+        from its place there; height of the released object above its place.
+        has_cup: True if the hand has a suction cup.
         most_m: Greatest height of a release; 0 for a grip.
     """
 
@@ -32,6 +34,7 @@ class HandStepProblem:
     object: str
     support: str = ""
     distance_m: float
+    has_cup: bool = False
     most_m: float = 0.0
 
 
@@ -54,12 +57,15 @@ def hand_step_problems(
         if any(search.taken is None for search in searches):
             return ()
         scene = searches[-1].scene
-    return tuple(_problems(route_of(scene, geometry, task), geometry, task, scene.workpiece.id))
+    scene = with_stated_suction(scene, geometry)
+    return tuple(_problems(route_of(scene, geometry, task), geometry, task, scene.workpiece))
 
 
-def _problems(route: Route, geometry: GripperGeometry, task: TaskProgram, workpiece: str) -> Iterator[HandStepProblem]:
+def _problems(
+    route: Route, geometry: GripperGeometry, task: TaskProgram, first: Workpiece
+) -> Iterator[HandStepProblem]:
     legs, last = iter(route.legs), None
-    for index, stage in enumerate(stages_of(task, workpiece)):
+    for index, stage in enumerate(stages_of(task, first.id)):
         if isinstance(stage.step, MoveStep):
             last = next(legs)
             continue
@@ -69,9 +75,12 @@ def _problems(route: Route, geometry: GripperGeometry, task: TaskProgram, workpi
         if stop.pose is None:
             continue
         if stage.step.hand is HandAction.CLOSES:
-            beside_m = _beside(last.scene, stop.pose, geometry)
+            cup = geometry.cup is not None
+            beside_m = (_unsealed if cup else _beside)(last.scene, stop.pose, geometry, first)
             if beside_m > _EXACT_M:
-                yield HandStepProblem(step=index, hand=stage.step.hand, object=stage.object, distance_m=beside_m)
+                yield HandStepProblem(
+                    step=index, hand=stage.step.hand, object=stage.object, distance_m=beside_m, has_cup=cup
+                )
         elif stage.step.hand is HandAction.OPENS:
             height_m, most_m = _height(last, stop), last.scene.place.largest_drop_m
             if height_m > most_m + _EXACT_M:
@@ -85,14 +94,24 @@ def _problems(route: Route, geometry: GripperGeometry, task: TaskProgram, workpi
                 )
 
 
-def _beside(scene: Scene, tool: Pose, geometry: GripperGeometry) -> float:
+def _beside(scene: Scene, tool: Pose, geometry: GripperGeometry, first: Workpiece) -> float:  # noqa: ARG001 - as for cups
     """Distance of the object beyond the ends of the fingers, along the tool's axis; negative where they reach it."""
-    if geometry.cup is not None:
-        return -geometry.cup.height_m
     in_tool = tool.inverse() @ scene.workpiece.pose
     corners = (corner for part in corners_of(scene.workpiece.shape) for corner in part)
     nearest_m = min((in_tool @ Pose(position_m=corner)).position_m[2] for corner in corners)
     return nearest_m - (geometry.tip_height_m - geometry.grasp_depth_m)
+
+
+def _unsealed(scene: Scene, tool: Pose, geometry: GripperGeometry, first: Workpiece) -> float:
+    """Distance of a cup's lip from its place on the object along the tool's axis; 0 where it seals.
+
+    The grasp centre is half of the largest gap and half of the first object's height below the lip.
+    """
+    below_m = geometry.grasp_depth_m - geometry.lip.position_m[2]
+    place = scene.workpiece.pose @ Pose(position_m=suction_point_of(scene).position_m)
+    gap_m = abs((tool.inverse() @ place).position_m[2] + below_m)
+    largest_gap_m = 2.0 * (below_m - first.shape.half_height_m)
+    return 0.0 if gap_m <= largest_gap_m + _EXACT_M else gap_m
 
 
 def _height(leg: Leg, stop: Stop) -> float:

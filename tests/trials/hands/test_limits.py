@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
 from rgss.errors import SimulationError
 from rgss.physics import open_world
+from rgss.tasks import HandAction
+from rgss.trials.geometry_checks import hand_step_problems
 from rgss.trials.hands import hand_of
 from rgss.trials.payload_bench import bench_of
 from rgss.trials.payload_bench.of_trial import payload_bench
@@ -41,3 +44,19 @@ def test_a_hand_that_meets_nothing_says_so(spec_of):
         "nothing is between the fingers: fingers press with 0.00, 0.00 N, each needs 1.75 N"
     )
     assert hand.shortfall((0.5, 0.0), 1.75) == "fingers press with 0.50, 0.00 N, each needs 1.75 N"
+
+
+def test_a_cup_that_stops_above_the_object_grips_nothing(spec_of, tmp_path):
+    spec = spec_of()
+    geometry = gripper_of(tmp_path, "vacuum", spec.scene.workpiece.shape).geometry
+    problems = partial(hand_step_problems, spec.scene, geometry, clearance_m=0.005)
+    assert [one for one in problems(task=spec.task) if one.hand is HandAction.CLOSES] == []
+
+    first, *others = spec.task.steps
+    # At the grasp the lip is half of the largest gap of 3 mm above the object.
+    for raised_m, found in ((0.0014, []), (0.0016, [0.0031]), (0.05, [0.0515])):
+        raised = replace(first, target=replace(first.target, raised_m=raised_m))
+        task = replace(spec.task, steps=(raised, *others))
+        closing = [one for one in problems(task=task) if one.hand is HandAction.CLOSES]
+        assert [one.distance_m for one in closing] == pytest.approx(found, abs=1e-6)
+        assert all(one.has_cup and one.step == 1 for one in closing)
