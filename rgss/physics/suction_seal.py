@@ -134,7 +134,10 @@ class SuctionSeal:
         angle_rad = math.acos(max(-1.0, min(1.0, -along)))
         aside_m, room_m = math.hypot(x, y), point.room_m - self._radius_m
         if room_m < 0.0 or aside_m > room_m:
-            return f"the cup is {aside_m * 1e3:.1f} mm off its place on a face that leaves it {room_m * 1e3:.1f} mm"
+            room = (
+                f"leaves it {room_m * 1e3:.2f} mm" if room_m >= 0.0 else f"is {-room_m * 1e3:.2f} mm too narrow for it"
+            )
+            return f"the cup is {aside_m * 1e3:.2f} mm off its place, and the face {room}"
         if abs(z) > suction.largest_gap_m:
             return f"the cup is {z * 1e3:.1f} mm above the object, it seals within {suction.largest_gap_m * 1e3:g} mm"
         if angle_rad > suction.largest_angle_rad:

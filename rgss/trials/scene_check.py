@@ -160,11 +160,11 @@ def _closing_contacts(scene: Scene, geometry: GripperGeometry) -> Iterator[Scene
 
 def _without_grasp(searches: Sequence[GraspSearch], cell: Workcell) -> Iterator[SceneProblem]:
     """Objects of which every candidate was rejected, with the first waypoint that the best of them does not serve."""
-    unserved = infeasible_waypoints(cell) if any(search.ranked.grasps for search in searches) else {}
+    unserved = infeasible_waypoints(cell) if any(search.has_best for search in searches) else {}
     for search in searches:
         problem = SceneProblem(kind=SceneProblemKind.NO_GRASP, first=search.object, detail=search.reasons)
         stops = [stop for stop in unserved if stop.object == search.object]
-        if search.ranked.grasps and stops:
+        if search.has_best and stops:
             problem = replace(problem, waypoint=stops[0].name, reason=unserved[stops[0]])
         yield problem
 

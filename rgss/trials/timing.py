@@ -100,12 +100,15 @@ def time_task(
 
 def _no_line(cell: Workcell, step: MoveStep) -> tuple[Failure, str]:
     """Reason why a straight move of the tool or of the joints has no path."""
-    line = "the straight line of the joints in the" if step.mode is MoveKind.JOINT else "the straight line of the"
-    message = f"the arm cannot follow {line} {step.name.replace('_', ' ')} without collision"
+    line = "joints" if step.mode is MoveKind.JOINT else "tool"
+    message = f"the arm cannot follow the straight line of the {line} in {step.name!r} without collision"
     (leg,) = (leg for leg in cell.route.legs if leg.step.name == step.name)
-    why = too_wide(cell.geometry, leg.scene)
-    stops = stops_of(cell)
-    if not why and step.name in stops.obstacles:
+    if (none := cell.without_grasp(leg)) is not None:
+        return Failure.UNREACHABLE_WAYPOINT, none.detail("")
+    if wide := too_wide(cell.geometry, leg.scene):
+        return Failure.UNREACHABLE_WAYPOINT, wide
+    stops, why = stops_of(cell), ""
+    if step.name in stops.obstacles:
         outcome, detail = stops.obstacles[step.name]
         return Failure(outcome.value), detail
     for index in (leg.start, leg.goal):

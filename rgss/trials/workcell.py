@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
+from itertools import takewhile
 
 from rgss.kinematics import Arm, CollisionContext, CollisionModel
 from rgss.scenes import GripperGeometry, Scene
@@ -51,17 +52,17 @@ class Workcell:
         self.planning: Mapping[str, CollisionModel] = _models(contexts, geometry, clearance_m)
         # Between two checked states, and by compliance of a held object, some clearance may be lost.
         self.running: Mapping[str, CollisionModel] = _models(contexts, geometry, _SHARE_KEPT * clearance_m)
+        # A stated grasp is no substitute for candidates: the task ends before the first move of an object without one.
+        self.legs: tuple[Leg, ...] = tuple(takewhile(lambda leg: self.without_grasp(leg) is None, self.route.legs))
 
-    def ungraspable(self, leg: Leg) -> str:
-        """Reason why a move for an object without any grasp candidate is not made; empty for other moves.
-
-        Its stops are those of the stated grasp, which the task does not allow.
+    def without_grasp(self, leg: Leg) -> NoGrasp | None:
+        """Object of a move without a grasp for which the move could be planned; None if it has one.
 
         Args:
             leg: The move.
         """
-        ungrasped = self.ungrasped.get(leg.scene.workpiece.id)
-        return "" if ungrasped is None or ungrasped.is_any_ranked else ungrasped.detail("")
+        names = (leg.scene.workpiece.id, self.route.stops[leg.goal].object)
+        return next((one for one in map(self.ungrasped.get, names) if one is not None and not one.has_best), None)
 
 
 def _models(

@@ -75,7 +75,11 @@ def test_loops_give_each_step_a_name_of_its_own(tmp_path):
         ),
         (REACH + "  - wait: {duration: 1 s}\n  - grip: {}\n", "'grip' needs a move before it"),
         (REACH + REACH, "task.yaml:4:11: error: there are two steps 'move_to_grasp'"),
-        (REACH + "  - repeat: {times: 0, steps: []}\n", "task.yaml:4:13: error: the loop has no steps to repeat"),
+        (REACH + "  - repeat: {times: 1, steps: []}\n", "task.yaml:4:13: error: the loop has no steps to repeat"),
+        (
+            REACH + "  - repeat: {times: 0, steps: [wait: {duration: 1 s}]}\n",
+            "error: the loop is repeated 0 times (write",
+        ),
         (REACH + "  - for_each: {objects: [], steps: []}\n", "task.yaml:4:15: error: the loop has no steps to repeat"),
         (REACH + "  - check: {}\n", "task.yaml:4:12: error: the check states no condition"),
         (REACH + "  - wait: {duration: 0 s}\n", "task.yaml:4:22: error: duration must be greater than zero"),

@@ -90,7 +90,7 @@ TRIALS = {
     ),
     "a lift out of reach": (
         lambda spec: with_task(spec, lift_height_m=0.9),
-        (Failure.UNREACHABLE_WAYPOINT, Phase.LIFT, ".* straight line of the lift .*: no valid configuration .*"),
+        (Failure.UNREACHABLE_WAYPOINT, Phase.LIFT, ".* of the tool in 'lift' .*: no valid configuration .*"),
     ),
     "a place out of reach": (
         lambda spec: with_place(spec, centre_m=(-3.0, 0.7, 0.9)),

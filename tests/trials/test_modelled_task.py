@@ -202,6 +202,7 @@ def timing_failures(spec, monkeypatch):
         arm=None,
         task=task,
         route=route,
+        without_grasp=lambda _: None,
     )
     for outcome in set(TimingOutcome) - {TimingOutcome.TIMED}:
         untimed = SimpleNamespace(outcome=outcome, trajectory=None)

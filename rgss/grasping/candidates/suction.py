@@ -16,8 +16,8 @@ _COS_SQUARE = float(np.cos(np.radians(5.0)))
 _RIM_POINTS = 32
 _ABOVE_M = 5e-4
 _MARGIN_M = 2e-3
-_RESERVES_M = (2e-3, 1e-3, 5e-4, 0.0)
-"""Distances of the lip from the edge of its face to try: a cup at the edge itself has no room for any error."""
+_RESERVES_M = (2e-3, 1e-3, 5e-4, 1e-4)
+"""Distances of the lip from the edge of its face to try: at the edge itself no arm would come to its place."""
 
 _GRID_SHARE = 0.25
 _GRID_STEPS = 24

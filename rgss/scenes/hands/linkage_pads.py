@@ -224,7 +224,10 @@ def _closing(linkage: Linkage, boss_m: float) -> Linkage:
         boss_m: Greatest distance by which a finger protrudes before its pad.
     """
     names = " and ".join(repr(linkage.links[pad.link].name) for pad in linkage.pads)
-    hint = "correct the pose of the palm under 'mount': z out of the arm, and the pads on both sides of the axis"
+    hint = (
+        "correct the pose of the palm under 'mount': z out of the arm, and the pads on both sides of the axis; or the "
+        "multipliers of the joints that follow: both pads must travel alike"
+    )
     span = linkage.closed - linkage.opened
     opened = [linkage.opened + span * index / _SAMPLES for index in range(_SAMPLES + 1)]
     openings = [linkage.opening_m(driven) for driven in opened]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import Literal
 
 from rgss.documents import Dimensionless, Document, DocumentModel, Identifier, Metres, Newtons, Radians, Seconds
-from rgss.findings import Finding
+from rgss.findings import Finding, Severity
 from rgss.scenes.document import AssumptionEntry, BaseEntry
 from rgss.scenes.findings import Location, negative, not_positive
 from rgss.scenes.gripper import GripperDrive, GripperFile, GripperGeometry, Suction
@@ -16,6 +17,7 @@ from rgss.scenes.shapes import Box, Cylinder, ObjectShape
 _NO_FINGER = Box(size_m=(0.0, 0.0, 0.0))
 _LEAST_SPEED_M_S = 1.0
 _APPROACH_SHARE = 0.5
+_ATMOSPHERE_PA = 101_325.0
 
 
 class CupEntry(DocumentModel):
@@ -50,7 +52,7 @@ class VacuumGripper:
     model: type[DocumentModel] = VacuumGripperDocument
 
     def findings(self, entry: VacuumGripperDocument, document: Document) -> Iterable[Finding]:
-        """Findings about sizes, forces and times, and about a leak that leaves no force."""
+        """Findings about sizes, forces and times, a leak that leaves no force, and a cup that cannot be."""
         cup, base = entry.cup, entry.base
         names = ("radius", "length", "normal_force", "tangential_force", "largest_gap", "largest_angle")
         values: list[tuple[Location, float]] = [
@@ -68,6 +70,30 @@ class VacuumGripper:
                 f"a leak of {cup.leak * 100:g} % leaves no force",
                 ("cup", "leak"),
                 hint="make it less than 100 %",
+            )
+        if cup.largest_angle >= math.pi / 2:
+            yield document.finding(
+                "scene.cup",
+                f"a cup does not seal at an angle of {math.degrees(cup.largest_angle):g} deg",
+                ("cup", "largest_angle"),
+                hint="make it less than 90 deg, such as 5 deg",
+            )
+        if cup.largest_gap >= cup.length > 0.0:
+            yield document.finding(
+                "scene.cup",
+                f"a largest gap of {cup.largest_gap * 1e3:g} mm is not shorter than the cup, {cup.length * 1e3:g} mm",
+                ("cup", "largest_gap"),
+                hint="give the distance that the lip of the cup bridges, some millimetres",
+            )
+        greatest_n = _ATMOSPHERE_PA * math.pi * cup.radius**2
+        if cup.normal_force > greatest_n > 0.0:
+            yield document.finding(
+                "scene.cup",
+                f"a normal force of {cup.normal_force:g} N exceeds that of the whole air pressure on a lip of "
+                f"{cup.radius * 1e3:g} mm, {greatest_n:.3g} N",
+                ("cup", "normal_force"),
+                hint="take the force from the cup's data sheet, or its outer radius",
+                severity=Severity.WARNING,
             )
 
     def gripper_file(self, entry: VacuumGripperDocument) -> GripperFile:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def step_findings(
     project: Project, problems: Mapping[HandStepProblem, Sequence[str]], *, grippers: int
 ) -> Iterator[Finding]:
-    """Findings about grips beside the object, and releases high above the place.
+    """Findings about grips beside the object, and releases beside or high above the place.
 
     Args:
         project: The project; the task of the package, which has no file, has no such steps.
@@ -36,6 +36,13 @@ def step_findings(
             what = "the lip of the cup is" if problem.has_cup else "the ends of the fingers are"
             message = f"{step.name!r} grips nothing{of}: {what} {millimetres} from {problem.object}"
             hint = "move to grasp before it"
+        elif problem.is_aside:
+            rule = "task.release-place"
+            message = (
+                f"{step.name!r} releases {problem.object} {millimetres} from its place on {problem.support}{of}, "
+                f"at most {problem.most_m * 1e3:g} mm"
+            )
+            hint = "move to that place before it, or release at the place of the move with 'release: {place: …}'"
         else:
             rule = "task.release-height"
             message = (

@@ -32,9 +32,11 @@ class RepeatEntry(DocumentModel):
 
     def expanded(self, reader: TaskReader, position: Position) -> Iterator[Placed]:
         """The steps of each turn, with findings in the reader."""
-        if self.times == 0 or not self.steps:
-            hint = "add steps, or remove the loop"
-            reader.report("task.empty", "the loop has no steps to repeat", position.at, hint)
+        if not self.steps:
+            reader.report("task.empty", "the loop has no steps to repeat", position.at, "add steps, or remove the loop")
+        elif self.times == 0:
+            message = "the loop is repeated 0 times"
+            reader.report("task.empty", message, (*position.at, "times"), "write a number from 1, or remove the loop")
         for turn in range(1, self.times + 1):
             if reader.is_too_long(position.at):
                 return

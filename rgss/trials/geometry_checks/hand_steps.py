@@ -1,7 +1,8 @@
-"""Steps of a task that cannot succeed by its geometry: grips beside the object, and releases high above the place."""
+"""Steps of a task that cannot succeed by its geometry: grips beside the object, releases beside or above the place."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -24,9 +25,10 @@ class HandStepProblem:
         object: The object.
         support: The body below the place of a release; empty for a grip.
         distance_m: Distance of the ends of the fingers from the object along the tool's axis, or of the lip of the cup
-        from its place there; height of the released object above its place.
+        from its place there; distance of the released object from its place, or its height above it.
         has_cup: True if the hand has a suction cup.
-        most_m: Greatest height of a release; 0 for a grip.
+        is_aside: True for a release beside the place, False for one above it.
+        most_m: Greatest distance or height of a release; 0 for a grip.
     """
 
     step: int
@@ -35,13 +37,14 @@ class HandStepProblem:
     support: str = ""
     distance_m: float
     has_cup: bool = False
+    is_aside: bool = False
     most_m: float = 0.0
 
 
 def hand_step_problems(
     scene: Scene, geometry: GripperGeometry, *, clearance_m: float, task: TaskProgram, friction: float = 0.0
 ) -> tuple[HandStepProblem, ...]:
-    """Grips with the object out of reach of the fingers, and releases from more than the largest drop.
+    """Grips with the object out of reach of the hand, and releases beside the place or from more than the largest drop.
 
     Steps after a move to a configuration are not checked.
 
@@ -82,15 +85,18 @@ def _problems(
                     step=index, hand=stage.step.hand, object=stage.object, distance_m=beside_m, has_cup=cup
                 )
         elif stage.step.hand is HandAction.OPENS:
-            height_m, most_m = _height(last, stop), last.scene.place.largest_drop_m
-            if height_m > most_m + _EXACT_M:
+            place = last.scene.place
+            aside_m, height_m = _aside(last, stop), _height(last, stop)
+            is_aside = aside_m > place.radius_m + _EXACT_M
+            if is_aside or height_m > place.largest_drop_m + _EXACT_M:
                 yield HandStepProblem(
                     step=index,
                     hand=stage.step.hand,
                     object=stage.object,
                     support=last.scene.place_support,
-                    distance_m=height_m,
-                    most_m=most_m,
+                    distance_m=aside_m if is_aside else height_m,
+                    is_aside=is_aside,
+                    most_m=place.radius_m if is_aside else place.largest_drop_m,
                 )
 
 
@@ -121,3 +127,10 @@ def _height(leg: Leg, stop: Stop) -> float:
     pose = stop.pose @ leg.context.carried
     lowest_m = least_height_m(leg.scene.workpiece.shape, pose.inverse_rotate((0.0, 0.0, 1.0)))
     return pose.position_m[2] + lowest_m - leg.scene.place.centre_m[2]
+
+
+def _aside(leg: Leg, stop: Stop) -> float:
+    """Horizontal distance in m of a carried object from its place at the end of a move; 0 if it is not carried."""
+    if leg.context.carried is None or stop.pose is None:
+        return 0.0
+    return math.dist((stop.pose @ leg.context.carried).position_m[:2], leg.scene.place.centre_m[:2])

@@ -64,12 +64,12 @@ class NoGrasp:
     Attributes:
         object: The object.
         reasons: Numbers of rejections by filter.
-        is_any_ranked: True if there is a best candidate, for which a task is planned.
+        has_best: True if there is a best candidate, for which a task is planned.
     """
 
     object: str
     reasons: str
-    is_any_ranked: bool
+    has_best: bool
 
     def detail(self, of_best: str) -> str:
         """Reason why the object's first move is not planned.
@@ -78,7 +78,7 @@ class NoGrasp:
             of_best: The same for the best candidate.
         """
         text = f"no grasp candidate of {self.object} can be carried out: {self.reasons}"
-        return f"{text}; of the best one, {of_best}" if self.is_any_ranked else text
+        return f"{text}; of the best one, {of_best}" if self.has_best else text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,8 +88,9 @@ class GraspSearch:
     Attributes:
         object: The object.
         scene: The scene with the chosen grasp; with the best candidate if none is reachable, so that a plan reports the
-        reason; unchanged without candidates.
+        reason; unchanged if there is none on which the hand can close.
         taken: The chosen grasp; None if none is reachable.
+        has_best: True if the scene has a candidate, chosen or not.
         ranked: The candidates and the rejected tool frames.
         rejected: Number of candidates rejected by each filter before the chosen one.
         geometry: The gripper's shape.
@@ -98,6 +99,7 @@ class GraspSearch:
     object: str
     scene: Scene
     taken: ChosenGrasp | None
+    has_best: bool
     ranked: RankedGrasps
     rejected: Mapping[Rejection, int]
     geometry: GripperGeometry
@@ -119,7 +121,7 @@ class GraspSearch:
         """The object and the reasons, if no candidate can be carried out."""
         if self.taken is not None:
             return None
-        return NoGrasp(object=self.object, reasons=self.reasons, is_any_ranked=bool(self.ranked.grasps))
+        return NoGrasp(object=self.object, reasons=self.reasons, has_best=self.has_best)
 
     def _widths(self) -> str:
         """Width of the object, where it is nearest to what the gripper takes, and the end of the gripper's range."""
@@ -197,11 +199,11 @@ def _search(
         for turn in turns:
             taken = _taken(scene, grasp, turn, len(ranked.grasps), number)
             tried = scene.with_grasps({name: taken})
-            first = first or tried
             # The rotation at the place does not change the object's pose in the hand.
             if not why and _is_met(links, scene_about(tried, name, place="", placements=placements)):
                 why.append(Rejection.CLOSING)
                 break
+            first = first or tried
             # Inverse kinematics is solved before the collision models are built, which takes longer.
             reason = None if arm is None else _unreached(arm, route_of(tried, geometry, task), name)
             if reason is None:
@@ -209,12 +211,12 @@ def _search(
                 arm = cell.arm
                 reason = _obstacle(cell, name)
             if reason is None:
-                return found(scene=tried, taken=taken, rejected=dict(rejected))
+                return found(scene=tried, taken=taken, has_best=True, rejected=dict(rejected))
             why.append(reason[0])
             if reason[1]:
                 break
         rejected[_last(why)] += 1
-    return found(scene=first or scene, taken=None, rejected=dict(rejected))
+    return found(scene=first or scene, taken=None, has_best=first is not None, rejected=dict(rejected))
 
 
 def _is_met(links: ClosingLinks, view: Scene) -> bool:

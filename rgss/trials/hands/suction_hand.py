@@ -56,8 +56,8 @@ class SuctionHand:
         return weight_n
 
     def shortfall(self, forces_n: Sequence[float], needed_n: float) -> str:
-        """Message with the force of the vacuum and the weight."""
-        return f"the cup holds {min(forces_n):.2f} N, the object weighs {needed_n:.2f} N"
+        """Message with the force of the vacuum, and that which must be exceeded."""
+        return f"the cup holds {min(forces_n):.2f} N, a firm grasp needs more than {needed_n:.2f} N"
 
     def is_firm(self, forces_n: Sequence[float], needed_n: float) -> bool:
         """True at full vacuum, as reported by a vacuum switch, whose force exceeds the weight."""

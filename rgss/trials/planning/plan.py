@@ -61,8 +61,8 @@ def plan_task(
     moves: dict[str, PlannedMove] = {}
     for leg in (leg for leg in cell.route.legs if leg.step.name in kinds):
         phase, kind = leg.step.name, kinds[leg.step.name]
-        if ungraspable := cell.ungraspable(leg):
-            moves[phase] = _ill_posed(phase, PlanOutcome.INVALID_GOAL, ungraspable)
+        if (none := cell.without_grasp(leg)) is not None:
+            moves[phase] = _ill_posed(phase, PlanOutcome.INVALID_GOAL, none.detail(""))
             break
         start, goal = stops.configurations.get(leg.start), stops.configurations.get(leg.goal)
         if start is None or goal is None:

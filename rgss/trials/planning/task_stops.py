@@ -62,8 +62,9 @@ def stops_of(cell: Workcell) -> TaskStops:
         for index, stop in enumerate(stops)
     ]
     reasons = _reasons(cell, (index for index, found in enumerate(candidates) if not found))
-    # The task is planned up to the first stop without a valid configuration.
-    order = list(itertools.takewhile(lambda index: candidates[index], range(len(stops))))
+    # The task is planned up to the first stop without a valid configuration, or of an object without a grasp.
+    visited = {index for leg in cell.legs for index in (leg.start, leg.goal)}
+    order = list(itertools.takewhile(lambda index: index in visited and candidates[index], range(len(stops))))
     legs = [pair for pair in pairs if {*pair} <= {*order}]
     if not legs:
         return TaskStops(configurations={index: candidates[index][0] for index in order}, direct=none, reasons=reasons)
@@ -157,15 +158,13 @@ def _direct_moves(
     direct: dict[str, Array | None] = {}
     obstacles: dict[str, tuple[PlanOutcome, str]] = {}
     reached = {cell.route.legs[0].start}
-    for leg in cell.route.legs:
+    for leg in cell.legs:
         if leg.step.mode is not MoveKind.PLANNED and leg.start in found and leg.goal in found:
             is_new = leg.goal not in reached
-            ungraspable = cell.ungraspable(leg)
-            line = None if ungraspable else _line(cell, leg, found, is_new=is_new)
+            line = _line(cell, leg, found, is_new=is_new)
             direct[leg.step.name] = line
             if line is None:
-                without = PlanOutcome.INVALID_GOAL, ungraspable
-                obstacle = without if ungraspable else _obstacle_of(cell, leg, found)
+                obstacle = _obstacle_of(cell, leg, found)
                 if obstacle is not None:
                     obstacles[leg.step.name] = obstacle
                 # An earlier move comes to a stop that is not new, and can be made.

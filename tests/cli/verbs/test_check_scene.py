@@ -352,7 +352,13 @@ def check_task(rgss, folder):
             4,
             f"{BESIDE}10 mm from cup",
         ),
-        (f"{LIFTED}  - release: {{}}\n", "task.release-height", 6, f"{ABOVE}60 mm above its place on counter_place"),
+        (f"{LIFTED}  - release: {{}}\n", "task.release-place", 6, f"{ABOVE}1379 mm from its place on counter_place"),
+        (
+            f"{LIFTED}  - move: {{to: place, raised: 60 mm}}\n  - release: {{}}\n",
+            "task.release-height",
+            7,
+            f"{ABOVE}65 mm above its place on counter_place",
+        ),
         (
             f"{LIFTED}  - move: {{to: place, raised: 15 mm}}\n  - release: {{}}\n",
             "task.release-height",
@@ -375,14 +381,8 @@ def test_steps_of_the_hand_that_can_succeed(check_task):
 
 @pytest.mark.parametrize(("drop", "found"), [("65 mm", 0), ("55 mm", 1)])
 def test_the_height_of_a_release_is_compared_with_the_place(check_task, drop, found):
-    assert (
-        len(
-            check_task(
-                f"{LIFTED}  - release: {{}}\n", ("\nplace_region:\n", f"\nplace_region:\n  largest_drop: {drop}\n")
-            )
-        )
-        == found
-    )
+    steps = f"{LIFTED}  - move: {{to: place, raised: 55 mm}}\n  - release: {{}}\n"
+    assert len(check_task(steps, ("\nplace_region:\n", f"\nplace_region:\n  largest_drop: {drop}\n"))) == found
 
 
 def test_a_chosen_grasp_is_approached_along_its_own_axis(check_task):

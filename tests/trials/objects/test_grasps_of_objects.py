@@ -207,8 +207,8 @@ def test_an_object_that_has_no_grasp_is_named_and_the_other_keeps_its_own(with_t
     assert problem.first == "tin"
     assert "too wide" in problem.detail
     record = Pieces().record(replace(wide, fidelity=Fidelity.KINEMATIC))
-    assert record.failure is Failure.UNREACHABLE_WAYPOINT
-    assert record.failure_detail.startswith("the arm cannot follow the straight line of the tin.move to grasp")
+    assert record.failure is Failure.INVALID_GOAL
+    assert record.failure_detail.startswith("no grasp candidate of tin can be carried out: ")
 
 
 def test_another_object_that_topples_is_not_said_to_be_touched(with_two):

@@ -12,7 +12,6 @@ import pytest
 
 from rgss.evidence import Failure, Fidelity
 from rgss.scenes import Approach, Box, GraspCandidates, LyingCylinder, MeshShape
-from rgss.tasks import MoveKind
 from rgss.trials.conditions import conditions_of
 from rgss.trials.pieces.run import Pieces
 from rgss.trials.planning.goal_reasons import Obstacle
@@ -192,18 +191,3 @@ def test_a_stated_grasp_of_a_box_is_from_above_at_the_stated_turn(with_object):
     assert record.success, record.failure_detail
     assert not any("chosen_grasp_rank" in phase.metrics for phase in record.phases)
     assert conditions_of(spec).scene.grasp.rotate((0.0, 0.0, 1.0)) == pytest.approx((0.0, 0.0, -1.0))
-
-
-@pytest.mark.parametrize("mode", [MoveKind.PLANNED, MoveKind.STRAIGHT])
-def test_a_trial_takes_no_stated_grasp_that_the_task_does_not_allow(with_object, mode):
-    spec = with_object(
-        Box(size_m=(0.06, 0.06, 0.08)), candidates=GraspCandidates(approaches=(Approach.OBLIQUE,), yaws=4)
-    )
-    first = spec.task.moves[0]
-    steps = [replace(step, mode=mode) if step == first else step for step in spec.task.steps]
-    settings = replace(spec.settings, planning=replace(spec.settings.planning, moves=()))
-    spec = replace(spec, task=replace(spec.task, steps=tuple(steps)), settings=settings)
-    for fidelity in Fidelity:
-        record = Pieces().record(replace(spec, fidelity=fidelity))
-        assert (record.failure, record.failed_phase) == (Failure.INVALID_GOAL, first.name)
-        assert re.fullmatch(r"no grasp candidate of \w+ can be carried out: approach: \d+", record.failure_detail)
