@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.exchange.absent_links import with_absent_links
     from rgss.exchange.applying import FileChange, planned, rehearsed, written
     from rgss.exchange.attributes import ATTRIBUTES, Part
     from rgss.exchange.comparison import ChangeKind, ElementChange, ImportDefaults, compare, not_as_planned

@@ -50,7 +50,7 @@ def compute(function: Callable[..., Result], *arguments: Any) -> Result:
     require_engines("a trial")
     if is_in_force():
         return function(*arguments)
-    return cast("Result", _engine_process().call(function, arguments))
+    return cast("Result", _engine_process_of(os.getpid()).call(function, arguments))
 
 
 class EngineProcess:
@@ -108,7 +108,7 @@ class _Child:
                 # Ctrl-C reaches a whole group, and only this process answers it.
                 start_new_session=True,
             )
-        self._finalizer = weakref.finalize(self, _discard, self._process, self.pipe, self._output)
+        self._finalizer = weakref.finalize(self, _discard, self._process, self.pipe, self._output, os.getpid())
 
     def end(self) -> str:
         """End it; returns how it had ended."""
@@ -138,14 +138,23 @@ def _kill(process: subprocess.Popen[bytes], pipe: Connection) -> None:
     process.wait()
 
 
-def _discard(process: subprocess.Popen[bytes], pipe: Connection, output: IO[bytes]) -> None:
-    _kill(process, pipe)
+def _discard(process: subprocess.Popen[bytes], pipe: Connection, output: IO[bytes], owner: int) -> None:
+    if os.getpid() == owner:
+        _kill(process, pipe)
+    else:
+        # In a fork of the owner, which still uses it.
+        pipe.close()
+        process.returncode = 0
     output.close()
 
 
 @lru_cache(maxsize=1)
-def _engine_process() -> EngineProcess:
-    """The process of this one."""
+def _engine_process_of(process: int) -> EngineProcess:  # noqa: ARG001 - the key of the cache
+    """The engine process of a process: a fork has one of its own, since answers in one pipe would be mixed up.
+
+    Args:
+        process: Id of the present process.
+    """
     return EngineProcess()
 
 

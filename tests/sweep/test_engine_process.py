@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -38,7 +39,7 @@ def test_a_process_that_computes_so_itself_needs_no_other():
 
 def test_another_process_is_used_where_this_one_does_not(monkeypatch, process):
     monkeypatch.setattr(engine_process, "is_in_force", lambda: False)
-    monkeypatch.setattr(engine_process, "_engine_process", lambda: process)
+    monkeypatch.setattr(engine_process, "_engine_process_of", lambda _: process)
     assert compute(os.getpid) != os.getpid()
 
 
@@ -90,3 +91,31 @@ def test_it_ends_with_the_process_that_started_it_even_if_that_is_killed():
         os.kill(script.pid, signal.SIGKILL)
         script.wait()
         wait_until(lambda: not is_running(child))
+
+
+FORKED = """
+import json, multiprocessing, os
+from rgss.sweep import engine_process
+from rgss.sweep.engine_process import compute
+
+engine_process.is_in_force = lambda: False
+def asked(number):
+    return number, abs(compute(eval, f"{-number}")), compute(os.getpid)
+
+before = compute(os.getpid)
+with multiprocessing.get_context("fork").Pool(3) as pool:
+    answers = pool.map(asked, range(60), chunksize=1)
+print(json.dumps({"before": before, "answers": answers, "after": compute(os.getpid)}))
+"""
+
+
+def test_a_fork_has_an_engine_process_of_its_own():
+    told = subprocess.run(
+        [sys.executable, "-W", "error", "-c", FORKED], cwd=REPOSITORY, capture_output=True, text=True, check=True
+    )
+    result = json.loads(told.stdout)
+
+    assert [asked for asked, _, _ in result["answers"]] == [got for _, got, _ in result["answers"]] == list(range(60))
+    assert result["before"] == result["after"]
+    assert result["before"] not in {process for _, _, process in result["answers"]}
+    assert told.stderr == ""

@@ -46,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
     from rgss.errors import DefinitionError, DocumentError
-    from rgss.exchange import compare, content_of, planned, rehearsed, undone, written
+    from rgss.exchange import compare, content_of, planned, rehearsed, undone, with_absent_links, written
     from rgss.studies import FOLDERS, find_project, load_project
 
     if options.remove and not options.apply:
@@ -59,6 +59,8 @@ def run(options: argparse.Namespace) -> int:
     assumed = _import_defaults(options)
     foreign = _read(project, options, assumed.part)
     own = content_of(project.requirements)
+    if options.format == "reqif":
+        foreign = with_absent_links(own, foreign, remove=options.remove)
     changes = compare(own, foreign, assumed)
     files: Sequence[FileChange] = planned(folder, project.requirements, changes, remove=options.remove)
     try:

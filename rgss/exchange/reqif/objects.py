@@ -126,6 +126,11 @@ class ObjectReader:
                 losses[long] = (int(getattr(value.xml_node, "sourceline", None) or line), rich.losses)
             else:
                 values[long] = self._text(value)
+        for definition in stated.values():
+            # The value of an object that has none of its own.
+            long = definition.long_name or definition.identifier
+            if long not in values and (default := self._default(definition)) is not None:
+                values[long] = default
         by_name = {attribute_name(long): text for long, text in values.items()}
         element_id = by_name.get("id", "").strip()
         if not is_ours and not (element_id and by_name.get("text", "").strip()):
@@ -157,11 +162,26 @@ class ObjectReader:
             line=line,
         )
 
+    def _default(self, definition: Any) -> str | None:
+        """Default value of an attribute as text; None if it has none."""
+        stated = None if definition.xml_node is None else definition.xml_node.find("DEFAULT-VALUE")
+        if stated is None or not len(stated):
+            return None
+        value = stated[0]
+        if value.tag == "ATTRIBUTE-VALUE-XHTML":
+            return from_xhtml(value.find("THE-VALUE"), exact=self._exact).text
+        if value.tag == "ATTRIBUTE-VALUE-ENUMERATION":
+            return self._chosen([each.text for each in value.iterfind("VALUES/ENUM-VALUE-REF")])
+        return self._plain(value.get("THE-VALUE", ""))
+
     def _text(self, value: Any) -> str:
-        if isinstance(value.value, list):
-            unknown = next((each for each in value.value if each not in self._choices), None)
-            if unknown is not None:
-                raise UnsoundObjectError(f"there is no choice {unknown!r}")
-            return "; ".join(self._choices[each] for each in value.value)
-        text = str(value.value)
+        return self._chosen(value.value) if isinstance(value.value, list) else self._plain(str(value.value))
+
+    def _chosen(self, choices: Sequence[str]) -> str:
+        unknown = next((each for each in choices if each not in self._choices), None)
+        if unknown is not None:
+            raise UnsoundObjectError(f"there is no choice {unknown!r}")
+        return "; ".join(self._choices[each] for each in choices)
+
+    def _plain(self, text: str) -> str:
         return text.replace("\\n", "\n") if self._escapes_breaks else text

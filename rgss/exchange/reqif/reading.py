@@ -22,6 +22,7 @@ from rgss.exchange.reqif.vocabulary import MEASURE
 from rgss.exchange.xml_guard import require_plain_xml
 from rgss.findings import Severity
 
+_PREFIXED_ROOT = re.compile(r"\s*(?:<\?xml\s.*?\?>)?\s*<(?P<prefix>[A-Za-z_][\w.-]*):REQ-IF\b[^>]*>", re.DOTALL)
 _NO_CONTENT = re.compile(r"(<!\[CDATA\[.*?\]\]>|<\?xml\s.*?\?>)|<!--.*?-->|<\?.*?\?>", re.DOTALL)
 
 
@@ -152,7 +153,20 @@ def _parsed(content: bytes, file: str) -> Any:
 def _content_alone(text: str) -> str:
     """The XML without comments and processing instructions, which the library takes for elements."""
     # Well-formed XML has none of them within a tag, so that only CDATA sections could look like one.
-    return _NO_CONTENT.sub(lambda match: match[1] or "\n" * match[0].count("\n"), text)
+    return _without_prefix(_NO_CONTENT.sub(lambda match: match[1] or "\n" * match[0].count("\n"), text))
+
+
+def _without_prefix(text: str) -> str:
+    """The XML with the namespace of ReqIF as its default one, which the library expects.
+
+    Unchanged if the file has another default namespace.
+    """
+    root = _PREFIXED_ROOT.match(text)
+    if root is None or re.search(r"\sxmlns=", root[0]):
+        return text
+    prefix = re.escape(root["prefix"])
+    unnamed = re.sub(rf"(</?){prefix}:(?=[A-Z])", r"\1", text)
+    return re.sub(rf"\sxmlns:{prefix}=", " xmlns=", unnamed, count=1)
 
 
 def _unreadable(content: bytes, file: str, error: Exception | None, *, line: int = 1) -> DocumentError:

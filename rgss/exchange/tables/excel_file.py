@@ -17,10 +17,11 @@ from rgss.errors import DefinitionError, DocumentError
 from rgss.exchange.attributes import ATTRIBUTES, Form, Part
 from rgss.exchange.content import Content, Row
 from rgss.exchange.files import LARGEST_FILE_BYTES, problem, read_bytes
+from rgss.exchange.tables.cell_comments import cell_comments
 from rgss.exchange.tables.formatted_cells import FormattedCell, SheetReader
 from rgss.exchange.tables.heads import MOST_COLUMNS, MOST_ROWS, PARTS, columns_of, found_columns, table_content
 from rgss.exchange.xml_guard import require_plain_xml
-from rgss.findings import Finding, Severity
+from rgss.findings import Finding, Severity, shown
 
 _MOST_MEMBERS = 1_000
 _WIDE, _NARROW = 60.0, 18.0
@@ -86,7 +87,9 @@ def read_excel(path: Path) -> Content:
                 message = f"there is no sheet {' and no sheet '.join(map(repr, missing))}"
                 raise DocumentError([problem(file, "sheet", message, hint=f"sheets: {', '.join(names)}")])
             for part in PARTS:
-                rows += _rows(file, SheetReader(workbook, part.value), part, findings, losses)
+                sheet = SheetReader(workbook, part.value)
+                rows += _rows(file, sheet, part, findings, losses)
+                losses += _commented(file, content, sheet.path, part)
     except DocumentError:
         raise
     except Exception:  # noqa: BLE001, RUF100 - a damaged workbook breaks openpyxl in many ways
@@ -187,6 +190,16 @@ def _merged(
             message = f"{where}{lines}: the cells of {what} are merged, and only the first has the text"
             hint = "unmerge them, and fill in each"
             yield problem(file, "merged", message, line=rows[0], column=first_column, hint=hint)
+
+
+def _commented(file: str, content: bytes, sheet: str, part: Part) -> Iterator[Finding]:
+    """A loss for each comment of a cell: a reviewer's words are not imported."""
+    from openpyxl.utils.cell import coordinate_to_tuple
+
+    for cell, text in cell_comments(content, sheet):
+        line, column = coordinate_to_tuple(cell)
+        message = f"sheet {part.value!r}: the comment on cell {cell} is not imported: {shown(text)}"
+        yield problem(file, "loss", message, line=line, column=column, severity=Severity.WARNING)
 
 
 def _write_sheet(sheet: Any, part: Part, rows: list[Row]) -> None:

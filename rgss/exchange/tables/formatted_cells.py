@@ -81,6 +81,8 @@ class SheetReader:
         self._struck = {
             number for number, style in enumerate(styles) if style.fontId < len(fonts) and fonts[style.fontId].strike
         }
+        self.path: str = self._sheet._worksheet_path  # noqa: SLF001 - its member of the archive
+        """Its path in the workbook."""
         self.merged: list[tuple[int, int, int, int]] = []
         """First row, first column, last row and last column of each merged range, once all rows are read."""
 

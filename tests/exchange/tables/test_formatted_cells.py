@@ -10,6 +10,7 @@ import pytest
 from lxml import etree
 from openpyxl.cell.rich_text import CellRichText, TextBlock
 from openpyxl.cell.text import InlineFont
+from openpyxl.comments import Comment
 from openpyxl.styles import Font
 
 from rgss.exchange.reqif.prose import from_xhtml
@@ -162,3 +163,19 @@ def test_merged_cells_are_refused_by_name(project, read, refused, cells, message
 
 def test_merged_cells_beside_the_requirements_have_no_meaning(project, read):
     assert project.compare(read(lambda sheet: sheet.merge_cells("AA2:AC3"))) == ()
+
+
+def test_a_comment_on_a_cell_is_reported_as_lost(read):
+    def change(sheet):
+        sheet.cell(2, column_of(sheet, "text")).comment = Comment("please change\nto 0.9 kg", "A reviewer")
+
+    foreign = read(change)
+
+    (loss,) = foreign.losses
+    assert loss.message.startswith("sheet 'system': the comment on cell ")
+    assert loss.message.endswith(" is not imported: 'please change to 0.9 kg'")
+    assert (loss.line, loss.severity.value) == (2, "warning")
+
+
+def test_a_sheet_without_comments_loses_nothing(read):
+    assert read(lambda _: None).losses == ()
