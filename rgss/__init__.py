@@ -20,7 +20,7 @@ __all__ = ["RgssError", "load_study"]
 
 def load_study(
     folder: str | PathLike[str] | None = None,
-    study: str | None = None,
+    study: str | PathLike[str] | None = None,
     *,
     fidelity: str | None = None,
     replicates: int | None = None,
@@ -41,6 +41,7 @@ def load_study(
         DefinitionError: There is no project, or an argument is invalid.
     """
     from importlib import import_module
+    from os import fspath
     from pathlib import Path
 
     # By name, since this package is above all others and yet imported with each: an import statement would make every
@@ -51,6 +52,10 @@ def load_study(
         filmstrip=import_module("rgss.reports.trials.filmstrip").filmstrip,
     )
     found: Study = analysis.load(
-        None if folder is None else Path(folder), study, fidelity=fidelity, replicates=replicates, drawing=drawing
+        None if folder is None else Path(folder),
+        None if study is None else fspath(study),
+        fidelity=fidelity,
+        replicates=replicates,
+        drawing=drawing,
     )
     return found

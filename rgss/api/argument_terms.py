@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
+import operator
 from contextlib import ContextDecorator
 from types import TracebackType
 
-from rgss.errors import RgssError
+from rgss.errors import DefinitionError, RgssError
 
 TERMS = (
     ("check the name and --project", "check the name and the folder"),
@@ -46,3 +48,42 @@ def in_arguments(text: str) -> str:
     for option, argument in TERMS:
         text = text.replace(option, argument)
     return text
+
+
+def whole_argument(name: str, number: object, *, hint: str) -> int:
+    """Plain integer of an argument: a frame has integers of NumPy, which cannot be digested.
+
+    Args:
+        name: Name of the argument.
+        number: Its value.
+        hint: What to give.
+
+    Raises:
+        DefinitionError: It is no whole number; True and False are none.
+    """
+    if not isinstance(number, bool):
+        try:
+            return operator.index(number)  # type: ignore[arg-type]
+        except TypeError:
+            pass
+    raise DefinitionError(f"{name} must be a whole number, got {number!r}", hint=hint)
+
+
+def number_argument(name: str, number: object, *, hint: str) -> float:
+    """Plain float of an argument.
+
+    Args:
+        name: Name of the argument.
+        number: Its value.
+        hint: What to give.
+
+    Raises:
+        DefinitionError: It is no finite number; True, False and texts are none.
+    """
+    try:
+        found = math.nan if isinstance(number, (bool, str, bytes)) else float(number)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        found = math.nan
+    if not math.isfinite(found):
+        raise DefinitionError(f"{name} must be a finite number, got {number!r}", hint=hint)
+    return found

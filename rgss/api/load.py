@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rgss.api.argument_terms import ErrorsNameArguments
+from rgss.api.argument_terms import ErrorsNameArguments, whole_argument
 from rgss.api.study import Study
 from rgss.api.trial import Drawing
 from rgss.errors import DefinitionError
@@ -40,6 +40,7 @@ def load(
         folder, study = project_of_study(folder)
     project = load_project(find_project(folder), study)
     if replicates is not None:
+        replicates = whole_argument("replicates", replicates, hint="omit it for the study's number")
         if not 1 <= replicates <= MOST_REPLICATES:
             raise DefinitionError(
                 f"replicates must be from 1 to {MOST_REPLICATES}", hint="omit it for the study's number"

@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from rgss.api.argument_terms import whole_argument
 from rgss.decision import sweep_in_stages
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError, SimulationError
@@ -62,6 +63,7 @@ def run_trials(project: Project, specs: Sequence[TrialSpec], store: EvidenceStor
 
 
 def _runner(project: Project, jobs: int | None, on_trial: Callable[[int, int], None] | None) -> _Runner:
+    jobs = None if jobs is None else whole_argument("jobs", jobs, hint="0 runs all trials in one child process")
     if jobs is not None and jobs < 0:
         raise DefinitionError(f"jobs must be at least 0, got {jobs}", hint="0 runs all trials in one child process")
     return _Runner(project, jobs=(os.cpu_count() or 1) if jobs is None else jobs, on_trial=on_trial)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
-import operator
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
+from rgss.api.argument_terms import number_argument, whole_argument
 from rgss.api.columns import FRAMES
 from rgss.api.frames import frame_of, phases_frame
 from rgss.api.html_views import trial_view
@@ -25,7 +24,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from PIL.Image import Image
 
-_LARGEST = 2000
+_LEAST_PIXELS, _LARGEST = 16, 2000
+_IDS = "give an id and a seed"
+_OF_THE_FILE = "omit it for that of the gripper's file"
 _LARGEST_SEED = 2**31
 _LOWEST_HZ, _HIGHEST_HZ = 60.0, 10_000.0
 
@@ -151,10 +152,12 @@ class Trial:
         from rgss.physics import VIEWS
         from rgss.trials import Film
 
-        if not (0 < width <= _LARGEST and 0 < height <= _LARGEST):
+        hint = "omit them for the defaults"
+        width, height = whole_argument("width", width, hint=hint), whole_argument("height", height, hint=hint)
+        if not all(_LEAST_PIXELS <= side <= _LARGEST for side in (width, height)):
             raise DefinitionError(
-                f"width and height must be from 1 to {_LARGEST} pixels, got {width} and {height}",
-                hint="omit them for the defaults",
+                f"width and height must be from {_LEAST_PIXELS} to {_LARGEST} pixels, got {width} and {height}",
+                hint=hint,
             )
         trace = self._seen()
         with Film(self._spec, trace, VIEWS["overview"], width=width, height=height, rate_hz=1.0) as film:
@@ -186,6 +189,7 @@ def run_one(
     """Run one trial; see `rgss.api.study.Study.trial`."""
     spec = _spec(project, variant, seed, fidelity=fidelity)
     if rate_hz is not None:
+        rate_hz = number_argument("rate_hz", rate_hz, hint=f"give from {_LOWEST_HZ:g} to {_HIGHEST_HZ:g}")
         if not _LOWEST_HZ <= rate_hz <= _HIGHEST_HZ:
             raise DefinitionError(
                 f"{rate_hz:g} steps a second are out of range", hint=f"give from {_LOWEST_HZ:g} to {_HIGHEST_HZ:g}"
@@ -204,14 +208,13 @@ def payload_of(
     spec = _spec(project, variant, None, fidelity=Fidelity.CONTACT.value)
     gripper, robot = spec.gripper, spec.scene.robot
     if friction is not None:
-        if not 0.0 <= friction < math.inf:
-            raise DefinitionError(
-                f"friction must be a finite number of at least 0, got {friction:g}",
-                hint="omit it for the friction of the gripper's file",
-            )
-        gripper = replace(gripper, friction=float(friction))
+        friction = number_argument("friction", friction, hint=_OF_THE_FILE)
+        if friction < 0.0:
+            raise DefinitionError(f"friction must be at least 0, got {friction:g}", hint=_OF_THE_FILE)
+        gripper = replace(gripper, friction=friction)
     if finger_force_n is not None:
-        gripper = replace(gripper, finger_force_n=float(finger_force_n))
+        force_n = number_argument("finger_force_n", finger_force_n, hint=_OF_THE_FILE)
+        gripper = replace(gripper, finger_force_n=force_n)
     return compute(
         run_bench,
         bench_spec(
@@ -226,17 +229,9 @@ def payload_of(
 
 def _spec(project: Project, variant: int, seed: int | None, *, fidelity: str | None) -> TrialSpec:
     chosen = project if fidelity is None else project.with_fidelity(fidelity)
-    variant = _whole("variant", variant)
-    seed = chosen.study.seed if seed is None else _whole("seed", seed)
+    variant = whole_argument("variant", variant, hint=_IDS)
+    seed = chosen.study.seed if seed is None else whole_argument("seed", seed, hint=_IDS)
     if not 0 <= seed < _LARGEST_SEED:
         raise DefinitionError(f"seed {seed} is out of range", hint=f"give a seed from 0 to {_LARGEST_SEED - 1}")
     (spec,) = trial_specs(chosen, variants=[chosen.designs.variant(variant)], seeds=[seed])
     return spec
-
-
-def _whole(what: str, number: int) -> int:
-    """Plain integer of a number: a frame has integers of NumPy, which cannot be digested."""
-    try:
-        return operator.index(number)
-    except TypeError:
-        raise DefinitionError(f"{what} must be a whole number, got {number!r}", hint="give an id and a seed") from None

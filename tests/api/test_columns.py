@@ -113,7 +113,7 @@ def test_pictures_of_a_trial_with_contact(gripped):
     width, height = gripped.filmstrip(width=200, height=150).size
     assert 800 < width < 1000 < 2 * width
     assert 300 < height < 600
-    with pytest.raises(DefinitionError, match="width and height must be from 1 to 2000 pixels, got 0 and 300"):
+    with pytest.raises(DefinitionError, match="width and height must be from 16 to 2000 pixels, got 0 and 300"):
         gripped.filmstrip(width=0)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -262,11 +263,16 @@ def test_a_script_that_sweeps_with_processes(empty, guarded, said):
         (lambda study: study.trial(1, -1), "seed -1 is out of range (give a seed from 0 to 2147483647)"),
         (lambda study: study.trial(1.5), "variant must be a whole number, got 1.5 (give an id and a seed)"),
         (lambda study: study.trial(1, "2"), "seed must be a whole number, got '2'"),
+        (lambda study: study.trial(True), "variant must be a whole number, got True"),
+        (lambda study: study.trial(1, rate_hz="x"), "rate_hz must be a finite number, got 'x' (give from 60 to 10000)"),
+        (lambda study: study.payload(1, friction=True), "friction must be a finite number, got True"),
+        (lambda study: study.payload(1, finger_force_n="20 N"), "finger_force_n must be a finite number, got '20 N'"),
+        (lambda study: study.sweep(jobs=1.5), "jobs must be a whole number, got 1.5"),
         (lambda study: study.trial(1, fidelity="real"), "unknown fidelity 'real'"),
         (lambda study: study.trial(1, rate_hz=1), "1 steps a second are out of range (give from 60 to 10000)"),
         (
             lambda study: study.payload(1, friction=-0.1),
-            "friction must be a finite number of at least 0, got -0.1 (omit it for the friction of the gripper's file)",
+            "friction must be at least 0, got -0.1 (omit it for that of the gripper's file)",
         ),
         (lambda study: study.payload(1, finger_force_n=-1.0), "the force of a finger"),
     ],
@@ -282,6 +288,10 @@ def test_what_cannot_be_loaded(empty, tmp_path):
         rgss.load_study(tmp_path)
     with pytest.raises(DefinitionError, match="replicates must be from 1 to"):
         rgss.load_study(empty, replicates=0)
+    for number in (1.5, True, "2", float("nan")):
+        with pytest.raises(DefinitionError, match=f"replicates must be a whole number, got {number!r}"):
+            rgss.load_study(empty, replicates=number)
+    assert rgss.load_study(empty, Path("studies/pick_place.yaml")).project.study.label == "studies/pick_place.yaml"
     with pytest.raises(DefinitionError, match="unknown fidelity 'real'"):
         rgss.load_study(empty, fidelity="real")
     with pytest.raises(DocumentError):
