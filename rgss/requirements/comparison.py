@@ -11,12 +11,15 @@ from types import MappingProxyType
 RELATIVE_TOLERANCE = 1e-9
 """Relative difference below which a quantity counts as equal to its limit, so that binary rounding never decides."""
 
+ZERO_TOLERANCE = 1e-10
+"""Difference in SI units below which a quantity counts as equal to a limit of 0, of which there is no share."""
+
 
 class Comparison(str, Enum):
     """Required relation of a quantity to a limit.
 
-    A quantity within `RELATIVE_TOLERANCE` of the limit counts as equal to it, both in verdicts and in mixed-integer
-    programs.
+    A quantity within `RELATIVE_TOLERANCE` of the limit, or within `ZERO_TOLERANCE` of a limit of 0, counts as equal to
+    it, both in verdicts and in mixed-integer programs.
     """
 
     AT_LEAST = ">="
@@ -48,7 +51,7 @@ class Comparison(str, Enum):
         """
         if quantity is None:
             return False
-        if math.isclose(quantity, limit, rel_tol=RELATIVE_TOLERANCE):
+        if math.isclose(quantity, limit, rel_tol=RELATIVE_TOLERANCE, abs_tol=0.0 if limit else ZERO_TOLERANCE):
             return not self.is_strict
         return _OPERATORS[self](quantity, limit)
 

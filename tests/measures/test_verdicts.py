@@ -100,6 +100,9 @@ def test_units_are_converted() -> None:
 def test_binary_rounding_never_decides(comparison: str, answer: bool) -> None:
     for value in (0.1 + 0.2, 0.3, 0.3 - 1e-12):
         assert meets(criterion(comparison, 0.3), value, "s") is answer
+    # Of a limit of 0 there is no share.
+    for value in (0.3 - (0.1 + 0.2), 0.0, 60_000.1 - 60_000.0 - 0.1):
+        assert meets(criterion(comparison, 0.0), value, "s") is answer
 
 
 def test_a_criterion_in_another_dimension_cannot_judge() -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from rgss.errors import TradeoffError
-from rgss.requirements import RELATIVE_TOLERANCE, Comparison
+from rgss.requirements import RELATIVE_TOLERANCE, ZERO_TOLERANCE, Comparison
 from rgss.tradeoff.problem import ValueFunction
 
 
@@ -84,7 +84,7 @@ def _piecewise(quantity: LinearQuantity, points: Sequence[tuple[float, float]]) 
 
 def limit_of_sum(quantity: LinearQuantity, sense: Comparison, limit: float) -> Any:
     """CVXPY constraint that a linear quantity keeps a limit."""
-    slack = RELATIVE_TOLERANCE * abs(limit)
+    slack = RELATIVE_TOLERANCE * abs(limit) if limit else ZERO_TOLERANCE
     distance = (quantity.expression - limit) / quantity.span
     return distance >= -slack / quantity.span if sense is Comparison.AT_LEAST else distance <= slack / quantity.span
 

@@ -58,6 +58,7 @@ def decide_portfolio(
 
     if time_limit is not None and not (math.isfinite(time_limit) and time_limit > 0.0):
         raise TradeoffError(f"the time limit must be positive, got {time_limit:g} s", hint="give seconds, such as 60")
+    end_s = math.inf if time_limit is None else time.monotonic() + time_limit
     names, values, best_variants = _member_values(problem)
     weights = np.array([task.weight for task in problem.tasks])
     unserved = tuple(task.name for task, column in zip(problem.tasks, values.T, strict=True) if (column < 0.0).all())
@@ -66,7 +67,7 @@ def decide_portfolio(
     best, bound = answers[-1].objective, answers[-1].bound
     # Of equally good sizes the smallest.
     rows = next(one.rows for one in answers if one.objective >= best - TIE_TOLERANCE)
-    rows, checks = _checked(problem, values[kept], weights, rows, independent)
+    rows, checks = _checked(problem, values[kept], weights, rows, independent, end_s)
     enumerated = best_portfolio(values[kept], weights, problem.at_most, problem.aim)
     agreement = Agreement.NOT_ENUMERATED
     if enumerated is not None:
@@ -159,22 +160,31 @@ def _checked(
     weights: NDArray[np.float64],
     rows: tuple[int, ...],
     independent: tuple[SolverRun, ...],
+    end_s: float,
 ) -> tuple[tuple[int, ...], list[Check]]:
-    """The better of a portfolio and the solvers' ones, and the checks of the solvers."""
+    """The better of a portfolio and the solvers' ones, and the checks of the solvers, until a time of the clock."""
     checks: list[Check] = []
-    if values.size <= LARGEST_SOLVED:
-        rows, check = _compared(problem, values, weights, rows, PORTFOLIO_RUN, "HiGHS", CheckKind.SECOND_RUN)
-        checks.append(check)
-    for run in independent:
-        if values.size > LARGEST_SOLVED:
-            detail = (
-                f"{run.name} not run: the program has {values.size} values, and at most {LARGEST_SOLVED} are solved"
-            )
-            checks.append(Check(kind=CheckKind.INDEPENDENT_SOLVER, agrees=False, detail=detail))
+    is_small = values.size <= LARGEST_SOLVED
+    runs = [(PORTFOLIO_RUN, "HiGHS", CheckKind.SECOND_RUN)] if is_small else []
+    runs += [(run, run.name, CheckKind.INDEPENDENT_SOLVER) for run in independent]
+    for run, name, kind in runs:
+        left_s = end_s - time.monotonic()
+        why = "" if left_s > 0.0 else "the time limit is spent"
+        if not is_small:
+            why = f"the program has {values.size} values, and at most {LARGEST_SOLVED} are solved"
+        if why:
+            checks.append(Check(kind=kind, agrees=None, detail=f"{name} not run: {why}"))
             continue
-        rows, check = _compared(problem, values, weights, rows, run, run.name, CheckKind.INDEPENDENT_SOLVER)
+        rows, check = _compared(problem, values, weights, rows, _within(run, left_s, kind), name, kind)
         checks.append(check)
     return rows, checks
+
+
+def _within(run: SolverRun, left_s: float, kind: CheckKind) -> SolverRun:
+    """The run of HiGHS with the time that is left; other solvers have other names for the option."""
+    if kind is not CheckKind.SECOND_RUN or math.isinf(left_s):
+        return run
+    return replace(run, options={**run.options, "time_limit": left_s})
 
 
 def _compared(
@@ -193,7 +203,7 @@ def _compared(
     except TradeoffError as error:
         subject = "" if kind is CheckKind.SECOND_RUN else f"{name}: "
         detail = f"{subject}the mixed-integer program was not completed: {error.message}"
-        return rows, Check(kind=kind, agrees=False, detail=detail)
+        return rows, Check(kind=kind, agrees=None, detail=detail)
     theirs = _score(problem, values, weights, found)
     agrees = abs(theirs - ours) <= TIE_TOLERANCE
     detail = f"{name} on the mixed-integer program"

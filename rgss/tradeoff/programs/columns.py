@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.requirements import RELATIVE_TOLERANCE, Comparison
+from rgss.requirements import RELATIVE_TOLERANCE, ZERO_TOLERANCE, Comparison
 from rgss.tradeoff.problem import (
     ChanceBound,
     Condition,
@@ -58,9 +58,10 @@ def tail_column(condition: TailBound, samples: Samples) -> Column:
 
 
 def keeps(sense: Comparison, quantities: Column, limit: float | Column) -> NDArray[np.bool_]:
-    """Mask of the quantities that keep a limit; an unknown one does not, one equal up to one part in 10⁹ does."""
+    """Mask of the quantities that keep a limit; an unknown one does not, one that counts as equal to it does."""
     kept = quantities >= limit if sense is Comparison.AT_LEAST else quantities <= limit
-    equal = np.abs(quantities - limit) <= RELATIVE_TOLERANCE * np.maximum(np.abs(quantities), np.abs(limit))
+    share = RELATIVE_TOLERANCE * np.maximum(np.abs(quantities), np.abs(limit))
+    equal = np.abs(quantities - limit) <= np.where(np.equal(limit, 0.0), ZERO_TOLERANCE, share)
     return np.asarray(kept | equal, dtype=np.bool_)
 
 

@@ -278,3 +278,27 @@ def test_as_plain_values(portfolio):
     assert document["enumeration_agrees"] == "agreed"
     nothing = portfolio_to_json(decide_portfolio(portfolio({1: (-1.0,)})))
     assert (nothing["status"], nothing["value"], nothing["unserved"]) == ("infeasible", None, ["t0"])
+
+
+def test_solvers_get_the_time_that_is_left(portfolio, monkeypatch):
+    given = []
+    module = rgss.tradeoff.portfolio.portfolio
+    solved = module.solved_portfolio
+    monkeypatch.setattr(module, "solved_portfolio", lambda *of: given.append(of[-1].options) or solved(*of))
+    decide_portfolio(portfolio(TABLE), time_limit=60.0)
+    decide_portfolio(portfolio(TABLE))
+
+    assert 0.0 < given[0]["time_limit"] <= 60.0
+    assert "time_limit" not in given[1]
+
+
+def test_a_solver_that_is_not_run_contradicts_nothing(portfolio):
+    other = dataclasses.replace(rgss.tradeoff.portfolio.checks.PORTFOLIO_RUN, name="SCIP")
+    table = portfolio(random_table(3, 101, 25), at_most=2)
+    large = decide_portfolio(table, most_work=1_000, independent=(other,))
+    late = decide_portfolio(portfolio(TABLE), time_limit=1e-9, independent=(other,))
+
+    told = [(check.agrees, check.detail) for check in (*large.checks, *late.checks) if check.detail.startswith("SCIP")]
+    assert [agrees for agrees, _ in told] == [None, None]
+    assert told[0][1] == "SCIP not run: the program has 2525 values, and at most 2500 are solved"
+    assert told[1][1] == "SCIP not run: the time limit is spent"
