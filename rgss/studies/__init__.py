@@ -11,6 +11,7 @@ if TYPE_CHECKING:
         draw_findings,
         impact_findings,
         object_limit_findings,
+        strict_findings,
         task_time_findings,
     )
     from rgss.studies.document import MOST_REPLICATES, StudyDocument

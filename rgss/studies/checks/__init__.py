@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from rgss.studies.checks.object_limit_check import object_limit_findings
     from rgss.studies.checks.seal_check import seal_finding, unsealed_objects
     from rgss.studies.checks.step_check import step_findings
+    from rgss.studies.checks.strict_check import strict_findings
     from rgss.studies.checks.task_time_check import task_time_findings
     from rgss.studies.checks.too_tall import TooTall, objects_too_tall
 else:
