@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import importlib
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from types import ModuleType
 
 from rgss.errors import DefinitionError, DriverError, RgssError
@@ -50,3 +50,14 @@ def sdk_errors(message: str, *, hint: str = "") -> Iterator[None]:
     # The SDKs raise a bare Exception for whatever goes wrong.
     except Exception as error:
         raise DriverError(f"{message}: {' '.join(str(error).split())}", hint=hint) from error
+
+
+def close_sdk(disconnect: Callable[[], object]) -> None:
+    """Close a connection of an SDK; an exception of it does not replace the outcome of the run before.
+
+    Args:
+        disconnect: The SDK's call.
+    """
+    # The SDKs raise a bare Exception for whatever goes wrong. The robot was stopped before.
+    with contextlib.suppress(Exception):
+        disconnect()

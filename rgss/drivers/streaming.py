@@ -15,6 +15,9 @@ from rgss.errors import DefinitionError, DriverError
 _ROUNDING_MS = 1e-6
 """Differences of clock readings are rounded; a period on the limit is allowed."""
 
+_LEAST_SPEED = 0.01
+"""At less, a task of seconds would take hours, of which every period is kept."""
+
 
 class StreamOutcome(str, Enum):
     """Outcome of a stream; the robot is stopped in every case."""
@@ -33,7 +36,7 @@ class StreamSettings:
     """Settings of a stream.
 
     Attributes:
-        speed: Share of the planned speed, above 0 and at most 1.
+        speed: Share of the planned speed, from 0.01 to 1.
         ramp_s: Time in which that share is reached, and in which an interrupted motion comes to rest on its path.
         heartbeat_timeout_s: Longest time without a new report of the controller.
         late_s: Longest time by which a period may begin late.
@@ -52,9 +55,9 @@ class StreamSettings:
     following_error_m: float = 0.05
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.speed <= 1.0:
+        if not _LEAST_SPEED <= self.speed <= 1.0:
             raise DefinitionError(
-                f"the speed of a driver must be above 0 % and at most 100 %, got {100 * self.speed:g} %"
+                f"the speed of a driver must be from {100 * _LEAST_SPEED:g} % to 100 %, got {100 * self.speed:g} %"
             )
         times_s = (self.ramp_s, self.heartbeat_timeout_s, self.late_s)
         if not min(*times_s, self.following_error_rad, self.following_error_m) > 0.0:
@@ -186,7 +189,8 @@ class _Stream:
             point = chosen
             self._driver.send(point)
             self.sent += 1
-            due_s += self._period_s
+            # After a stall the grid is moved: points that make up for it would move the robot faster than planned.
+            due_s = (now_s if now_s - due_s > self._period_s else due_s) + self._period_s
             self._clock.wait_until(due_s)
             estimate = self._driver.read()
 
@@ -223,8 +227,9 @@ class _Stream:
             return StreamOutcome.HEARTBEAT_LOST, detail
         if estimate.fault:
             return StreamOutcome.FAULT, estimate.fault
-        if len(estimate.positions_rad) != len(point.positions_rad):
-            return StreamOutcome.FAULT, f"the robot reports {len(estimate.positions_rad)} joints"
+        reported = {len(estimate.positions_rad), len(estimate.velocities_rad_s)}
+        if reported != {len(point.positions_rad)}:
+            return StreamOutcome.FAULT, f"the robot reports {' and '.join(map(str, sorted(reported)))} joints"
         for index, (measured, wanted) in enumerate(
             zip(estimate.positions_rad, point.positions_rad, strict=True), start=1
         ):

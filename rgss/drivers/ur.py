@@ -6,12 +6,13 @@ on the loopback, motion against doubles only.
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from rgss.drivers.driver import Estimate, GripperState, SetPoint
-from rgss.drivers.sdk_modules import import_sdk, sdk_errors
+from rgss.drivers.sdk_modules import close_sdk, import_sdk, sdk_errors
 from rgss.errors import DriverError
 
 _RUNNING_MODE = 7
@@ -85,7 +86,8 @@ class UrDriver:
             DriverError: The connection failed, or the robot is not ready.
         """
         self._receive = self._open("RTDE receive", self._open_receive, self._address, self.rate_hz)
-        mode, safety = self._receive.getRobotMode(), self._receive.getSafetyMode()
+        with sdk_errors("the UR controller does not report its modes"):
+            mode, safety = self._receive.getRobotMode(), self._receive.getSafetyMode()
         if mode != _RUNNING_MODE:
             raise DriverError(
                 f"the robot is in mode {mode}, not running (mode {_RUNNING_MODE})",
@@ -97,9 +99,15 @@ class UrDriver:
                 hint="resolve it on the teach pendant",
             )
         self._control = self._open("RTDE control", self._open_control, self._address, self.rate_hz)
-        self._io = self._open("RTDE input and output", self._open_io, self._address)
-        # The controller stops the program by itself if no set point arrives any more.
-        self._call(self._control, "setWatchdog", _WATCHDOG_HZ)
+        try:
+            self._io = self._open("RTDE input and output", self._open_io, self._address)
+            # The controller stops the program by itself if no set point arrives any more.
+            self._call(self._control, "setWatchdog", _WATCHDOG_HZ)
+        except BaseException:
+            # The set-point program runs on the robot already.
+            with contextlib.suppress(DriverError):
+                self.stop()
+            raise
 
     def read(self) -> Estimate:
         """The last package of the controller; the stamp is its time."""
@@ -135,7 +143,7 @@ class UrDriver:
         """Close the connections that are open."""
         for interface in (self._control, self._io, self._receive):
             if interface is not None:
-                interface.disconnect()
+                close_sdk(interface.disconnect)
         self._control = self._io = self._receive = None
 
     def _fault(self) -> str:

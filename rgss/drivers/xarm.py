@@ -5,11 +5,12 @@ Calls and codes are those of xArm-Python-SDK 1.18. No robot was available: the d
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable
 from typing import Any
 
 from rgss.drivers.driver import Estimate, GripperState, SetPoint
-from rgss.drivers.sdk_modules import import_sdk, sdk_errors
+from rgss.drivers.sdk_modules import close_sdk, import_sdk, sdk_errors
 from rgss.errors import DriverError
 
 _SERVO_MODE = 1
@@ -70,18 +71,24 @@ class XarmDriver:
             raise DriverError(
                 f"the controller reports error {api.error_code}", hint="find its cause and clear it on the arm first"
             )
-        self._call("motion_enable", enable=True)
-        self._call("set_mode", _SERVO_MODE)
-        self._call("set_state", _MOTION_STATE)
+        try:
+            self._call("motion_enable", enable=True)
+            self._call("set_mode", _SERVO_MODE)
+            self._call("set_state", _MOTION_STATE)
+        except BaseException:
+            with contextlib.suppress(DriverError):
+                self.stop()
+            raise
 
     def read(self) -> Estimate:
         """Joint states of the controller; the stamp counts its replies."""
         api = self._opened()
         with sdk_errors("the xArm controller does not report its joints"):
             code, states = api.get_joint_states(is_radian=True, num=2)
+            if code == _OK:
+                positions, velocities = (tuple(float(value) for value in row[: self._joints]) for row in states[:2])
         if code == _OK:
             self._replies += 1
-            positions, velocities = (tuple(float(value) for value in row[: self._joints]) for row in states[:2])
             fault = f"the controller reports error {api.error_code}" if api.error_code else ""
             self._last = Estimate(
                 positions_rad=positions,
@@ -115,7 +122,7 @@ class XarmDriver:
     def disconnect(self) -> None:
         """Close the connection."""
         if self._api is not None:
-            self._api.disconnect()
+            close_sdk(self._api.disconnect)
             self._api = None
 
     def _opened(self) -> Any:

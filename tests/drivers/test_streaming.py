@@ -186,9 +186,9 @@ def test_any_number_of_joints(joints):
     assert {len(point.positions_rad) for point in robot.sent} == {joints}
 
 
-@pytest.mark.parametrize("speed", [0.0, -0.1, 1.01, math.nan])
+@pytest.mark.parametrize("speed", [0.0, 0.009, -0.1, 1.01, math.nan])
 def test_the_speed_is_a_share(speed):
-    with pytest.raises(DefinitionError, match="the speed of a driver must be above 0 % and at most 100 %, got"):
+    with pytest.raises(DefinitionError, match="the speed of a driver must be from 1 % to 100 %, got"):
         StreamSettings(speed=speed)
 
 
@@ -219,3 +219,19 @@ def test_rates_are_tried_from_the_target_to_the_present_one():
     assert rate_candidates(0.4, 0.5, 0.04) == pytest.approx([0.44, 0.42, 0.41, 0.4])
     assert rate_candidates(0.02, 0.0, 0.04) == pytest.approx([0.0, 0.01, 0.015, 0.02])
     assert rate_candidates(0.5, 0.5, 0.04) == [0.5]
+
+
+def test_a_stall_is_not_made_up_for(robot):
+    """Of 40 ms, of which 50 are allowed: the points after it keep their distance in time."""
+    waited, times = robot.wait_until, []
+
+    def stalling(time_s):
+        waited(time_s)
+        robot.time_s += 0.04 if len(robot.sent) == 50 else 0.0
+        times.append(robot.time_s)
+
+    robot.wait_until = stalling
+    result = run(robot)
+
+    assert result.outcome is StreamOutcome.COMPLETED
+    assert np.diff(times).min() > 0.0099

@@ -278,3 +278,42 @@ def test_the_real_sdk_finds_a_robot_that_is_not_running():
 def test_the_real_sdk_finds_nobody():
     with pytest.raises(DriverError, match=r"no RTDE receive interface at 127\.0\.0\.1: .* \(check the address"):
         UrDriver("127.0.0.1").connect()
+
+
+def test_a_connection_that_fails_to_close_does_not_hide_the_outcome():
+    arm = Arm()
+
+    def closing():
+        arm.calls.append(("disconnect",))
+        raise RuntimeError("boost: broken pipe")
+
+    arm.disconnect = closing
+    result = _stream(arm)
+
+    assert result.outcome is StreamOutcome.COMPLETED
+    assert arm.calls.count(("disconnect",)) == 3
+
+
+def test_the_program_on_the_robot_is_stopped_if_the_rest_of_the_connection_fails():
+    arm = Arm()
+    arm.refused = ("setWatchdog",)
+    with pytest.raises(DriverError, match="the UR controller refused setWatchdog"):
+        _stream(arm)
+
+    names = [call[0] for call in arm.calls]
+    assert names.index("servoStop") < names.index("stopScript") < names.index("disconnect")
+
+
+def test_modes_that_cannot_be_read_are_an_error_of_the_driver():
+    arm = Arm()
+    arm.getRobotMode = lambda: 1 / 0
+    with pytest.raises(DriverError, match="the UR controller does not report its modes: division by zero"):
+        _stream(arm)
+
+
+def test_velocities_of_other_joints_are_a_fault():
+    arm = Arm()
+    arm.getActualQd = lambda: [0.0] * 5
+    result = _stream(arm)
+
+    assert (result.outcome, result.detail) == (StreamOutcome.FAULT, "the robot reports 5 and 6 joints")

@@ -169,3 +169,20 @@ def test_a_missing_sdk_is_one_line(monkeypatch):
     assert str(caught.value) == (
         "the driver xarm needs xArm-Python-SDK, which is not installed (pip install 'rgss[xarm]')"
     )
+
+
+@pytest.mark.parametrize("states", [[], [["a"] * 7, [0.0] * 7]])
+def test_joint_states_that_are_none_are_an_error_of_the_driver(states):
+    driver = _connected(Api())
+    driver._api.get_joint_states = lambda **_: (0, states)
+    with pytest.raises(DriverError, match=r"the xArm controller does not report its joints"):
+        driver.read()
+
+
+def test_an_arm_that_was_enabled_is_stopped_if_the_connection_fails():
+    api = Api()
+    api.codes["set_mode"] = 9
+    with pytest.raises(DriverError, match="refused set_mode with code 9"):
+        _stream(api)
+
+    assert [options or arguments for name, arguments, options in api.calls if name == "set_state"] == [(4,)]

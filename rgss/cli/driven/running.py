@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from rgss.errors import DriverError
+from rgss.errors import DefinitionError, DriverError
 
 if TYPE_CHECKING:
     from rgss.drivers import Driver, Rehearsal, RobotLimits, StreamClock, StreamResult, TimedTask
@@ -27,6 +27,7 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
         0 if the rehearsal or the run is complete, 130 if it was interrupted, 3 if it ended otherwise.
 
     Raises:
+        DefinitionError: The folder of the recording does not exist.
         DriverError: The task was refused, or the robot cannot be connected.
         MotionError: A move was not planned or timed.
     """
@@ -39,6 +40,8 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
     from rgss.trials import cell_of, conditions_of, plan_of, timing_of
 
     settings = StreamSettings(speed=speed_of(options))
+    if options.recording is not None and not options.recording.absolute().parent.is_dir():
+        raise DefinitionError(f"{options.recording} cannot be written: there is no such folder", hint="create it")
     cell = cell_of(spec)
     plan = plan_of(spec)
     task = timed_task(spec, plan, timing_of(spec, plan))
@@ -59,15 +62,15 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
     with _interrupt_flag() as is_interrupted:
         guard = Guard(limits, cell.arm, period_s=1.0 / driver.rate_hz)
         result = stream(driver, task, guard, clock, settings, is_interrupted=is_interrupted)
+    if options.json:
+        print_json({**shown, **_result_as_json(result, limits)})
+    else:
+        _show_result(result, limits)
     if options.recording is not None:
         recorded = f"variant {spec.variant} by rgss run --driver {driver.name}, {result.outcome.value}"
         robot = cell.scene.robot.id
         content = recording_csv(result.samples, limits.names, robot=robot, recorded=recorded, slides=limits.slides)
         write_output(options.recording, content)
-    if options.json:
-        print_json({**shown, **_result_as_json(result, limits)})
-    else:
-        _show_result(result, limits)
     if result.outcome is StreamOutcome.COMPLETED:
         return CLEAN
     return INTERRUPTED if result.outcome is StreamOutcome.INTERRUPTED else RUN_FAILED
@@ -93,12 +96,19 @@ def _driver(
 
 @contextmanager
 def _interrupt_flag() -> Iterator[Callable[[], bool]]:
-    """Turn Ctrl-C and termination into a flag, so that the robot is brought to rest before the program ends."""
+    """Turn Ctrl-C and termination into a flag, so that the robot is brought to rest before the program ends.
+
+    A second one interrupts what the program waits for, such as a call of an SDK that does not return, and the robot is
+    stopped at once.
+    """
     received: list[int] = []
-    previous = {
-        number: signal.signal(number, lambda number, _frame: received.append(number))
-        for number in (signal.SIGINT, signal.SIGTERM)
-    }
+
+    def note(number: int, _frame: object) -> None:
+        if received:
+            raise KeyboardInterrupt
+        received.append(number)
+
+    previous = {number: signal.signal(number, note) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield lambda: bool(received)
     finally:

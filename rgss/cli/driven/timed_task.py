@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from rgss.drivers import GripperState, Segment, TimedTask
 from rgss.errors import MotionError
+from rgss.evidence import PlanOutcome
 
 if TYPE_CHECKING:
     from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, Step, StepMachine, WaitStep
@@ -36,15 +37,27 @@ class _Recorder:
         self._travel_s = spec.gripper.geometry.stroke_m / spec.gripper.finger_velocity_m_s
         self._plan = plan
         self._timing = timing
+        self._limit_s = spec.planning_limit_s
         self._state = GripperState.OPEN
 
     def move(self, step: MoveStep) -> Segment:
-        if step.name not in self._timing.trajectories:
+        if reason := self._reason(step):
             raise MotionError(
-                f"the move {step.name} cannot be sent to a robot: {_reason(step.name, self._plan, self._timing)}",
+                f"the move {step.name} cannot be sent to a robot: {reason}",
                 hint="'rgss run' without --driver shows the trial",
             )
         return Segment(name=step.name, gripper=self._state, motion=self._timing.trajectories[step.name])
+
+    def _reason(self, step: MoveStep) -> str:
+        """Reason why the trial has no such move; empty if it has."""
+        if step.name not in self._timing.trajectories:
+            return _reason(step.name, self._plan, self._timing)
+        if step.name in self._plan.moves:
+            # The searches of a plan go on to the longest limit of the study; a design's own may be shorter.
+            limit_s = min(step.limit_s or self._limit_s, self._limit_s)
+            if self._plan.move_within(step.name, limit_s).outcome is not PlanOutcome.SOLVED:
+                return f"no path was found within the planning limit of {limit_s:g} s"
+        return ""
 
     def grip(self, step: GripStep) -> Segment:
         self._state = GripperState.CLOSED

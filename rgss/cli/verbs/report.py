@@ -160,7 +160,8 @@ def _rendered(
         pictures_notice=notice,
         tornado=tornado,
     )
-    return page.encode("utf-8")
+    # A folder's name that is no UTF-8 has characters that none encodes.
+    return page.encode("utf-8", errors="backslashreplace")
 
 
 def _check_films(options: argparse.Namespace) -> None:

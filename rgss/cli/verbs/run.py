@@ -20,7 +20,7 @@ MORE_EXAMPLES = (
     ("rgss run 2 --replay trial.html --beside 28", "and write a 3D replay of it, with another variant as a ghost"),
     ("rgss run 2 --fidelity kinematic", "motion alone, in a short time"),
     ("rgss run 2 --nominal", "with nominal values, without uncertainty"),
-    ("rgss run 2 --nominal --driver ur --address 192.168.0.10", "what would be sent to a robot; --go sends it"),
+    ("rgss run 28 --nominal --driver ur --address 192.168.0.10", "what would be sent to a robot; --go sends it"),
 )
 
 

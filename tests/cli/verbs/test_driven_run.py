@@ -6,6 +6,7 @@ import csv
 import math
 import os
 import signal
+from dataclasses import replace
 
 import pytest
 
@@ -69,6 +70,24 @@ def test_a_move_without_a_path_cannot_be_sent(untouched):
     timing = type(timing)(trajectories={}, failures={}, qualities={})
     with pytest.raises(MotionError, match=f"the move {first} cannot be sent to a robot: its planning ended with"):
         timed_task(spec, plan, timing)
+
+
+@pytest.mark.engine
+def test_a_path_that_the_design_does_not_find_in_time_is_not_sent(untouched):
+    project = load_project(untouched).nominal()
+    (spec,) = trial_specs(project, variants=[project.designs.variant(65)], seeds=[1])
+    plan = plan_of(spec)
+    timing = timing_of(spec, plan)
+    assert timed_task(spec, plan, timing).segments
+    with pytest.raises(MotionError, match=r"cannot be sent to a robot: no path was found within the planning limit of"):
+        timed_task(replace(spec, planning_limit_s=0.001), plan, timing)
+
+
+@pytest.mark.engine
+def test_the_folder_of_a_recording_is_asked_for_before_the_robot(rgss, untouched):
+    told = rgss("run", 65, "--driver", "simulated", "--recording", "nowhere/x.csv", "--project", untouched)
+    assert (told.status, told.output) == (2, "")
+    assert "nowhere/x.csv cannot be written: there is no such folder (create it)" in told.errors
 
 
 @pytest.mark.parametrize(
