@@ -86,12 +86,18 @@ def test_a_suction_point_is_as_near_to_the_centre_of_mass_as_the_edge_allows():
 
 def test_on_a_narrow_face_the_lip_keeps_the_reserve_that_there_is():
     """An oracle of its own: on a strip the cup is in the middle, or away from the edge that it is nearer to."""
-    for width_m in (0.0401, 0.0408, 0.0417, 0.0435, 0.06):
+    for width_m in (0.0403, 0.0408, 0.0417, 0.0435, 0.06):
         most_m = width_m / 2 - RADIUS_M
-        reserve_m = max(one for one in (2e-3, 1e-3, 5e-4, 0.0) if one <= most_m)
+        reserve_m = max(one for one in (2e-3, 1e-3, 5e-4, 1e-4) if one <= most_m)
         points = suction_points(Box(size_m=(0.1, width_m, 0.05)), RADIUS_M, (0.0, 0.45 * width_m, 0.0))
         on_top = next(point for point in points if point.normal[2] > 0.99)
         assert on_top.position_m == pytest.approx((0.0, most_m - reserve_m, 0.025), abs=1e-6), width_m
+
+
+def test_a_face_as_wide_as_the_lip_leaves_it_no_room():
+    for width_m in (0.04, 0.0401):
+        points = suction_points(Box(size_m=(0.1, width_m, 0.05)), RADIUS_M, CENTRE)
+        assert [point for point in points if point.normal[2] > 0.99] == []
 
 
 def test_the_wall_of_a_cylinder_bears_no_cup():
