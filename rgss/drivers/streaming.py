@@ -128,16 +128,25 @@ def stream(
         except DriverError as error:
             outcome, detail = StreamOutcome.FAULT, str(error)
         except BaseException:
-            driver.stop()
+            _stop(driver)
             raise
         try:
-            driver.stop()
+            _stop(driver)
         except DriverError as error:
             outcome = StreamOutcome.FAULT if outcome is StreamOutcome.COMPLETED else outcome
             detail = "; ".join(filter(None, (detail, f"the stop was not confirmed: {error}")))
         return StreamResult(outcome=outcome, detail=detail, sent=run.sent, samples=tuple(run.samples))
     finally:
         driver.disconnect()
+
+
+def _stop(driver: Driver) -> None:
+    """Stop the robot, whatever signal arrives meanwhile."""
+    try:
+        driver.stop()
+    except KeyboardInterrupt:
+        driver.stop()
+        raise
 
 
 class _Stream:

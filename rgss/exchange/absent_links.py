@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import replace
 
-from rgss.exchange.attributes import ATTRIBUTES, Attribute, Form
+from rgss.exchange.attributes import ATTRIBUTES, Form
 from rgss.exchange.cells import ids_in, joined
 from rgss.exchange.content import Content, Row
-
-_NAMED_ONES = ("measure", "parent")
-"""Attributes of one id that state a relation or a place in the hierarchy."""
 
 
 def with_absent_links(own: Content, foreign: Content, *, remove: bool) -> Content:
@@ -37,14 +34,10 @@ def _kept(own: Row, foreign: Row, stated: Collection[str]) -> Row:
     """Element of a file with the project's links to elements other than the stated ones."""
     cells = dict(foreign.cells)
     for each in ATTRIBUTES.get(own.part, ()) if own.part is not None else ():
-        if each.name in cells and _is_relation(each):
+        if each.name in cells and each.holds_ids:
             absent = [other for other in ids_in(own.cells[each.name]) if other not in stated]
             if each.form is Form.LINKS:
                 cells[each.name] = joined(list(dict.fromkeys((*ids_in(cells[each.name]), *absent))))
             elif absent and not cells[each.name].strip():
                 cells[each.name] = absent[0]
     return replace(foreign, cells=cells)
-
-
-def _is_relation(attribute: Attribute) -> bool:
-    return attribute.holds_ids or attribute.name in _NAMED_ONES

@@ -235,3 +235,19 @@ def test_a_stall_is_not_made_up_for(robot):
 
     assert result.outcome is StreamOutcome.COMPLETED
     assert np.diff(times).min() > 0.0099
+
+
+def test_a_signal_does_not_keep_the_robot_from_stopping(robot):
+    stop, times = robot.stop, []
+
+    def interrupted():
+        stop()
+        times.append(robot.time_s)
+        if len(times) == 1:
+            raise KeyboardInterrupt
+
+    robot.stop = interrupted
+    with pytest.raises(KeyboardInterrupt):
+        run(robot)
+
+    assert robot.calls[-3:] == ["stop", "stop", "disconnect"]

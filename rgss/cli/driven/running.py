@@ -98,15 +98,15 @@ def _driver(
 def _interrupt_flag() -> Iterator[Callable[[], bool]]:
     """Turn Ctrl-C and termination into a flag, so that the robot is brought to rest before the program ends.
 
-    A second one interrupts what the program waits for, such as a call of an SDK that does not return, and the robot is
-    stopped at once.
+    The second one interrupts what the program waits for, such as a call of an SDK that does not return, and the robot
+    is stopped at once. Further ones are ignored: they must not interrupt that stop.
     """
     received: list[int] = []
 
     def note(number: int, _frame: object) -> None:
-        if received:
-            raise KeyboardInterrupt
         received.append(number)
+        if len(received) == 2:
+            raise KeyboardInterrupt
 
     previous = {number: signal.signal(number, note) for number in (signal.SIGINT, signal.SIGTERM)}
     try:

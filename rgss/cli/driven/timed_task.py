@@ -41,14 +41,14 @@ class _Recorder:
         self._state = GripperState.OPEN
 
     def move(self, step: MoveStep) -> Segment:
-        if reason := self._reason(step):
+        if reason := self._missing(step):
             raise MotionError(
                 f"the move {step.name} cannot be sent to a robot: {reason}",
                 hint="'rgss run' without --driver shows the trial",
             )
         return Segment(name=step.name, gripper=self._state, motion=self._timing.trajectories[step.name])
 
-    def _reason(self, step: MoveStep) -> str:
+    def _missing(self, step: MoveStep) -> str:
         """Reason why the trial has no such move; empty if it has."""
         if step.name not in self._timing.trajectories:
             return _reason(step.name, self._plan, self._timing)

@@ -78,8 +78,8 @@ def _problems(
         if stop.pose is None:
             continue
         if stage.step.hand is HandAction.CLOSES:
-            cup = geometry.cup is not None
-            beside_m = (_unsealed if cup else _beside)(last.scene, stop.pose, geometry, first)
+            cup, at = geometry.cup is not None, (last.scene, stop.pose, geometry)
+            beside_m = _unsealed(*at, first) if cup else _beside(*at)
             if beside_m > _EXACT_M:
                 yield HandStepProblem(
                     step=index, hand=stage.step.hand, object=stage.object, distance_m=beside_m, has_cup=cup
@@ -100,7 +100,7 @@ def _problems(
                 )
 
 
-def _beside(scene: Scene, tool: Pose, geometry: GripperGeometry, first: Workpiece) -> float:  # noqa: ARG001 - as for cups
+def _beside(scene: Scene, tool: Pose, geometry: GripperGeometry) -> float:
     """Distance of the object beyond the ends of the fingers, along the tool's axis; negative where they reach it."""
     in_tool = tool.inverse() @ scene.workpiece.pose
     corners = (corner for part in corners_of(scene.workpiece.shape) for corner in part)

@@ -17,8 +17,11 @@ from rgss.scenes import (
     Scene,
     SuctionPoint,
     Workpiece,
+    centre_of_mass,
     suction_point_of,
 )
+
+_FROM_ABOVE = GraspCandidates(approaches=(Approach.ABOVE,), heights=1)
 
 
 def suction_from_above(scene: Scene, gripper: Gripper) -> tuple[SuctionPoint | None, Pose | None]:
@@ -35,10 +38,7 @@ def suction_from_above(scene: Scene, gripper: Gripper) -> tuple[SuctionPoint | N
     if scene.task.candidates is None:
         point = suction_point_of(scene)
         return point, Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (math.pi, 0.0, 0.0))
-    options = GraspCandidates(approaches=(Approach.ABOVE,), heights=1)
-    tangential_1 = gripper.grip_coefficient(workpiece.friction)
-    found = ranked_suction(workpiece, geometry, options, tangential_1=tangential_1).grasps
-    return (found[0].suction, found[0].tool_in_object) if found else (None, None)
+    return _best_place(_sample(workpiece.shape, centre_of_mass(workpiece)), geometry, gripper.grip_coefficient(1.0))
 
 
 @lru_cache(maxsize=64)
@@ -52,10 +52,30 @@ def grasp_from_above(shape: ObjectShape, geometry: GripperGeometry, friction: fl
     """
     if isinstance(shape, Cylinder):
         return None
-    # A grasp depends on no mass property other than the centre of mass.
-    sample = Workpiece(
-        id="object", shape=shape, mass_kg=1.0, friction=1.0, force_limit_n=1.0, pose=Pose(), colour=(0.0, 0.0, 0.0, 1.0)
-    )
-    options = GraspCandidates(approaches=(Approach.ABOVE,), heights=1)
-    found = ranked_grasps(sample, geometry, options, friction=friction).grasps
+    found = ranked_grasps(_sample(shape, (0.0, 0.0, 0.0)), geometry, _FROM_ABOVE, friction=friction).grasps
     return found[0].tool_in_object if found else None
+
+
+@lru_cache(maxsize=64)
+def _best_place(
+    sample: Workpiece, geometry: GripperGeometry, tangential_1: float
+) -> tuple[SuctionPoint | None, Pose | None]:
+    """Best place of a cup from above, and the grasp; None if there is none. Each trial of a design asks for it."""
+    found = ranked_suction(sample, geometry, _FROM_ABOVE, tangential_1=tangential_1).grasps
+    return (found[0].suction, found[0].tool_in_object) if found else (None, None)
+
+
+def _sample(shape: ObjectShape, centre_m: tuple[float, float, float]) -> Workpiece:
+    """Object of a shape: a grasp depends on no mass property other than the centre of mass."""
+    x, y, z = centre_m
+    return Workpiece(
+        id="object",
+        shape=shape,
+        mass_kg=1.0,
+        friction=1.0,
+        force_limit_n=1.0,
+        centre_of_mass_m=z,
+        centre_of_mass_across_m=(x, y),
+        pose=Pose(),
+        colour=(0.0, 0.0, 0.0, 1.0),
+    )

@@ -146,3 +146,14 @@ def test_ctrl_c_is_a_flag_while_a_robot_moves():
         os.kill(os.getpid(), signal.SIGINT)
         assert is_interrupted()
     assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_the_second_signal_interrupts_and_no_further_one_does():
+    with _interrupt_flag() as is_interrupted:
+        os.kill(os.getpid(), signal.SIGINT)
+        assert is_interrupted()
+        with pytest.raises(KeyboardInterrupt):
+            os.kill(os.getpid(), signal.SIGTERM)
+        # While the robot is being stopped.
+        os.kill(os.getpid(), signal.SIGINT)
+        assert is_interrupted()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import os
 import re
 import shlex
 import shutil
@@ -346,3 +347,14 @@ def test_a_notable_trial_is_run_again_and_filmed(side):
     assert len(pictures) == int(one.record.metrics["motion_time_s"]) + 2
     assert pictures[0].shape == (150, 200, 3)
     assert (pictures[0] != pictures[-1]).any()
+
+
+def test_a_folder_whose_name_is_no_utf_8(with_evidence, tmp_path, monkeypatch):
+    """From a subfolder the page names the evidence with the folder."""
+    folder = tmp_path / os.fsdecode(b"caf\xe9")
+    shutil.copytree(with_evidence, folder)
+    monkeypatch.chdir(folder / "studies")
+    with redirect_stdout(StringIO()):
+        assert main(["report", "--out", str(tmp_path / "report.html"), "--no-film"]) == 0
+
+    assert "caf\\udce9" in (tmp_path / "report.html").read_text(encoding="utf-8")

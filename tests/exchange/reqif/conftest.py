@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from rgss.exchange.reqif import read_reqif, reqif_text
+
 
 @pytest.fixture
 def as_xml(tmp_path):
@@ -15,3 +17,15 @@ def as_xml(tmp_path):
         return path
 
     return written
+
+
+@pytest.fixture
+def text(project):
+    """The small project as ReqIF."""
+    return reqif_text(project.content, title="t")
+
+
+@pytest.fixture
+def read(as_xml):
+    """The content of a text as a file of ReqIF."""
+    return lambda text: read_reqif(as_xml(text))

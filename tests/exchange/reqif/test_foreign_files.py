@@ -11,24 +11,9 @@ import pytest
 from rgss.errors import DefinitionError, RgssError
 from rgss.exchange.attributes import Part
 from rgss.exchange.content import Content, Row
-from rgss.exchange.reqif import read_reqif, reqif_text
+from rgss.exchange.reqif import reqif_text
 
 OLD = "<xhtml:div>The gripper shall close within 2 s.</xhtml:div>"
-
-
-@pytest.fixture
-def text(project):
-    return reqif_text(project.content, title="t")
-
-
-@pytest.fixture
-def read(tmp_path):
-    def reading(text):
-        path = tmp_path / "foreign.reqif"
-        path.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
-        return read_reqif(path)
-
-    return reading
 
 
 def cell(content, name, attribute="text"):

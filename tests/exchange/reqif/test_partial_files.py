@@ -11,24 +11,8 @@ from lxml import etree
 from rgss.exchange import ImportDefaults, compare, with_absent_links
 from rgss.exchange.attributes import ATTRIBUTES, Part
 from rgss.exchange.comparison import ChangeKind
-from rgss.exchange.reqif import read_reqif, reqif_text
 
 NOTHING_ASSUMED = ImportDefaults(part=None, defaults={})
-
-
-@pytest.fixture
-def text(project):
-    return reqif_text(project.content, title="t")
-
-
-@pytest.fixture
-def read(tmp_path):
-    def reading(text):
-        path = tmp_path / "foreign.reqif"
-        path.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
-        return read_reqif(path)
-
-    return reading
 
 
 def without(text, prefix):
