@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from rgss.reports.decision import tornado_svg
 from rgss.reports.page import render_page, template_text
 from rgss.reports.study import comparison_rows, data_address, entry_at, entry_text, first_screen_content
 from rgss.reports.study_page import TrialPictures, chosen_picture
+
+if TYPE_CHECKING:
+    from rgss.decision.sensitivity import Tornado
 
 MOST_PAGES = 5
 """Most printed pages, A4 in landscape."""
@@ -23,7 +27,9 @@ _REASON_ROOM = 1300
 """Characters of reasons and cautions that half a page holds; where they have more, each line is cut."""
 
 
-def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictures] = (), tornado: str = "") -> str:
+def board_to_html(
+    document: Mapping[str, Any], *, pictures: Sequence[TrialPictures] = (), tornado: Tornado | None = None
+) -> str:
     """Write the board edition as one page that makes no request; printed it has at most `MOST_PAGES` pages.
 
     Lists are cut to what a page holds and say so; the whole report has the rest.
@@ -31,7 +37,7 @@ def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictur
     Args:
         document: The report's document, from `rgss.reports.study.document.report_document`.
         pictures: Pictures of the notable trials.
-        tornado: The picture of the sensitivity, from `rgss.reports.decision.tornado_svg`.
+        tornado: The sensitivity of the choice, whose largest bars are drawn; None if it was not analysed.
 
     Raises:
         DefinitionError: The package ``jinja2`` is not installed.
@@ -50,6 +56,7 @@ def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictur
         [(name, _short(str(value))) for name, value in document["provenance"]["study"]],
     )
     failed = [one for one in pictures if one.failed]
+    repairs, excluded = _repairs(document["conflicts"]), _excluded(document["conflicts"])
     room = sum(map(len, (*decision["reasons"], *decision["cautions"])))
     longest = _REASON_ROOM if room <= _REASON_ROOM else _LONGEST
     return render_page(
@@ -72,8 +79,13 @@ def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictur
         ],
         best_heads=heads,
         best=rows,
-        left_out=f"{ranked} variants are ranked; the first {len(rows)} are shown.",
-        tornado=Markup(tornado),  # noqa: S704 - this package's own drawing
+        left_out=" ".join(filter(None, (_ranked_in_words(ranked, len(rows)), *_columns_left(document)))),
+        tornado=Markup("" if tornado is None else tornado_svg(tornado, most_bars=_MOST_ROWS)),  # noqa: S704 - own drawing
+        tornado_more="" if tornado is None else _more(tornado.moving, _MOST_ROWS, "inputs of the tornado"),
+        repairs=repairs[:_MOST_LINES],
+        repairs_more=_more(repairs, _MOST_LINES, "repairs"),
+        excluded=excluded[:_MOST_ROWS],
+        excluded_more=_more(excluded, _MOST_ROWS, "requirements"),
         failures=failures[:_MOST_ROWS],
         failures_more=_more(failures, _MOST_ROWS, "kinds of failure"),
         pictures=[
@@ -121,6 +133,26 @@ def _short(text: str, longest: int = _LONGEST) -> str:
     return text if len(text) <= longest else f"{text[: longest - 1].rpartition(' ')[0] or text[: longest - 1]} …"
 
 
+def _ranked_in_words(ranked: int, shown: int) -> str:
+    if ranked <= shown:
+        return (
+            ("No variant is ranked.", "One variant is ranked.")[ranked]
+            if ranked < 2
+            else f"All {ranked} ranked variants are shown."
+        )
+    return f"{ranked} variants are ranked; the first {shown} are shown."
+
+
+def _columns_left(document: Mapping[str, Any]) -> tuple[str, str]:
+    """Sentences on the parameters and the weighted measures for which the table of the best has no room."""
+    varying = [one for one in document["parameters"] if one["varies"]]
+    weighted = [one for one in document["measures"] if one["weight"]]
+    return (
+        _more(varying, min(len(varying), _MOST_MEASURES), "parameters"),
+        _more(weighted, min(len(weighted), _MOST_MEASURES), "weighted measures"),
+    )
+
+
 def _best(document: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
     """The best variants with their weighted measures: heads and rows."""
     variants = document["variants"]
@@ -144,6 +176,27 @@ def _best(document: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
         for place in order[:_MOST_ROWS]
     ]
     return heads, rows
+
+
+def _repairs(conflicts: Mapping[str, Any] | None) -> list[list[str]]:
+    """Changes of limits, each of which makes a variant feasible: rows; none where a variant is feasible."""
+    return [
+        [
+            " and ".join(one["requirements"]),
+            "; ".join(f"{_short(change['demand'])} → {change['needed']}" for change in one["changes"]),
+            "; ".join(change["relative"] or "–" for change in one["changes"]),
+            "–" if one["winner"] is None else f"variant {one['winner']}",
+            str(one["unlocked"]),
+        ]
+        for one in (conflicts["joint"] if conflicts else ())
+        if one["changes"]
+    ]
+
+
+def _excluded(conflicts: Mapping[str, Any] | None) -> list[list[str]]:
+    """Requirements with the number of variants that each excludes: rows; none where a variant is feasible."""
+    excluding = conflicts["requirements"] if conflicts else ()
+    return [[one["requirement"], _short(one["demand"]), str(one["excludes"])] for one in excluding]
 
 
 def _figure(column: Any, place: int, unit: str) -> str:

@@ -178,7 +178,7 @@ def test_pictures_of_failures_are_folded_until_a_link_leads_there(reader, study,
     assert reader.script(folded) == [True]
 
 
-def tornado_of_one_input() -> str:
+def tornado_of(inputs: int = 1) -> Tornado:
     def end(value, lead):
         return TornadoEnd(value=value, lead=lead, feasible=True, winners=(1,), rival=2, flip=None, flip_winners=())
 
@@ -193,7 +193,7 @@ def tornado_of_one_input() -> str:
         swing=0.15,
         exact=True,
     )
-    return tornado_svg(Tornado(chosen=1, rival=2, lead=0.1, bars=(bar,), without_range=()))
+    return Tornado(chosen=1, rival=2, lead=0.1, bars=(bar,) * inputs, without_range=())
 
 
 def with_tornado(document):
@@ -233,9 +233,11 @@ def with_tornado(document):
 @pytest.mark.parametrize("width", [390, 1440])
 @pytest.mark.parametrize("board", [False, True])
 def test_texts_of_the_tornado_are_at_least_12_px_and_the_page_does_not_scroll(reader, study, tmp_path, width, board):
-    document, drawn, file = with_tornado(study.document), tornado_of_one_input(), tmp_path / "report.html"
+    document, tornado, file = with_tornado(study.document), tornado_of(), tmp_path / "report.html"
     text = (
-        board_to_html(document, tornado=drawn) if board else study_report_to_html(document, study.trace, tornado=drawn)
+        board_to_html(document, tornado=tornado)
+        if board
+        else study_report_to_html(document, study.trace, tornado=tornado_svg(tornado))
     )
     file.write_text(text, encoding="utf-8")
     reader.driver.execute_cdp_cmd(
@@ -252,8 +254,25 @@ def test_texts_of_the_tornado_are_at_least_12_px_and_the_page_does_not_scroll(re
     assert reader.accessibility_findings() == []
 
 
+def test_a_board_prints_the_largest_bars_at_a_size_that_is_read(reader, study, tmp_path):
+    file = tmp_path / "report.html"
+    file.write_text(board_to_html(with_tornado(study.document), tornado=tornado_of(25)), encoding="utf-8")
+    reader.driver.get(file.as_uri())
+    reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    try:
+        size = reader.script(
+            "const svg = document.querySelector('svg.tornado'), box = svg.getBoundingClientRect();"
+            "const drawn = svg.viewBox.baseVal, text = getComputedStyle(svg.querySelector('text'));"
+            "return parseFloat(text.fontSize) * Math.min(box.width / drawn.width, box.height / drawn.height)"
+        )
+    finally:
+        reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+    assert size >= 9
+    assert "15 more inputs of the tornado in the whole report." in reader.text("#alternatives")
+
+
 def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
-    document, drawn = with_tornado(study.document), tornado_of_one_input()
+    document, drawn = with_tornado(study.document), tornado_svg(tornado_of())
     file = tmp_path / "report.html"
     file.write_text(study_report_to_html(document, study.trace, tornado=drawn), encoding="utf-8")
     reader.open(file)

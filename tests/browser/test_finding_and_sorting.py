@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import copy
+
 import pytest
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+
+from rgss.reports.study_page import study_report_to_html
 
 pytestmark = pytest.mark.browser
 
@@ -55,6 +59,16 @@ def test_the_search_finds_names_the_beginnings_of_words_and_what_is_misspelled(r
     assert find(reader, "31")["Variants"] == ["Variant 31"]
     assert find(reader, "zzzzqq") == {}
     assert reader.text("#found-count") == "Nothing found"
+
+
+def test_the_search_finds_parts_of_a_name_without_spaces(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    next(one for one in document["measures"] if one["id"] == "t_e")["name"] = "\u5939\u722a\u5f00\u53e3\u5bbd\u5ea6"
+    file = tmp_path / "report.html"
+    file.write_text(study_report_to_html(document, study.trace), encoding="utf-8")
+    reader.open(file)
+    assert find(reader, "\u5f00\u53e3")["Measures"] == ["t_e: \u5939\u722a\u5f00\u53e3\u5bbd\u5ea6"]
+    assert any("gripper" in title for title in find(reader, "rippe")["Parameters"])
 
 
 def test_cells_of_a_found_row_do_not_run_together(reader, page):

@@ -327,21 +327,6 @@ def test_conflicts_are_shown_at_every_width(reader, study, tmp_path):
     assert reader.script("return document.querySelector('.repairs b') === null")
 
 
-def test_paper_has_every_table_and_every_plot(reader, page):
-    reader.open(page)
-    reader.script("dispatchEvent(new Event('beforeprint'))")
-
-    rows = reader.script(
-        "const all = Array.from(document.querySelectorAll('details.figures'));"
-        "return all.map((one) => one.querySelectorAll('td').length)"
-    )
-    # The second of them holds the sliders, which paper has no use for.
-    assert 0 not in [count for place, count in enumerate(rows) if place != 1]
-    assert reader.script("return document.querySelectorAll('details:not([open])').length") == 0
-    assert reader.script("return document.querySelectorAll('.plot .main-svg').length") >= 9
-    assert reader.complaints() == []
-
-
 def test_a_study_without_a_choice_says_so(reader, study, tmp_path):
     document = copy.deepcopy(study.document)
     count = len(document["variants"]["id"])

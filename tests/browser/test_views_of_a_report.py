@@ -115,6 +115,26 @@ def test_an_address_that_makes_no_sense_opens_the_page_as_it_is_and_says_so(read
     assert reader.complaints() == []
 
 
+def test_the_ends_of_an_axis_keep_the_variants_at_them(reader, page):
+    """A rounded end in an address would lie within the axis, and leave out the best variant."""
+    reader.open(page)
+    reader.script("document.getElementById('axis-ends').open = true")
+    sliders = reader.driver.find_elements(By.CSS_SELECTOR, "#axis-ends input[type=range][aria-label$=' from']")
+    assert len(sliders) > 3
+    for name in [slider.get_attribute("aria-label") for slider in sliders[-4:]]:
+        reader.open(page)
+        reader.script("document.getElementById('axis-ends').open = true")
+        slider = reader.driver.find_element(By.CSS_SELECTOR, f"input[aria-label='{name}']")
+        slider.send_keys(Keys.END)
+        reader.until("return location.hash.includes('only=')")
+        sent, view = address(reader), seen(reader)
+        reader.driver.get("about:blank")
+        reader.driver.get(page.as_uri() + sent)
+        reader.until("return document.documentElement.dataset.ready === 'yes'")
+        assert seen(reader)[0] == view[0], name
+        assert reader.text("#address-note") == "", name
+
+
 def test_the_address_in_the_docs_shows_its_variants_and_weights(reader, study, tmp_path):
     """The page has the weights of the study as it is shipped; that of the other tests is of the nominal world."""
     shipped = list(load_project(REPOSITORY).study.trade_off.weighting.weights)

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from rgss.assessment import VariantMeasures, VerdictRecord
+    from rgss.decision.sensitivity import Tornado
     from rgss.reports import TrialPictures
     from rgss.reports.trace import TraceReport
     from rgss.studies import Project
@@ -72,7 +73,6 @@ def run(options: argparse.Namespace) -> int:
     from rgss.decision.study_decision import decide_study
     from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore
-    from rgss.reports.decision import tornado_svg
     from rgss.reports.study import notable_trials, report_document
 
     if options.out is None:
@@ -106,8 +106,7 @@ def run(options: argparse.Namespace) -> int:
     notable = notable_trials(measured, made.decision.chosen)
     look = None if options.no_film else ordered_look(options.film_size, options.film_rate, films=len(notable))
     pictures, notice = trial_pictures(project, notable, look=look)
-    sensitivity = made.sensitivity
-    tornado = "" if sensitivity is None or sensitivity.tornado is None else tornado_svg(sensitivity.tornado)
+    tornado = None if made.sensitivity is None else made.sensitivity.tornado
     trace = _trace(project, measured, made.decision, state)
     page = _rendered(options, project, document, trace, pictures, notice, tornado)
     _write(options.out, page)
@@ -143,10 +142,11 @@ def _rendered(
     trace: TraceReport,
     pictures: Sequence[TrialPictures],
     notice: str,
-    tornado: str,
+    tornado: Tornado | None,
 ) -> bytes:
     """The board edition or the whole report."""
     from rgss.reports import board_to_html, study_report_to_html
+    from rgss.reports.decision import tornado_svg
     from rgss.reports.diagrams import diagrams_of, drawings_for_page, missing_diagrams
 
     if options.board:
@@ -158,7 +158,7 @@ def _rendered(
         drawings_notice=missing_diagrams(project.requirements),
         pictures=pictures,
         pictures_notice=notice,
-        tornado=tornado,
+        tornado="" if tornado is None else tornado_svg(tornado),
     )
     # A folder's name that is no UTF-8 has characters that none encodes.
     return page.encode("utf-8", errors="backslashreplace")

@@ -16,16 +16,17 @@ _WIDTH, _ROW, _BAR, _TOP = 960.0, 26.0, 16.0, 44.0
 _LEFT, _RIGHT = 330.0, 930.0
 
 
-def tornado_svg(tornado: Tornado) -> str:
+def tornado_svg(tornado: Tornado, *, most_bars: int = MOST_BARS) -> str:
     """Picture of the bars; empty if no input moves the lead, or there is none.
 
     Args:
         tornado: The sensitivity of a choice.
+        most_bars: Most bars, of the inputs that move the lead the most.
 
     Returns:
         An ``svg`` element without scripts, references or style attributes.
     """
-    bars = tornado.moving[:MOST_BARS]
+    bars = tornado.moving[:most_bars]
     leads = [end.lead for bar in bars for end in (bar.low, bar.high) if end.lead is not None]
     if not bars or not tornado.has_leads:
         return ""

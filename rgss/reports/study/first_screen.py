@@ -44,7 +44,7 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         requirements,
         key=lambda one: (one not in missed, one not in open_, -weights.get(one["measure"], 0.0), one["id"]),
     )
-    bullets = [bullet for one in ranked if (bullet := _bullet(one, units, place)) is not None][:MOST_BULLETS]
+    bullets = [bullet for one in ranked if (bullet := _bullet(one, units, place)) is not None]
     return {
         "chosen": chosen,
         "tied": [one for one in decision["ties"] if one != chosen],
@@ -52,7 +52,8 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         "met": len(requirements) - len(open_) - len(missed),
         "open": [{"id": one["id"], "text": one["text"]} for one in open_],
         "missed": [{"id": one["id"], "text": one["text"]} for one in missed],
-        "bullets": bullets,
+        "bullets": bullets[:MOST_BULLETS],
+        "more_limits": max(0, len(bullets) - MOST_BULLETS),
         "changes": list(_changes(decision)),
         # A column of equal entries is one number, and -1 is a success.
         "has_failures": document["trials"]["failure"] != -1,

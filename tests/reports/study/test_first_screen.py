@@ -71,6 +71,16 @@ def test_what_is_open_comes_first_and_then_what_weighs_most():
     assert [one["requirement"] for one in shown["bullets"]] == ["R2", "R1", "R3"]
     assert shown["open"] == [{"id": "R2", "text": "R2 in words."}, {"id": "R4", "text": "R4 in words."}]
     assert shown["missed"] == []
+    assert shown["more_limits"] == 0
+
+
+def test_limits_without_a_chart_are_counted():
+    whole = copy.deepcopy(DOCUMENT)
+    demanded = next(one for one in whole["requirements"] if one["id"] == "R1")
+    whole["requirements"] += [{**demanded, "id": f"R9{number}"} for number in range(MOST_BULLETS)]
+    shown = first_screen_content(whole)
+    assert len(shown["bullets"]) == MOST_BULLETS
+    assert shown["more_limits"] == 3
 
 
 def test_whether_a_trial_failed():

@@ -105,16 +105,27 @@ const everything = () => {
 
 const startFind = () => {
   const field = byId("find"), box = byId("found"), told = byId("found-count");
-  let index = null;
+  let index = null, entries = [];
   const make = () => {
     if (index !== null) return;
+    entries = everything().map((one) => ({ ...one, all: `${one.title} ${one.text}`.toLowerCase() }));
     index = new FindAndSort.MiniSearch({ fields: ["title", "text"], storeFields: ["kind", "title", "text", "to"], tokenize: withParts, searchOptions: { tokenize: wholeWords, combineWith: "AND", boost: { title: 3 } } });
-    index.addAll(everything());
+    index.addAll(entries);
   };
-  // Exact matches if there are any; otherwise prefix and fuzzy matches.
+  // The first kind of match that there is: whole words, beginnings, parts (of words, or of a script without spaces), similar words.
   const sought = (text) => {
-    const exact = index.search(text);
-    return exact.length ? exact : index.search(text, { prefix: true, fuzzy: (word) => (word.length > 4 ? 0.25 : false) });
+    const words = wordsOf(text);
+    const ways = [
+      () => index.search(text),
+      () => index.search(text, { prefix: true }),
+      () => entries.filter((one) => words.every((word) => !(word in VERDICTS) && one.all.includes(word))),
+      () => index.search(text, { prefix: true, fuzzy: (word) => (word.length > 4 ? 0.25 : false) }),
+    ];
+    for (const way of ways) {
+      const found = way();
+      if (found.length) return found;
+    }
+    return [];
   };
   const brief = (text) => (text.length > 140 ? `${text.slice(0, 139)}…` : text);
   const close = () => { box.hidden = true; told.textContent = ""; };
@@ -132,8 +143,8 @@ const startFind = () => {
     }
     const those = variants.id.map((_, place) => place).filter((place) => words.every((word) => finds(place, word)));
     if (those.length) {
-      const entries = those.slice(0, MOST_FOUND).map((place) => ({ title: `Variant ${variants.id[place]}`, text: `${KINDS[kindOf[place]].name}; ${varying.map((one) => `${one.name} ${show(at(one.values, place), one.unit)}`).join(", ")}`, to: `#variant-${variants.id[place]}` }));
-      groups.set("Variants", Object.assign(entries, { count: those.length }));
+      const listed = those.slice(0, MOST_FOUND).map((place) => ({ title: `Variant ${variants.id[place]}`, text: `${KINDS[kindOf[place]].name}; ${varying.map((one) => `${one.name} ${show(at(one.values, place), one.unit)}`).join(", ")}`, to: `#variant-${variants.id[place]}` }));
+      groups.set("Variants", Object.assign(listed, { count: those.length }));
     }
     let count = 0;
     box.replaceChildren(...Array.from(groups, ([kind, entries]) => {

@@ -47,8 +47,13 @@ const axes = (() => {
       const apart = different.every((value, index) => index === 0 || (value - different[index - 1]) / span > 0.05);
       const few = different.length <= 8 && apart ? different : roundTicks(low, high);
       axis.ticks = high === low ? [[0.5, show(low)]] : few.map((value) => [(value - low) / span, show(value)]);
-      axis.write = (share) => String(Number((low + share * span).toPrecision(6)));
-      axis.read = (text) => (text === "" || high === low ? NaN : Math.min(1, Math.max(0, (Number(text) - low) / span)));
+      // With all digits: a rounded end may lie within the axis, and leave out the variant there.
+      axis.write = (share) => String(high === low ? low : low + share * span);
+      axis.read = (text) => {
+        if (text === "") return NaN;
+        if (high === low) return Number(text) === low ? 0.5 : NaN;
+        return Math.min(1, Math.max(0, (Number(text) - low) / span));
+      };
       axis.tell = (share) => show(high === low ? low : low + share * span, axis.unit);
     }
   }

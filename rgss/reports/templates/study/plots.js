@@ -215,7 +215,7 @@ const startWeights = () => {
   const update = tableIn("weights-table", {
     label: "Contribution of each measure at these weights",
     columns: [{ head: "rank", cell: (row) => String(row.rank) }, { head: "variant", number: true, cell: (row) => variantLink(variants.id[row.place]) },
-      ...weighted.map((one, index) => ({ head: one.id, number: true, cell: (row) => parts(row)[index].toFixed(4), to: (row) => figureAddress(variants.id[row.place], one.id) })), { head: "value", number: true, cell: (row) => row.value.toFixed(4), to: (row) => figureAddress(variants.id[row.place], "value") }],
+      ...weighted.map((one, index) => ({ head: one.id, number: true, cell: (row) => parts(row)[index].toFixed(4), value: (row) => parts(row)[index], to: (row) => figureAddress(variants.id[row.place], one.id) })), { head: "value", number: true, cell: (row) => row.value.toFixed(4), value: (row) => row.value, to: (row) => figureAddress(variants.id[row.place], "value") }],
     rows: shownRanking, size: 20, source: "Computed here: the weight times the value of the variant's figure.",
   });
   rankingWatchers.push(update);

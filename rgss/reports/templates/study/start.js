@@ -36,12 +36,14 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawAll)
 addEventListener("beforeprint", () => {
   // The page's own script has opened the closed details, but their events come too late for printing.
   for (const refresh of refreshers) refresh();
+  for (const drawRows of paged) drawRows(true);
   for (const { drawForPaper, host } of drawings) {
     drawForPaper();
     if (host.classList.contains("js-plotly-plot")) Plotly.relayout(host, { width: 960, autosize: false });
   }
 });
 addEventListener("afterprint", () => {
+  for (const drawRows of paged) drawRows(false);
   for (const { host } of drawings) {
     if (host.classList.contains("js-plotly-plot")) Plotly.relayout(host, { width: null, autosize: true });
   }

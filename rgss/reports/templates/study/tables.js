@@ -1,5 +1,5 @@
 // ----------------------------------- tables of any length: a page of rows and a search
-const PAGE_ROWS = 100, LEAST_SOUGHT = 8;
+const PAGE_ROWS = 100, LEAST_SOUGHT = 8, MOST_PRINTED = 500;
 
 // Search words; a verdict of two words is one word.
 const wordsOf = (text) => text.toLowerCase().replace(/\bnot (met|run)\b/g, "not_$1").split(/\s+/).filter(Boolean);
@@ -49,9 +49,12 @@ const sortable = (heads, changed) => {
 
 // columns: [{head, cell(row) → text or node, number, to(row) → link to its evidence, sort(row) → sort key}];
 // rows() → list of rows; search(row, word) → true if the row has it; key(row) → its name in links; source: origin of its figures.
+// Tables of at most MOST_PRINTED rows are printed whole; a longer one prints its page and says which rows it has.
+const paged = [];
 const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROWS, key = null, source = "" }) => {
   let first = 0;
   let found = [];
+  let printing = false;
   const body = element("tbody");
   const order = sortable(columns.map((column) => element("th", { scope: "col", title: column.title || null }, column.head)), () => { first = 0; update(); });
   const said = (column, row) => {
@@ -73,7 +76,8 @@ const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROW
   if (source) host.append(element("p", { class: "small source" }, source));
 
   const draw = () => {
-    const page = found.slice(first, first + size);
+    const whole = printing && found.length <= MOST_PRINTED;
+    const page = whole ? found : found.slice(first, first + size);
     body.replaceChildren(...page.map((row) => {
       const line = element("tr", key ? { "data-key": key(row) } : {});
       columns.forEach((column, index) => {
@@ -86,7 +90,7 @@ const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROW
       });
       return line;
     }));
-    const many = found.length > size;
+    const many = !whole && found.length > size;
     told.textContent = many ? `Rows ${first + 1} to ${first + page.length} of ${found.length}` : `${found.length} rows`;
     back.hidden = on.hidden = !many;
     back.disabled = first === 0;
@@ -104,6 +108,10 @@ const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROW
   back.addEventListener("click", () => { first = Math.max(0, first - size); draw(); });
   on.addEventListener("click", () => { first += size; draw(); });
   wanted.addEventListener("input", () => { first = 0; update(); });
+  paged.push((onPaper) => {
+    printing = onPaper;
+    if (found.length > size) draw();
+  });
   update.reveal = (name) => {
     const index = key === null ? -1 : found.findIndex((row) => key(row) === name);
     if (index < 0) return null;

@@ -1,4 +1,4 @@
-"""The board edition as a browser prints it."""
+"""The report and its board edition as a browser prints them."""
 
 from __future__ import annotations
 
@@ -66,6 +66,21 @@ def test_assumptions_that_change_the_choice_come_first(study):
     assert "12 more assumptions in the whole report." in page
 
 
+def test_without_a_feasible_variant_it_says_what_would_make_one_feasible(study):
+    moved = {"requirement": "SYS-004", "demand": "c_s at most 43,000 USD", "needed": "41,750 USD", "relative": "3.1 %"}
+    repair = {"requirements": ["SYS-004"], "changes": [moved], "unlocked": 3, "winner": 13}
+    conflicts = {
+        "joint": [repair] * 7 + [repair | {"changes": []}],
+        "requirements": [{"requirement": "SYS-012", "demand": "t_e at most 9 s", "excludes": 71}],
+    }
+    decision = study.document["decision"] | {"chosen": None, "runner_up": None, "reasons": ["x"], "cautions": []}
+    page = board_to_html(study.document | {"decision": decision, "conflicts": conflicts})
+    assert page.count("c_s at most 43,000 USD → 41,750 USD") == 5
+    assert "<td>variant 13</td><td>3</td>" in page
+    assert "2 more repairs in the whole report." in page
+    assert '<th scope="row">SYS-012</th><td>t_e at most 9 s</td><td>71</td>' in page
+
+
 @pytest.mark.parametrize("width", [1440, 400])
 def test_on_a_screen_it_has_no_serious_finding_and_asks_for_nothing(reader, study, pictures, tmp_path, width):
     file = tmp_path / "report.html"
@@ -81,3 +96,25 @@ def test_on_a_screen_it_has_no_serious_finding_and_asks_for_nothing(reader, stud
     assert reader.accessibility_findings() == []
     assert reader.requests() == []
     assert str(study.document["decision"]["chosen"]) in reader.text("#choice-title")
+
+
+def test_paper_has_every_table_and_every_plot(reader, page):
+    reader.open(page)
+    lines = "return document.querySelectorAll('#weights-table tbody tr').length"
+    reader.script("document.getElementById('weights-table').closest('details').open = true")
+    reader.until(f"{lines} === 20")
+    told = reader.text("#weights-table output")
+    reader.script("dispatchEvent(new Event('beforeprint'))")
+    assert reader.script(lines) == int(told.rpartition(" ")[2]) > 20
+
+    rows = reader.script(
+        "const all = Array.from(document.querySelectorAll('details.figures'));"
+        "return all.map((one) => one.querySelectorAll('td').length)"
+    )
+    # The second of them holds the sliders, which paper has no use for.
+    assert 0 not in [count for place, count in enumerate(rows) if place != 1]
+    assert reader.script("return document.querySelectorAll('details:not([open])').length") == 0
+    assert reader.script("return document.querySelectorAll('.plot .main-svg').length") >= 9
+    reader.script("dispatchEvent(new Event('afterprint'))")
+    assert reader.script(lines) == 20
+    assert reader.complaints() == []
