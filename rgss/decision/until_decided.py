@@ -11,7 +11,7 @@ from rgss.decision.level_structure import level_numbers
 from rgss.designs import DesignVariant, sources
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, TrialRecord
-from rgss.measures import Verdict, evaluate
+from rgss.measures import Range, Verdict, evaluate, replicate_ranges
 from rgss.studies import Project, trial_specs
 from rgss.sweep import key_of
 from rgss.tradeoff import Alternative
@@ -121,6 +121,7 @@ def replicate_until_decided(
             levels=levels,
             tolerance=project.study.trade_off.tolerance,
             last_of_equals=project.study.trade_off.last_of_equals,
+            bounds=read.ranges(),
         )
         answer = next_batch_with_reserve(evidence, rule, progress, seed=project.study.seed)
         progress = answer.progress
@@ -213,6 +214,18 @@ class _Evidence:
             if variant.id not in self._measured:
                 self._measured[variant.id] = self._measure(variant)
         return tuple(self._measured[variant.id] for variant in self._variants)
+
+    def ranges(self) -> dict[int, Mapping[str, Range]]:
+        """Possible values of a trial, by variant and measure."""
+        return {
+            entry.variant.id: replicate_ranges(
+                self._project.measures,
+                fixed=sources(entry.variant),
+                estimates=entry.estimates,
+                variant=entry.variant.id,
+            )
+            for entry in self.measured()
+        }
 
     def _measure(self, variant: DesignVariant) -> VariantMeasures:
         rows = self._records[variant.id]

@@ -15,10 +15,11 @@ from rgss.measures.definitions import (
 from rgss.measures.document import MeasuresDocument
 from rgss.measures.equation_gaps import ModelGap, model_gaps
 from rgss.measures.estimates import Estimate, proportion_estimate
-from rgss.measures.evaluation import COMPLETE, design_values, evaluate, trial_values
+from rgss.measures.evaluation import COMPLETE, design_values, evaluate, replicate_ranges, trial_values
 from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
 from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.loading import load_measures
+from rgss.measures.mean_limits import UNSEEN_FACTOR
 from rgss.measures.ranges import Range
 from rgss.measures.ratios import ratio_values
 from rgss.measures.readings import with_alternative

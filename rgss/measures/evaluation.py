@@ -77,6 +77,40 @@ def evaluate(
     return estimates
 
 
+def replicate_ranges(
+    measure_set: MeasureSet, *, fixed: Mapping[str, float | str], estimates: Mapping[str, Estimate], variant: int
+) -> dict[str, Range]:
+    """Possible values of a trial of each measure that is estimated from trials, in the measure's unit.
+
+    They are the bounds of `evaluate`: those that are declared, that follow from the definition, or, of a measure whose
+    inputs are declared as ``of_design``, its value. A ratio has none.
+
+    Args:
+        measure_set: The measures.
+        fixed: As for `evaluate`.
+        estimates: The result of `evaluate`.
+        variant: The variant's id, for messages.
+
+    Raises:
+        DefinitionError: As `evaluate`.
+    """
+    design = design_values(measure_set, fixed=fixed, variant=variant)
+    possible = possible_ranges(measure_set, symbol_ranges(measure_set, design))
+    found = {}
+    for measure in measure_set.measures:
+        rule = measure.estimate
+        if rule is None or rule.statistic is Estimator.RATIO:
+            continue
+        known = estimates[measure.id].value
+        if rule.statistic is Estimator.MEAN and _is_of_design(measure_set, measure) and known is not None:
+            found[measure.id] = Range.of_number(known)
+            continue
+        within = _bounds(measure, possible.get(measure.id, Range()))
+        low = max(within.low, 0.0) if measure.least is None and measure.is_never_negative else within.low
+        found[measure.id] = Range(low=low, high=within.high)
+    return found
+
+
 def _is_of_design(measure_set: MeasureSet, measure: Measure) -> bool:
     """True if all trial inputs of a measure are declared as ``of_design``."""
     below = measure_set.used[measure.id]

@@ -9,7 +9,16 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.findings import Finding
-from rgss.measures import Estimate, MeasureSet, design_values, evaluate, ratio_values, trial_values
+from rgss.measures import (
+    Estimate,
+    MeasureSet,
+    Range,
+    design_values,
+    evaluate,
+    ratio_values,
+    replicate_ranges,
+    trial_values,
+)
 
 Loader = Callable[..., MeasureSet]
 Writer = Callable[..., str]
@@ -146,6 +155,25 @@ def test_what_trials_compute_from_the_design_alone_is_exact(load: Loader) -> Non
     assert found["rate"].low < found["rate"].value < found["rate"].high
     assert estimates(bench(load))["least"] == Estimate.unknown("kg")
     assert estimates(bench(load), {"task_time_s": 1.0}, {"held_kg": 4.0})["least"].n == 1
+
+
+def test_the_values_that_a_replicate_may_have_are_the_bounds_of_the_interval(
+    load: Loader, load_entries: Loader, entry: Writer
+) -> None:
+    bounded = load_entries(
+        entry("x", "time", "s", estimate="{statistic: mean, over: all, least: 1 s, most: 0.1 min}"),
+        entry("t", "time", "s", estimate=MEAN),
+        entry("gain", "time * g", "m/s", estimate=MEAN),
+    )
+    trials = [{"task_time_s": 3.0}] * 2
+    found = replicate_ranges(bounded, fixed=FIXED, estimates=estimates(bounded, *trials), variant=1)
+    assert found["x"] == Range(low=1.0, high=6.0)
+    assert found["t"] == Range(low=0.0)
+    assert found["gain"].high == math.inf
+    exact = bench(load)
+    known = estimates(exact, {"held_kg": 4.0, "task_time_s": 2.0})
+    found = replicate_ranges(exact, fixed=FIXED, estimates=known, variant=1)
+    assert found["least"] == Range(low=2.0, high=2.0)
 
 
 def test_trials_that_differ_in_what_is_of_the_design_are_an_error(load: Loader) -> None:

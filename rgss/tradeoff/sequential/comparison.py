@@ -9,8 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.tradeoff.problem import Comparison, Threshold, ValueFunction
-from rgss.tradeoff.sequential.evidence import Observed, SequentialEvidence
-from rgss.tradeoff.sequential.tests import difference_above, mean_above, mean_evidence, proportion_evidence
+from rgss.tradeoff.sequential.evidence import SequentialEvidence
+from rgss.tradeoff.sequential.observed import Observed
+from rgss.tradeoff.sequential.tests import (
+    bounded_mean_evidence,
+    difference_above,
+    mean_above,
+    mean_evidence,
+    proportion_evidence,
+)
 
 _STEP = 1e-6
 _PROPORTIONS, _MEANS, _THRESHOLDS = 0.6, 0.1, 0.3
@@ -36,6 +43,22 @@ def threshold_evidence(
     if observed.is_proportion:
         return proportion_evidence(int(values.sum()), len(values), limit, above=above)
     return mean_evidence(values, limit, above=above)
+
+
+def verdict_evidence(observed: Observed, row: int, threshold: Threshold, *, met: bool) -> float:
+    """Logarithm of the evidence for a verdict at the threshold itself, for any distribution within the bounds.
+
+    Args:
+        observed: The measure that is bounded.
+        row: The alternative.
+        threshold: The threshold.
+        met: As for `threshold_evidence`.
+    """
+    if observed.is_proportion:
+        return threshold_evidence(observed, row, threshold, met=met)
+    above = (threshold.comparison is Comparison.AT_LEAST) == met
+    least, most = observed.bounds_of(row)
+    return bounded_mean_evidence(observed.known(row), threshold.value, above=above, least=least, most=most)
 
 
 def is_infeasible(evidence: SequentialEvidence, row: int, level: float) -> bool:

@@ -9,64 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.errors import TradeoffError
+from rgss.measures import Range
 from rgss.tradeoff.problem import Comparison, EvidenceTable, Threshold, ValueFunction, tabulated
 from rgss.tradeoff.programs import TradeProblem
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Observed:
-    """A measure that is observed in trials.
-
-    Attributes:
-        measure: The measure.
-        is_proportion: Whether each replicate is 0 or 1; the mean of its replicates otherwise.
-        values: Quantities, shape (n, r); NaN where a replicate lacks it or was not run.
-        weight: Its weight in the value; 0 if it has none.
-        function: Its value function; None if it has no weight.
-        thresholds: Its thresholds, by their place among all thresholds.
-    """
-
-    measure: str
-    is_proportion: bool
-    values: NDArray[np.float64]
-    weight: float
-    function: ValueFunction | None
-    thresholds: Mapping[int, Threshold]
-
-    def known(self, row: int, *, after: int = 0) -> NDArray[np.float64]:
-        """The replicates of one alternative, without the first ones.
-
-        Args:
-            row: The alternative.
-            after: So many first replicates are left out.
-        """
-        values = self.values[row, after:]
-        return values[~np.isnan(values)]
-
-    def standard_errors(self) -> NDArray[np.float64]:
-        """The standard error of each alternative's estimate, shape (n,); 0 for a mean of one replicate or none."""
-        known = ~np.isnan(self.values)
-        counts = known.sum(axis=1)
-        if self.is_proportion:
-            share = (np.where(known, self.values, 0.0).sum(axis=1) + 1.0) / (counts + 2.0)
-            return np.asarray(np.sqrt(share * (1.0 - share) / np.maximum(counts, 1)), dtype=np.float64)
-        means = np.where(known, self.values, 0.0).sum(axis=1) / np.maximum(counts, 1)
-        squares = (np.where(known, self.values - means[:, None], 0.0) ** 2).sum(axis=1)
-        return np.asarray(np.sqrt(squares / np.maximum(counts * (counts - 1.0), 1.0)), dtype=np.float64)
-
-    @property
-    def least(self) -> float:
-        """The smallest quantity that meets every threshold."""
-        return max(
-            (one.value for one in self.thresholds.values() if one.comparison is Comparison.AT_LEAST), default=-np.inf
-        )
-
-    @property
-    def most(self) -> float:
-        """The largest quantity that meets every threshold."""
-        return min(
-            (one.value for one in self.thresholds.values() if one.comparison is Comparison.AT_MOST), default=np.inf
-        )
+from rgss.tradeoff.sequential.observed import Observed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -126,6 +72,7 @@ class SequentialEvidence:
         levels: NDArray[np.intp] | None = None,
         tolerance: float = 0.0,
         last_of_equals: bool = False,
+        bounds: Mapping[int, Mapping[str, Range]] | None = None,
     ) -> SequentialEvidence:
         """Evidence of a trade-off.
 
@@ -136,6 +83,7 @@ class SequentialEvidence:
             levels: The level of each alternative, by ascending id, in each factor, shape (n, f).
             tolerance: As the attribute.
             last_of_equals: As the attribute.
+            bounds: By alternative and measure, the possible values of a replicate; unknown where it has none.
 
         Raises:
             TradeoffError: The trade-off is not of weighted values under thresholds on estimates.
@@ -163,6 +111,7 @@ class SequentialEvidence:
                     weight=weights.get(measure, 0.0),
                     function=function,
                     thresholds={at: one for at, one in enumerate(problem.thresholds) if one.measure == measure},
+                    bounds=_bounds(table, measure, bounds),
                 )
             )
         fixed = [one for one in problem.thresholds if one.measure not in table.samples]
@@ -279,6 +228,15 @@ def _check(problem: TradeProblem) -> None:
                 f"replication until decided cannot judge {threshold.requirement} by an end of {measure}'s interval",
                 hint="judge it by the value, or run a fixed number of replicates",
             )
+
+
+def _bounds(
+    table: EvidenceTable, measure: str, bounds: Mapping[int, Mapping[str, Range]] | None
+) -> NDArray[np.float64] | None:
+    if bounds is None:
+        return None
+    ranges = [bounds.get(variant, {}).get(measure, Range()) for variant in table.variants.tolist()]
+    return np.array([(each.low, each.high) for each in ranges], dtype=np.float64)
 
 
 def _worth(function: ValueFunction, column: NDArray[np.float64]) -> NDArray[np.float64]:

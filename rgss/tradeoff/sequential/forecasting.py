@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rgss.tradeoff.sequential.comparison import threshold_evidence
+from rgss.tradeoff.sequential.comparison import verdict_evidence
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.rule import SequentialRule
 from rgss.tradeoff.sequential.settling import Progress, is_accepted, unsettled
@@ -106,7 +106,7 @@ def _requirements(
             def is_settled(count: int, place: int = place, at: int = at) -> bool:
                 observed = _continued(evidence, ran, count).observed[place]
                 limit = observed.thresholds[at]
-                return any(threshold_evidence(observed, row, limit, met=met) >= needed for met in (True, False))
+                return any(verdict_evidence(observed, row, limit, met=met) >= needed for met in (True, False))
 
             found[threshold.requirement] = _first(ran, is_settled)
     return found

@@ -6,7 +6,7 @@ import math
 
 from rgss.measures import Verdict
 from rgss.tradeoff.problem import EVIDENCE_PREFIX
-from rgss.tradeoff.sequential.comparison import threshold_evidence
+from rgss.tradeoff.sequential.comparison import verdict_evidence
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.rule import SequentialRule
 from rgss.tradeoff.sequential.settling import Progress
@@ -30,7 +30,7 @@ def settled_thresholds(
                 if (variant, place) in settled:
                     continue
                 for met in (True, False):
-                    if threshold_evidence(one, row, threshold, met=met) >= needed:
+                    if verdict_evidence(one, row, threshold, met=met) >= needed:
                         settled[variant, place] = met
     return settled
 

@@ -6,7 +6,14 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from rgss.tradeoff.sequential.tests import difference_above, mean_above, mean_evidence, proportion_evidence
+from rgss.measures.mean_limits import mean_limits
+from rgss.tradeoff.sequential.tests import (
+    bounded_mean_evidence,
+    difference_above,
+    mean_above,
+    mean_evidence,
+    proportion_evidence,
+)
 
 
 def test_evidence_for_a_proportion_is_the_integral_that_it_stands_for():
@@ -92,3 +99,69 @@ def test_a_difference_is_seldom_ever_above_its_bound(more, less):
             difference_above(int(up[n - 1]), int(down[n - 1]), n, level) < more - less for n in range(8, trials + 1, 8)
         )
     assert errors / runs <= level + 3.0 * math.sqrt(level * (1.0 - level) / runs)
+
+
+SKEWED = {
+    "normal": (lambda draw, size: np.maximum(draw.normal(1.0, 0.2, size), 0.0), 1.0),
+    "lognormal": (lambda draw, size: draw.lognormal(0.0, 1.0, size), math.exp(0.5)),
+    "outliers": (lambda draw, size: np.where(draw.random(size) < 0.05, 10.0, 1.0) * draw.normal(1.0, 0.1, size), 1.45),
+}
+
+
+@pytest.mark.parametrize("above", [False, True])
+@pytest.mark.parametrize("kind", list(SKEWED))
+def test_a_mean_of_skewed_values_is_seldom_ever_called_beyond_itself(kind, above):
+    draw, mean = SKEWED[kind]
+    level, runs, generator = 0.1, 200, np.random.default_rng(8)
+    errors = 0
+    for _ in range(runs):
+        values = draw(generator, 120)
+        errors += any(
+            bounded_mean_evidence(values[:n], mean, above=above, least=0.0) >= math.log(1.0 / level)
+            for n in range(8, 121, 4)
+        )
+    assert errors / runs <= level + 3.0 * math.sqrt(level * (1.0 - level) / runs)
+
+
+def test_the_wealth_of_a_bounded_mean_is_that_of_its_bets():
+    values, limit, most = [0.2, 0.9, 0.4], 0.8, 1.0
+    bets = [0.5 ** (place / 2.0) / (most - limit) for place in range(25)]
+    parts = [0.5 ** (place / 2.0) for place in range(25)]
+    wealth = sum(
+        part / sum(parts) * math.prod(1.0 + bet * (limit - value) for value in values)
+        for bet, part in zip(bets, parts, strict=True)
+    )
+    found = bounded_mean_evidence(np.array(values), limit, above=False, most=most)
+    assert found == pytest.approx(math.log(wealth))
+    mirrored = bounded_mean_evidence(1.0 - np.array(values), 1.0 - limit, above=True, least=0.0)
+    assert mirrored == pytest.approx(found)
+
+
+def test_bounds_that_lie_on_one_side_prove_at_once_and_few_values_without_a_bound_nothing():
+    alone = np.array([2.0])
+    assert bounded_mean_evidence(alone, 3.0, above=False, least=2.0, most=2.0) == math.inf
+    assert bounded_mean_evidence(alone, 3.0, above=True, least=2.0, most=2.0) < 0.0
+    assert bounded_mean_evidence(alone, 2.0, above=False, least=2.0, most=2.0) == -math.inf
+    assert bounded_mean_evidence(alone, 3.0, above=False) == -math.inf
+    assert bounded_mean_evidence(np.array([]), 3.0, above=False, most=1.0) == -math.inf
+    # Two values of 1 are assumed to have no neighbours above 10.
+    assert bounded_mean_evidence(np.ones(2), 11.0, above=False) == math.inf
+    assert bounded_mean_evidence(np.ones(2), 9.0, above=False) < math.log(20.0)
+    # A value beyond a bound refutes the bound.
+    assert bounded_mean_evidence(np.array([1.0, 4.0]), 3.5, above=False, most=3.0) < math.log(20.0)
+    # A limit of 0 has no scale of its own.
+    assert bounded_mean_evidence(np.full(400, -1.0), 0.0, above=False) > math.log(20.0)
+
+
+@pytest.mark.parametrize("most", [math.inf, 3.0])
+def test_a_verdict_over_many_looks_takes_hardly_more_values_than_one_interval(most):
+    """The interval of a fixed number of values is the oracle: it has the same assumption and looks once."""
+    values = np.minimum(np.random.default_rng(9).normal(1.0, 0.2, 400), 3.0)
+    bound = None if math.isinf(most) else most
+
+    def first(holds):
+        return next(n for n in range(4, 401, 4) if holds(values[:n]))
+
+    fixed = first(lambda seen: mean_limits(list(seen), least=0.0, most=bound, tail=0.05)[1] <= 1.3)
+    over_looks = first(lambda seen: bounded_mean_evidence(seen, 1.3, above=False, least=0.0, most=most) >= math.log(20))
+    assert fixed <= over_looks <= 2 * fixed
