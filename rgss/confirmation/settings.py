@@ -9,7 +9,6 @@ from enum import Enum
 from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity
 from rgss.physics import (
-    LEAST_ITERATIONS_HZ,
     LEAST_RATE_HZ,
     MOST_ITERATIONS,
     OtherEngineSettings,
@@ -120,31 +119,27 @@ def _iterations_of_gears(project: Project) -> int:
 
 
 def _check(own: PhysicsSettings, finer: PhysicsSettings, more: PhysicsSettings, *, geared: int) -> None:
-    if finer.rate_hz == own.rate_hz:
-        raise DefinitionError(
-            f"the finer rate must differ from that of the study, {own.rate_hz:g} Hz", hint="give another rate"
-        )
     if not LEAST_RATE_HZ <= finer.rate_hz <= _HIGHEST_RATE_HZ:
         raise DefinitionError(
             f"the rate must be from {LEAST_RATE_HZ:g} to {_HIGHEST_RATE_HZ:g} Hz, got {finer.rate_hz:g} Hz",
             hint='write "1000 Hz"',
         )
-    if more.solver_iterations == own.solver_iterations:
+    if finer.rate_hz <= own.rate_hz:
         raise DefinitionError(
-            f"the number of solver iterations must differ from that of the study, {own.solver_iterations}",
-            hint="give another number",
+            f"the finer rate must be above that of the study, {own.rate_hz:g} Hz, got {finer.rate_hz:g} Hz",
+            hint="give a higher rate: a coarser step confirms nothing",
         )
     most = max(MOST_ITERATIONS, _MORE_THAN_GEARS * geared)
     if not 1 <= more.solver_iterations <= most:
         raise DefinitionError(f"the number of solver iterations must be from 1 to {most}, got {more.solver_iterations}")
+    if more.solver_iterations <= own.solver_iterations:
+        raise DefinitionError(
+            f"the number of solver iterations must be above that of the study, {own.solver_iterations}, got "
+            f"{more.solver_iterations}",
+            hint="give a greater number",
+        )
     if more.solver_iterations <= geared:
         raise DefinitionError(
             f"the number of solver iterations must be above {geared}, which the gears of a hand take anyway, got "
             f"{more.solver_iterations}"
         )
-    for one in (finer, more):
-        if one.rate_hz * one.solver_iterations < LEAST_ITERATIONS_HZ:
-            raise DefinitionError(
-                f"{one.solver_iterations} iterations at {one.rate_hz:g} Hz are too few to hold an object",
-                hint=f"rate times iterations must be {LEAST_ITERATIONS_HZ:g} Hz or more",
-            )

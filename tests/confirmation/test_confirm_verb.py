@@ -160,7 +160,13 @@ def _lost(runner, specs):
         (["--failures", "-1"], "rgss: --failures must be from 0 to 10000, got -1 (0 omits the sample)"),
         (["--rate", "1000"], "rgss: --rate: '1000'"),
         (["--rate", "fast"], "rgss: --rate: "),
-        (["--rate", "240 Hz"], "rgss: the finer rate must differ from that of the study, 240 Hz (give another rate)"),
+        (
+            ["--rate", "240 Hz"],
+            (
+                "rgss: the finer rate must be above that of the study, 240 Hz, got 240 Hz "
+                "(give a higher rate: a coarser step confirms nothing)"
+            ),
+        ),
         (["--jobs", "0"], "rgss: --jobs must be at least 1"),
         (["--engine", "bullet"], "rgss confirm: argument --engine: invalid choice: 'bullet'"),
     ],

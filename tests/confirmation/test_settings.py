@@ -48,16 +48,29 @@ def test_another_release_of_the_engine_or_other_code_of_it_is_other_evidence(shi
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"rate_hz": 240.0}, "the finer rate must differ from that of the study, 240 Hz (give another rate)"),
+        (
+            {"rate_hz": 240.0},
+            (
+                "the finer rate must be above that of the study, 240 Hz, got 240 Hz "
+                "(give a higher rate: a coarser step confirms nothing)"
+            ),
+        ),
+        (
+            {"rate_hz": 200.0},
+            (
+                "the finer rate must be above that of the study, 240 Hz, got 200 Hz "
+                "(give a higher rate: a coarser step confirms nothing)"
+            ),
+        ),
         ({"rate_hz": 60.0}, 'the rate must be from 120 to 20000 Hz, got 60 Hz (write "1000 Hz")'),
         ({"rate_hz": float("nan")}, "the rate must be from 120 to 20000 Hz, got nan Hz"),
         (
             {"iterations": 20},
-            "the number of solver iterations must differ from that of the study, 20 (give another number)",
+            "the number of solver iterations must be above that of the study, 20, got 20 (give a greater number)",
         ),
         ({"iterations": 0}, "the number of solver iterations must be from 1 to 2000, got 0"),
         ({"iterations": 2001}, "the number of solver iterations must be from 1 to 2000, got 2001"),
-        ({"iterations": 5}, "5 iterations at 240 Hz are too few to hold an object (rate times iterations must be 2400"),
+        ({"iterations": 5}, "the number of solver iterations must be above that of the study, 20, got 5"),
     ],
 )
 def test_what_cannot_confirm_is_refused(shipped, options, message):

@@ -76,6 +76,17 @@ def test_no_limit_is_exceeded(timed, arm, limits, polylines, tool):
         assert np.max(accelerations) <= min(tool[1], trajectory.peak_tool_acceleration_m_s2) * (1.0 + 1e-2)
 
 
+def test_a_joint_that_moves_by_rounding_noise_slows_no_other(timed):
+    """With a profile of its own it would accelerate at its limit, and the tool would be slowed for it."""
+    turns = np.array([0.0, 0.1, 0.12, -0.22, 0.0, 0.0])
+    noise = np.array([2.2e-16, 0.0, 0.0, 0.0, 0.0, 1.1e-16])
+
+    exact = timed(np.array([START, START + turns])).trajectory
+    noisy = timed(np.array([START, START + turns + noise, START + turns])).trajectory
+
+    assert noisy.duration_s == pytest.approx(exact.duration_s, rel=1e-12)
+
+
 def test_it_rests_at_each_waypoint(timed, polylines):
     points = polylines(1, seed=8)[0]
     trajectory = timed(points).trajectory

@@ -32,6 +32,8 @@ Vector = NDArray[np.float64]
 _SAMPLES_OF_PIECE = 33
 # Times nearer than this are equal but for rounding, such as the two sides of a triangle's apex.
 _SAME_TIME_S = 1e-12
+# A joint that moves by less is still: with a profile of its own, rounding noise would accelerate it, and so the tool.
+_STILL_RAD = 1e-9
 
 
 def time_move_by_joint_waypoints(
@@ -51,7 +53,7 @@ def time_move_by_joint_waypoints(
         MotionError: The limits are not for the joints of the path.
     """
     require_joints(limits, path.points_rad.shape[1])
-    points = [path.points_rad[0], *(b for a, b in pairwise(path.points_rad) if np.any(a != b))]
+    points = [path.points_rad[0], *(b for a, b in pairwise(path.points_rad) if np.any(np.abs(b - a) > _STILL_RAD))]
     first_invalid = first_invalid_between(validity)
     segments, speed_m_s, acceleration_m_s2 = [], 0.0, 0.0
     for start, end in pairwise(points):
@@ -72,11 +74,11 @@ def _segment(start: Vector, end: Vector, limits: MotionLimits, *, is_shared: boo
     way = np.abs(end - start)
     speeds, accelerations = np.array(limits.speed_rad_s), np.array(limits.acceleration_rad_s2)
     if is_shared:
-        moving = way > 0.0
+        moving = way > _STILL_RAD
         speeds = way * np.min(speeds[moving] / way[moving])
         accelerations = way * np.min(accelerations[moving] / way[moving])
     ramps, peaks, durations = np.zeros_like(way), np.zeros_like(way), np.zeros_like(way)
-    for joint in np.flatnonzero(way > 0.0):
+    for joint in np.flatnonzero(way > _STILL_RAD):
         peaks[joint] = min(speeds[joint], math.sqrt(way[joint] * accelerations[joint]))
         ramps[joint] = peaks[joint] / accelerations[joint]
         durations[joint] = way[joint] / peaks[joint] + ramps[joint]

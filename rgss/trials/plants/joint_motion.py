@@ -28,9 +28,9 @@ def speed_metrics(peaks_rad_s: Array, joints: Sequence[Joint]) -> dict[str, Metr
 class JointMotion:
     """Accumulator of joint work and joint speeds over the steps of a phase.
 
-    The work of a step is τ q̇ Δt with the motor's torque in the step and the speed after it. An engine with
-    semi-implicit integration moves the joint by q̇ Δt, so that this is the exact work of a torque that is constant over
-    the step.
+    The work of a step is τ q̇ Δt with the motor's torque in the step and the mean of the speeds before and after it:
+    what a constant torque adds to the kinetic energy. With the speed after it, as the engine's semi-implicit
+    integration moves the joint, each change of speed would add (τ Δt)²/2 I, which recovery does not return.
     """
 
     def __init__(self, joints: Sequence[Joint]) -> None:
@@ -42,6 +42,7 @@ class JointMotion:
         self._joints = joints
         self._limits = np.array([joint.torque_n_m for joint in joints])
         self._peak = np.zeros(len(joints))
+        self._speeds_rad_s = np.zeros(len(joints))
         self._absolute_j: list[float] = []
         self._net_j: list[float] = []
 
@@ -53,9 +54,11 @@ class JointMotion:
             speeds_rad_s: Speed of each joint after each step, shape (steps, joints).
             step_s: Length of a step.
         """
-        work = np.clip(torques_n_m, -self._limits, self._limits) * speeds_rad_s * step_s
+        before = np.vstack([self._speeds_rad_s, speeds_rad_s[:-1]])
+        work = np.clip(torques_n_m, -self._limits, self._limits) * (before + speeds_rad_s) / 2.0 * step_s
         self._absolute_j.append(math.fsum(np.abs(work).ravel().tolist()))
         self._net_j.append(math.fsum(work.ravel().tolist()))
+        self._speeds_rad_s = np.array(speeds_rad_s[-1])
         self._peak = np.maximum(self._peak, np.abs(speeds_rad_s).max(axis=0))
 
     def metrics(self) -> dict[str, Metric]:

@@ -36,13 +36,23 @@ def motion_of(torques, speeds, step_s=0.5):
 def test_braking_takes_energy_unless_it_is_recovered():
     found = motion_of([(20.0, 1.0), (-20.0, 2.0)], [(1.0, 0.5), (1.0, -4.0)])
 
-    # 10 + 0.25 J to drive, 10 + 4 J to brake.
-    assert found["joint_work_j"] == pytest.approx(24.25)
-    assert found["joint_net_work_j"] == pytest.approx(-3.75)
+    # 5 + 0.125 J to drive from rest, 10 + 1.75 J to brake, with the mean speeds of 0.5, 0.25, 1 and -1.75 rad/s.
+    assert found["joint_work_j"] == pytest.approx(16.875)
+    assert found["joint_net_work_j"] == pytest.approx(-6.625)
+
+
+def test_the_net_work_of_free_joints_is_their_kinetic_energy():
+    inertias, step_s = np.array([2.0, 0.3]), 1.0 / 240.0
+    torques = np.random.default_rng(4).normal(0.0, 3.0, (500, 2))
+    speeds = np.cumsum(torques * step_s / inertias, axis=0)
+
+    found = motion_of(torques, speeds, step_s)
+
+    assert found["joint_net_work_j"] == pytest.approx(float((inertias * speeds[-1] ** 2).sum()) / 2.0, rel=1e-9)
 
 
 def test_what_a_controller_asks_for_beyond_the_limit_does_no_work():
-    assert motion_of([(0.0, 40.0)], [(0.0, 1.0)])["joint_work_j"] == pytest.approx(5.0)
+    assert motion_of([(0.0, 40.0)], [(0.0, 1.0)])["joint_work_j"] == pytest.approx(2.5)
 
 
 def test_the_fastest_joint_is_the_one_nearest_to_its_own_limit():
@@ -76,7 +86,8 @@ class Recorder:
     def power(self, phase):
         """Mechanical power (steps, joints) in W."""
         states = np.array(self.states[phase])
-        return np.clip(states[:, 2], -self.limits, self.limits) * states[:, 1]
+        before = np.vstack([np.zeros(len(self.limits)), states[:-1, 1]])
+        return np.clip(states[:, 2], -self.limits, self.limits) * (before + states[:, 1]) / 2.0
 
 
 @pytest.mark.engine
