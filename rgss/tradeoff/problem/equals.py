@@ -12,7 +12,8 @@ from rgss.tradeoff.problem.dominance import nondominated
 from rgss.tradeoff.problem.evidence_table import EvidenceTable
 from rgss.tradeoff.problem.values import ValueFunction
 
-_DIGITS = 6
+_SAME = 1e-11
+"""Share of the largest quantity by which quantities differ that are equal on paper."""
 
 
 def surpassed_equals(
@@ -41,11 +42,19 @@ def surpassed_equals(
         oriented = column / scale if function.more_is_better else -column / scale
         if function.more_is_better is None:
             oriented = function.values_at(column)
-        # Rounded, so that quantities that are equal on paper surpass nothing.
-        columns.append(np.round(oriented, _DIGITS))
+        columns.append(_places(oriented))
     if not columns or len(rows) <= 1:
         return np.zeros(len(rows), dtype=np.bool_)
     return ~nondominated(np.column_stack(columns))
+
+
+def _places(quantities: Array) -> Array:
+    """Place of each quantity among those that differ, from the least; shape (k,)."""
+    order = np.argsort(quantities, kind="stable")
+    steps = np.diff(quantities[order]) > _SAME
+    places = np.empty(len(quantities))
+    places[order] = np.concatenate([[0.0], np.cumsum(steps)])
+    return places
 
 
 def surpassed_within_classes(

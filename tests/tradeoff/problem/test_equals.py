@@ -32,6 +32,22 @@ def test_of_equals_the_one_that_no_other_surpasses(build_problem):
     assert (last.chosen, last.ties, last.surpassed) == (3, (3, 2, 1), (1,))
 
 
+def test_a_quantity_surpasses_another_beside_one_of_another_magnitude(build_problem):
+    """All three are worth 1; of the same time 2 costs less, by little beside what 3 costs."""
+    problem = build_problem(
+        {1: {"cost": 2.0, "time": 2e7}, 2: {"cost": 1.0, "time": 2e7}, 3: {"cost": 1e8, "time": 1.0}},
+        values={"cost": (1e9, 5e8), "time": (1e9, 5e8)},
+        weights=WEIGHTS,
+    )
+    assert decide(problem).surpassed == (1,)
+    paper = build_problem(
+        {1: {"cost": 0.1 + 0.2, "time": 1.0}, 2: {"cost": 0.3, "time": 1.0}},
+        values={"cost": (1.0, 0.5), "time": (3.0, 2.0)},
+        weights=WEIGHTS,
+    )
+    assert decide(paper).surpassed == ()
+
+
 def test_quantities_against_each_other_leave_the_smallest_id(build_problem):
     problem = build_problem(
         {1: {"cost": 4.0, "time": 14.0}, 2: {"cost": 3.0, "time": 15.0}}, values=CLIPPED, weights=WEIGHTS
