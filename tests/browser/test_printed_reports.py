@@ -113,8 +113,38 @@ def test_paper_has_every_table_and_every_plot(reader, page):
     )
     # The second of them holds the sliders, which paper has no use for.
     assert 0 not in [count for place, count in enumerate(rows) if place != 1]
-    assert reader.script("return document.querySelectorAll('details:not([open])').length") == 0
+    closed = "Array.from(document.querySelectorAll('details:not([open])'))"
+    assert reader.script(f"return {closed}.every((one) => one.classList.contains('on-demand'))")
     assert reader.script("return document.querySelectorAll('.plot .main-svg').length") >= 9
     reader.script("dispatchEvent(new Event('afterprint'))")
     assert reader.script(lines) == 20
     assert reader.complaints() == []
+
+
+def test_paper_has_diagrams_and_matrices_only_where_the_reader_opened_them(reader, page):
+    """All of them are more sheets than the rest of the report."""
+    reader.open(page)
+    folds = "Array.from(document.querySelectorAll('#traceability ~ section > details.fold'))"
+    names = reader.script(f"return {folds}.map((one) => one.closest('section').id)")
+    assert {"architecture", "verification", "coverage"} <= set(names)
+    reader.script("document.querySelector('#architecture > details.fold').open = true")
+    reader.script("dispatchEvent(new Event('beforeprint'))")
+    opened = reader.script(f"return {folds}.filter((one) => one.open).map((one) => one.closest('section').id)")
+    assert {"architecture", "verification", "coverage"} <= set(opened)
+    assert not [name for name in opened if "-" in name]
+    reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    try:
+        said = reader.script(
+            "return getComputedStyle(document.querySelector('details.fold.on-demand:not([open]) > summary'), '::after')"
+            ".content"
+        )
+    finally:
+        reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+    assert "not printed" in said
+
+
+def test_the_whole_report_is_printed_on_fewer_sheets_than_it_has_diagrams_and_tables(reader, page):
+    reader.open(page)
+    pdf = reader.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": False})
+    pages = len(re.findall(rb"/Type\s*/Page[^s]", base64.b64decode(pdf["data"])))
+    assert 20 < pages < 100

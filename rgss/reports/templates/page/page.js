@@ -152,7 +152,8 @@
   // ------------------------------------------------------------------- print
   let opened = [];
   addEventListener("beforeprint", () => {
-    opened = all("details:not([open])");
+    // What is printed on demand alone stays as the reader left it.
+    opened = all("details:not([open]):not(.on-demand)");
     for (const one of opened) one.open = true;
   });
   addEventListener("afterprint", () => {
