@@ -109,4 +109,6 @@ def _baseline_run(
             str(variant): {name: value for name, value in values.items() if name not in shared}
             for variant, values in inputs[trials.run.id].items()
         },
+        designs={str(variant.id): dict(variant.levels) for variant in trials.variants},
+        first_look=trials.run.replicates,
     )

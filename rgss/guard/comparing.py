@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 
 from rgss.errors import DefinitionError
-from rgss.evidence import EvidenceStore
+from rgss.evidence import EvidenceStore, TrialRecord
 from rgss.findings import shown
 from rgss.guard.decision import decision_of, explained_by_noise, p_values
 from rgss.guard.inputs import inputs_of_trials, origin_of_trials
@@ -35,6 +35,7 @@ from rgss.regression import (
     changed_trials,
     decision_changes,
     origin_changes,
+    paired_by_levels,
     powers,
     run_failings,
     schema_failings,
@@ -91,7 +92,9 @@ class _Comparing:
         self._project = project
         self._guard = guard
         self._records = records
-        self._baseline = baseline
+        paired = paired_by_levels(baseline, {one.id: one.levels for one in project.designs.expand()})
+        self._paired = paired
+        self._baseline = paired.baseline
         self._label = label
         self._watched = watched_trials(project, guard)
         self._phases = project.study.task.phases
@@ -106,6 +109,7 @@ class _Comparing:
                 fidelity=trials.run.fidelity.value,
                 variants=trials.ids,
                 seeds=trials.seeds(trials.run.cap),
+                first_look=trials.run.replicates,
             )
         for name in sorted(self._baseline.runs.keys() - self._seeds.keys()):
             text = f"run {name} of the baseline is not in the study"
@@ -152,7 +156,7 @@ class _Comparing:
             count = self._seeds[trials.run.id]
             seeds = trials.seeds(count)
             records = self._records.of(trials, count)
-            same = unchanged_phases(before, fingerprints_of(records, self._baseline), seeds, self._phases)
+            same = unchanged_phases(before, self._fingerprints(records), seeds, self._phases)
             for metric, phase in subjects_of(self._guard, trials.run.id):
                 baseline = self._values(trials.run.id, metric.metric, phase)
                 if baseline is None:
@@ -168,6 +172,9 @@ class _Comparing:
                     )
                 )
         return found
+
+    def _fingerprints(self, records: Mapping[int, Mapping[int, TrialRecord]]) -> dict[int, dict[int, str]]:
+        return fingerprints_of(records, self._baseline, self._paired.former)
 
     def _values(self, run: str, metric: str, phase: str) -> dict[int, dict[int, float | None]] | None:
         """The baseline's values by variant and seed; None if it has none."""
@@ -230,7 +237,7 @@ class _Comparing:
 
     def _of_the_baseline(self) -> list[str]:
         if self._baseline.has_values:
-            return []
+            return list(self._paired.notes)
         text = "the baseline was written by an earlier rgss and lacks the values of inputs, so that changes of them "
         return [f"{text}are not named; rewrite it with 'rgss regress --update --reason TEXT'"]
 
@@ -243,7 +250,7 @@ class _Comparing:
                 count = self._seeds[trials.run.id]
                 records = self._records.of(trials, count)
                 changed += changed_trials(
-                    trials.run.id, before, fingerprints_of(records, self._baseline), trials.seeds(count), self._phases
+                    trials.run.id, before, self._fingerprints(records), trials.seeds(count), self._phases
                 )
                 compared += sum(len(set(row) & set(before.seeds)) for row in records.values())
         # A file may have changed in parts that no trial reads, which a baseline without values cannot show.

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError, DocumentError
@@ -154,7 +155,9 @@ def series_of(
 
 
 def fingerprints_of(
-    records: Mapping[int, Mapping[int, TrialRecord]], baseline: Baseline | None = None
+    records: Mapping[int, Mapping[int, TrialRecord]],
+    baseline: Baseline | None = None,
+    former: Mapping[int, int] = MappingProxyType({}),
 ) -> dict[int, dict[int, str]]:
     """The fingerprint of each record by variant and seed.
 
@@ -162,12 +165,17 @@ def fingerprints_of(
         records: The records.
         baseline: The baseline whose fingerprints they are compared with: metrics that records have only since
             then are excluded. None to include all.
+        former: The number of each variant in the baseline, where it is another: a record has the number of its
+            variant.
     """
     metrics = None if baseline is None else baseline.record
     phase_metrics = None if baseline is None or not baseline.phase_record else baseline.phase_record
     return {
         variant: {
-            seed: fingerprint(record, metrics=metrics, phase_metrics=phase_metrics) for seed, record in row.items()
+            seed: fingerprint(
+                replace(record, variant=former.get(variant, variant)), metrics=metrics, phase_metrics=phase_metrics
+            )
+            for seed, record in row.items()
         }
         for variant, row in records.items()
     }

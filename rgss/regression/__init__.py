@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from rgss.regression.input_changes import InputChange, InputKind, Inputs, origin_changes, value_changes
     from rgss.regression.looking import settle
     from rgss.regression.observing import SUCCESS, fingerprint, observed
+    from rgss.regression.pairing_designs import paired_by_levels
     from rgss.regression.power import MEAN_LOSS, MOST_SEEDS, TARGET, Power, powers
     from rgss.regression.report import Behaviour, ChangedTrial, Failing, FailureCause, RegressionReport
     from rgss.regression.sign_flips import FEWEST_SEEDS, adjusted_p_values

@@ -11,14 +11,20 @@ from typing import Any
 from rgss.errors import EvidenceError
 from rgss.evidence.records import plain_json, read_plain
 
-SCHEMA = 4
+SCHEMA = 5
 """The form of the file."""
 
+_WITHOUT_DESIGNS = 4
+"""An earlier schema without the levels of designs and the seeds of the first look; it is still read."""
+
 _WITHOUT_PHASE_RECORD = 3
-"""An earlier schema without the metrics of phases; it is still read."""
+"""An earlier schema that lacks the metrics of phases too; it is still read."""
 
 _WITHOUT_VALUES = 2
 """An earlier schema that lacks the values of inputs too; it is still read."""
+
+EARLIER_SCHEMAS = (_WITHOUT_VALUES, _WITHOUT_PHASE_RECORD, _WITHOUT_DESIGNS)
+"""The earlier schemas that are read."""
 
 LARGEST_FILE_BYTES = 32 * 1024 * 1024
 
@@ -36,6 +42,8 @@ class BaselineRun:
         values: The raw values.
         fingerprints: By variant, the fingerprint of the record of each seed.
         inputs: By variant, the values of those inputs that not all trials of the baseline share, by name.
+        designs: By variant, the id of its level of each factor; empty if they are not known.
+        first_look: Number of seeds at the first look; 0 if it is not known.
     """
 
     fidelity: str
@@ -43,6 +51,8 @@ class BaselineRun:
     values: Values = field(hash=False)
     fingerprints: Mapping[str, tuple[str, ...]] = field(hash=False)
     inputs: Mapping[str, Mapping[str, str]] = field(default_factory=dict, hash=False)
+    designs: Mapping[str, Mapping[str, str]] = field(default_factory=dict, hash=False)
+    first_look: int = 0
 
     @property
     def variants(self) -> tuple[int, ...]:
@@ -171,15 +181,16 @@ def read_baseline(path: Path, *, label: str) -> Baseline:
     if len(content) > LARGEST_FILE_BYTES:
         raise EvidenceError(f"the baseline {label} is larger than {LARGEST_FILE_BYTES // 1024**2} MiB", hint=again)
     try:
-        data = plain_json(content.decode("utf-8"), f"baseline {label}")
+        data = plain_json(content.decode("utf-8-sig"), f"baseline {label}")
     except UnicodeDecodeError:
         raise EvidenceError(f"the baseline {label} is not UTF-8", hint=again) from None
     if not isinstance(data, dict) or "schema" not in data:
         raise EvidenceError(f"{label} is not a baseline: it has no 'schema'", hint=again)
-    if data["schema"] in (_WITHOUT_VALUES, _WITHOUT_PHASE_RECORD):
+    if data["schema"] in EARLIER_SCHEMAS:
         _add_empty_values(data)
     elif data["schema"] != SCHEMA:
-        raise EvidenceError(f"the baseline {label} has schema {data['schema']!r}; {SCHEMA} is read", hint=again)
+        readable = f"{', '.join(map(str, EARLIER_SCHEMAS))} and {SCHEMA} are read"
+        raise EvidenceError(f"the baseline {label} has schema {data['schema']!r}; {readable}", hint=again)
     try:
         baseline = read_plain(data, Baseline, "baseline")
     except EvidenceError as error:
@@ -190,16 +201,21 @@ def read_baseline(path: Path, *, label: str) -> Baseline:
 
 def _add_empty_values(data: dict[str, Any]) -> None:
     """Migrate a baseline of an earlier schema, if well-formed."""
-    data.setdefault("phase_record", {})
+    found = data.get("runs")
+    runs = [run for run in (found.values() if isinstance(found, dict) else ()) if isinstance(run, dict)]
+    for run in runs:
+        run.setdefault("designs", {})
+        run.setdefault("first_look", 0)
+    if data["schema"] in (_WITHOUT_VALUES, _WITHOUT_PHASE_RECORD):
+        data.setdefault("phase_record", {})
     if data["schema"] != _WITHOUT_VALUES:
         return
-    runs = data.get("runs")
-    parts = [(data, ("inputs",)), (data.get("origin"), ("modules", "constants"))]
-    parts += [(run, ("inputs",)) for run in (runs.values() if isinstance(runs, dict) else ())]
-    for part, names in parts:
-        if isinstance(part, dict):
-            for name in names:
-                part.setdefault(name, {})
+    origin = data.get("origin")
+    for name in ("modules", "constants"):
+        if isinstance(origin, dict):
+            origin.setdefault(name, {})
+    for part in (data, *runs):
+        part.setdefault("inputs", {})
 
 
 def _check(baseline: Baseline, label: str, again: str) -> None:

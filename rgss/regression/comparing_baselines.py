@@ -48,7 +48,13 @@ def schema_notes(baseline: Baseline, record: Mapping[str, str]) -> Iterator[str]
 
 
 def run_failings(
-    name: str, before: BaselineRun | None, *, fidelity: str, variants: Sequence[int], seeds: Sequence[int]
+    name: str,
+    before: BaselineRun | None,
+    *,
+    fidelity: str,
+    variants: Sequence[int],
+    seeds: Sequence[int],
+    first_look: int,
 ) -> Iterator[Failing]:
     """Failures of a run that is incomplete compared with its baseline.
 
@@ -58,6 +64,7 @@ def run_failings(
         fidelity: Its present fidelity.
         variants: Its present variants.
         seeds: All its present seeds.
+        first_look: Number of its present seeds at the first look.
     """
     if before is None:
         yield Failing(trouble=FailureCause.CHANGED_SCHEMA, text=f"run {name} is not in the baseline")
@@ -69,13 +76,16 @@ def run_failings(
     new = sorted(set(variants) - set(before.variants))
     for which, said in ((gone, "no longer tries"), (new, "newly tries")):
         if which:
-            numbers = ", ".join(map(str, which))
+            numbers = ", ".join(map(_number, which))
             trouble = FailureCause.FEWER_REPLICATES if which is gone else FailureCause.CHANGED_SCHEMA
             yield Failing(trouble=trouble, text=f"run {name} {said} variant{'s' if len(which) > 1 else ''} {numbers}")
     if len(seeds) < len(before.seeds):
         text = f"run {name} takes up to {len(seeds)} seeds; the baseline has {len(before.seeds)}"
         yield Failing(trouble=FailureCause.FEWER_REPLICATES, text=text)
-    elif tuple(seeds) != before.seeds:
+    elif first_look < before.first_look:
+        text = f"run {name} takes {first_look} seeds at the first look; the baseline took {before.first_look}"
+        yield Failing(trouble=FailureCause.FEWER_REPLICATES, text=text)
+    if len(seeds) >= len(before.seeds) and tuple(seeds) != before.seeds:
         text = f"run {name} takes other seeds than the baseline, which has {len(before.seeds)}"
         yield Failing(trouble=FailureCause.CHANGED_SCHEMA, text=text)
 
@@ -161,7 +171,7 @@ def decision_changes(
     if before.chosen != now.chosen:
         moves.append(("chosen", f"{_variant(before.chosen)} was chosen, now {_variant(now.chosen)}"))
     moves += [
-        (f"pareto {one}", f"variant {one} left the Pareto front") for one in before.pareto if one not in now.pareto
+        (f"pareto {one}", f"{_variant(one)} left the Pareto front") for one in before.pareto if one not in now.pareto
     ]
     moves += [
         (f"pareto {one}", f"variant {one} joined the Pareto front") for one in now.pareto if one not in before.pareto
@@ -192,4 +202,8 @@ def decision_changes(
 
 
 def _variant(number: int | None) -> str:
-    return "no variant" if number is None else f"variant {number}"
+    return "no variant" if number is None else f"variant {_number(number)}"
+
+
+def _number(variant: int) -> str:
+    return str(variant) if variant > 0 else f"{-variant} of the baseline"

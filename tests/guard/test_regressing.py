@@ -105,6 +105,11 @@ def test_a_trial_that_could_not_be_run(compared):
     ("old", "new", "said"),
     [
         ("cap: 12", "cap: 8", "fewer replicates: run planning takes up to 8 seeds; the baseline has 12"),
+        (
+            "replicates: 4, batch: 4, cap: 12",
+            "replicates: 3, batch: 4, cap: 12",
+            "fewer replicates: run planning takes 3 seeds at the first look; the baseline took 4",
+        ),
         ('"57,60"', '"57"', "fewer replicates: run planning no longer tries variant 60"),
         (
             "    - {metric: motion_time_s, better: lower, margin: 0.5 s}\n",

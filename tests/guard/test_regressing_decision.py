@@ -8,10 +8,11 @@ from dataclasses import replace
 import pytest
 
 from rgss.decision.choosing import choose
+from rgss.guard import compare_with_baseline, make_baseline
 from rgss.guard.decision import decision_of, explained_by_noise, measured_of
 from rgss.guard.runs import guard_of, watched_trials
 
-from .conftest import SECTION
+from .conftest import REASON, SECTION
 
 
 def troubles(report):
@@ -109,3 +110,33 @@ def test_noise_is_every_draw_of_the_seeds(project_of, record_of):
     assert {variant: explained[f"pareto {variant}"] for variant in on_front} == pytest.approx(
         {variant: count / 27 for variant, count in on_front.items()}
     )
+
+
+def with_last_level_first(project, factor):
+    """The project with the last level of a factor before the others, which numbers the designs anew."""
+    factors = tuple(
+        replace(one, levels=(one.levels[-1], *one.levels[:-1])) if one.id == factor else one
+        for one in project.designs.factors
+    )
+    return replace(project, designs=replace(project.designs, factors=factors))
+
+
+def test_designs_are_paired_by_their_levels(project_of, stores, runner):
+    """Variants 57 and 60 with the long planning time are 55 and 58 when that is the first level."""
+    first, now = stores(), stores()
+    baseline = make_baseline(project_of(), first, runner(first), before=None, reason=REASON)
+    section = SECTION.replace('"57,60"', '"55,58"').replace('"57"', '"55"')
+    report = compare_with_baseline(
+        with_last_level_first(project_of(section), "planning_time"), now, runner(now), baseline, label="b"
+    )
+    assert (report.verdict, report.failing, report.behaviour.changed) == ("same", (), ())
+    assert report.inputs == ()
+    assert report.notes == (
+        "designs have other numbers than in the baseline and are paired by their levels: 57 is 55, 60 is 58",
+    )
+
+    report = compare_with_baseline(
+        with_last_level_first(project_of(), "planning_time"), now, runner(now), baseline, label="b"
+    )
+    assert "fewer replicates: run planning no longer tries variants 55, 58" in troubles(report)
+    assert "changed schema: run planning newly tries variants 57, 60" in troubles(report)

@@ -10,15 +10,15 @@ from rgss.guard import schema as guard_schema
 from rgss.trials import METRICS, Aggregation, MetricDescriptor
 
 
-@pytest.mark.parametrize("schema", [3, 4])
+@pytest.mark.parametrize("schema", [3, 5])
 def test_a_metric_that_trials_newly_have_changes_nothing(compared, monkeypatch, schema):
     new = MetricDescriptor(name="noise_1", unit="1", meaning="noise", trial=Aggregation.GREATEST)
 
     def with_new(baseline):
         monkeypatch.setattr(guard_schema, "METRICS", {**METRICS, "noise_1": new})
-        return baseline if schema == 4 else replace(baseline, schema=3, phase_record={})
+        return baseline if schema == 5 else replace(baseline, schema=3, phase_record={})
 
-    report = compared(baseline_of=with_new, more_metrics={"noise_1": 0.5}, more_of_phases=schema == 4)
+    report = compared(baseline_of=with_new, more_metrics={"noise_1": 0.5}, more_of_phases=schema == 5)
 
     assert (report.verdict, report.failing) == ("same", ())
     assert report.notes == ("trials newly have noise_1, which the baseline does not guard",)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -73,7 +74,9 @@ def test_a_reason_is_text_whatever_it_holds(tmp_path, baseline):
         (b"", "the baseline b.json is not JSON: "),
         (b"\xff", "the baseline b.json is not UTF-8 (make it"),
         (b"[]", "b.json is not a baseline: it has no 'schema' (make it"),
-        (b'{"schema": 5}', "the baseline b.json has schema 5; 4 is read (make it"),
+        (b'{"schema": 6}', "the baseline b.json has schema 6; 2, 3, 4 and 5 are read (make it"),
+        (b'{"schema": 1}', "the baseline b.json has schema 1; 2, 3, 4 and 5 are read (make it"),
+        (b'{"schema": 5}', "b.json: baseline lacks 'study' (make it"),
         (b'{"schema": 4}', "b.json: baseline lacks 'study' (make it"),
         (b'{"schema": 2}', "b.json: baseline lacks 'study' (make it"),
         (b'{"schema": 2, "runs": 5, "origin": []}', "b.json: baseline lacks 'study' (make it"),
@@ -111,6 +114,27 @@ def test_one_of_schema_3_is_read_without_the_metrics_of_phases(file, baseline):
     found = read_baseline(file, label="b")
     assert found.has_values
     assert found == replace(baseline, schema=3, phase_record={})
+
+
+def test_one_of_schema_4_is_read_without_levels_and_first_look(file, baseline):
+    document = json.loads(file.read_text("ascii"))
+    for run in document["runs"].values():
+        del run["designs"], run["first_look"]
+    document["schema"] = 4
+    file.write_text(json.dumps(document), "ascii")
+    assert read_baseline(file, label="b") == replace(baseline, schema=4)
+
+
+def test_every_schema_that_is_read_is_on_the_page():
+    page = (Path(__file__).parents[2] / "docs" / "regression.md").read_text("utf-8")
+    *others, last = map(str, baseline_module.EARLIER_SCHEMAS)
+    assert f"Baselines of schemas {', '.join(others)} and {last} can still be compared" in " ".join(page.split())
+    assert f"A JSON text of schema {baseline_module.SCHEMA}, sorted" in page
+
+
+def test_a_byte_order_mark_is_no_part_of_it(file, baseline):
+    file.write_bytes(b"\xef\xbb\xbf" + file.read_bytes())
+    assert read_baseline(file, label="b") == baseline
 
 
 def test_a_folder_and_a_name_that_no_file_can_have(tmp_path):

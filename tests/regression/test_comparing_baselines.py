@@ -29,7 +29,8 @@ def test_nothing_changed(baseline):
     run = baseline.runs["planning"]
     assert texts(schema_failings(baseline, UNITS)) == []
     assert list(schema_notes(baseline, UNITS)) == []
-    assert texts(run_failings("planning", run, fidelity="kinematic", variants=(9, 10), seeds=(1, 2, 3))) == []
+    failings = run_failings("planning", run, fidelity="kinematic", variants=(9, 10), seeds=(1, 2, 3), first_look=2)
+    assert texts(failings) == []
 
 
 @pytest.mark.parametrize(
@@ -76,12 +77,23 @@ def test_a_metric_that_is_guarded_is_no_note(baseline):
     ],
 )
 def test_a_run_that_is_another(baseline, fidelity, variants, seeds, said):
-    failings = run_failings("r", baseline.runs["planning"], fidelity=fidelity, variants=variants, seeds=seeds)
+    failings = run_failings(
+        "r", baseline.runs["planning"], fidelity=fidelity, variants=variants, seeds=seeds, first_look=2
+    )
     assert texts(failings) == [said]
 
 
+@pytest.mark.parametrize(("before", "now", "fewer"), [(3, 2, True), (3, 3, False), (3, 4, False), (0, 2, False)])
+def test_fewer_seeds_at_the_first_look(baseline, before, now, fewer):
+    """With the same cap; 0 is a baseline of an earlier schema, which does not have the number."""
+    run = replace(baseline.runs["planning"], first_look=before)
+    failings = run_failings("r", run, fidelity="kinematic", variants=(9, 10), seeds=(1, 2, 3), first_look=now)
+    said = "fewer replicates: run r takes 2 seeds at the first look; the baseline took 3"
+    assert texts(failings) == [said] * fewer
+
+
 def test_a_run_that_is_new():
-    failings = run_failings("r", None, fidelity="contact", variants=(1,), seeds=(1, 2))
+    failings = run_failings("r", None, fidelity="contact", variants=(1,), seeds=(1, 2), first_look=2)
     assert texts(failings) == ["changed schema: run r is not in the baseline"]
 
 

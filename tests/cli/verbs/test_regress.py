@@ -173,7 +173,7 @@ def test_a_baseline_of_the_schema_before_is_compared_and_brought_up_to_date(rgss
     assert "note: the baseline was written by an earlier rgss and lacks the values of inputs" in told.output
     assert rgss("regress", "--project", folder, "--update", "--reason", "New schema.").status == 0
     document = json.loads((folder / BASELINE).read_text(encoding="ascii"))
-    assert document["schema"] == 4
+    assert document["schema"] == 5
     assert document["inputs"]["settings.control.firm_grasp_s"] == "0.05"
     assert "note:" not in rgss("regress", "--project", folder).output
 
