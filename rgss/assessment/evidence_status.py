@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 from rgss.assessment.measuring import VariantMeasures, requirements_with_criteria
 from rgss.assessment.recorded_verdicts import VerdictRecord, study_key
+from rgss.errors import DefinitionError
 from rgss.requirements import RequirementSet
 from rgss.studies import REQUIREMENTS, Project, named_sets, qualifier_of
 from rgss.trace.evidence import (
@@ -44,10 +45,13 @@ def evidence_state(
             which need not exist.
 
     Raises:
+        DefinitionError: There is a result of tests, but the project has no tests.
         EvidenceError: Files of tests or their result cannot be read.
     """
     folder = project.study.requirements
     marked = project_marks(project.folder, folder)
+    if junit is not None and marked is None:
+        raise DefinitionError("--junit is given, but the project has no tests", hint="omit it")
     return EvidenceState(
         trials=trial_verdicts(project, measured, recorded=recorded),
         software=None

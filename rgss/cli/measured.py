@@ -20,6 +20,7 @@ def measured_state(project: Project, junit: Path | None) -> tuple[Sequence[Varia
         junit: The result of the tests; None for the project's own.
 
     Raises:
+        DefinitionError: There is a result of tests, but the project has no tests.
         EvidenceError: The store cannot be read.
     """
     from rgss.assessment import evidence_state, read_record

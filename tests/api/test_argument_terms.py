@@ -24,6 +24,7 @@ ELSEWHERE = (
     "run 'rgss check ",
     "'rgss trade --time-limit' allows",
     "--case: ",
+    "--junit is given",
 )
 """Hints of verbs that the Python interface does not have, or for which it has its own."""
 

@@ -33,7 +33,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--evidence", action="store_true", help="check the stored evidence and the result of the tests too"
     )
     parser.add_argument(
-        "--junit", type=Path, metavar="FILE", help="the result of the tests (default: .rgss/junit.xml in the project)"
+        "--junit",
+        type=Path,
+        metavar="FILE",
+        help="read the result of the tests from FILE (default: .rgss/junit.xml in the project)",
     )
     parser.add_argument("--explain", nargs="?", const="", metavar="RULE", help="explain a rule, or list all of them")
     parser.add_argument("--markdown", action="store_true", help="with --explain: write the page of all rules")

@@ -12,7 +12,7 @@ from rgss.cli.options import add_evidence_choice, chosen_project
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from rgss.assessment import VariantMeasures, VerdictRecord
+    from rgss.assessment import VariantMeasures
     from rgss.decision.sensitivity import Tornado
     from rgss.reports import TrialPictures
     from rgss.reports.trace import TraceReport
@@ -57,13 +57,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--film-rate", type=float, metavar="N", help="frames a second of films (default: 8, or 5 if there are many)"
     )
     parser.add_argument(
-        "--junit", type=Path, metavar="FILE", help="the result of the tests (default: .rgss/junit.xml in the project)"
+        "--junit",
+        type=Path,
+        metavar="FILE",
+        help="read the result of the tests from FILE (default: .rgss/junit.xml in the project)",
     )
 
 
 def run(options: argparse.Namespace) -> int:
     """Write the page; 1 if no variant meets every requirement, or if a choice is not proven best."""
-    from rgss.assessment import read_record, require_complete
+    from rgss.assessment import evidence_state, read_record, require_complete
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import shown_path
     from rgss.cli.pictures import ordered_look, trial_pictures
@@ -91,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
             require_complete(measured)
         except EvidenceError as error:
             raise EvidenceError(error.message, hint=f"run '{_sweep_command(options)}' first") from None
-        state = _evidence_state(project, measured, recorded, options.junit)
+        state = evidence_state(project, measured, recorded=recorded, junit=options.junit)
         served = served_studies(project, store)
         made = decide_study(
             project,
@@ -183,18 +186,6 @@ def _sweep_command(options: argparse.Namespace) -> str:
         if value is not None:
             words += [f"--{name}", str(value)]
     return shlex.join(words)
-
-
-def _evidence_state(
-    project: Project, measured: Sequence[VariantMeasures], recorded: VerdictRecord, junit: Path | None
-) -> EvidenceState:
-    from rgss.assessment import evidence_state
-    from rgss.errors import DefinitionError
-
-    state = evidence_state(project, measured, recorded=recorded, junit=junit)
-    if junit is not None and state.software is None:
-        raise DefinitionError("--junit is given, but the project has no tests", hint="omit it")
-    return state
 
 
 def _trace(

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from rgss.cli.options import STUDY_HELP, add_fidelity, add_replicates, chosen_project
 from rgss.cli.trace_output import TABLES, deliver, ordered
-from rgss.errors import DefinitionError
 from rgss.reports.trace import TRACE_FORMATS
 
 if TYPE_CHECKING:
@@ -44,7 +43,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write a file, or files into a folder")
     parser.add_argument("--diagrams", type=Path, metavar="DIR", help="write the diagrams as SVG files into a folder")
     parser.add_argument(
-        "--junit", type=Path, metavar="FILE", help="the result of the tests (default: .rgss/junit.xml in the project)"
+        "--junit",
+        type=Path,
+        metavar="FILE",
+        help="read the result of the tests from FILE (default: .rgss/junit.xml in the project)",
     )
     parser.add_argument("--study", metavar="STUDY", help=STUDY_HELP)
     add_replicates(parser)
@@ -77,6 +79,4 @@ def _evidence(project: Project, options: argparse.Namespace) -> TraceEvidence:
     from rgss.decision import trace_evidence
 
     measured, state = measured_state(project, options.junit)
-    if options.junit is not None and state.software is None:
-        raise DefinitionError("--junit is given, but the project has no tests", hint="omit it")
     return trace_evidence(project, measured, state, variant=options.variant)

@@ -306,6 +306,14 @@ def test_a_record_of_verdicts_that_is_none(rgss, judged, verb):
     assert told.complaint.startswith("rgss: .rgss/verdicts.json is not a record of verdicts (remove it and run")
 
 
+def test_a_result_of_tests_needs_tests(rgss, folder):
+    """It is an input: it would be neither read nor written."""
+    told = rgss("check", "--evidence", "--junit", folder / "nowhere.xml", "--project", folder)
+
+    assert (told.status, told.output) == (2, "")
+    assert told.complaint == "rgss: --junit is given, but the project has no tests (omit it)"
+
+
 def test_a_hostile_test_result_is_refused_in_one_line(rgss, folder):
     (folder / "tests").mkdir()
     hostile = folder / "hostile.xml"
