@@ -93,7 +93,8 @@ finding has its place as `file:line:column`. A check never writes.
   `rgss check --all`.
 - **Settings.** `rules.yaml`, in the folder of the requirements, sets the severity of a rule, switches
   it off, or adds and removes terms that it searches for; each setting has a reason:
-  `rules: {wording.R19: {severity: info, reason: "…"}}`. A setting that changes nothing is a finding.
+  `rules: {wording.R19: {severity: info, reason: "…"}}`. A setting that changes nothing is a finding. An
+  added term is found as it is written; one in small letters also in capitals.
 - **Exemptions.** An element may break a rule for a stated reason:
   `exempt: [{rule: wording.R7, reason: "…"}]`. An exemption that exempts nothing is a finding.
 - **Evidence.** `rgss check --evidence` also compares the verdicts with the stored evidence, and the marks

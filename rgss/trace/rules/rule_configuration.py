@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import NamedTuple
 
 from rgss.findings import Severity
 from rgss.requirements import RequirementSet, RuleSetting, nearest
 from rgss.trace.rules.rule import ConfigurationRule, Rule, SentenceRule, Violation
-from rgss.trace.sentences import words_of
+from rgss.trace.sentences import is_literal, words_of
 
 UNKNOWN_EXEMPTION = ConfigurationRule(
     id="exempt.unknown-rule",
@@ -113,10 +113,15 @@ def _idle_terms(setting: RuleSetting, rule: Rule) -> Iterator[tuple[str, tuple[s
     own = {words_of(term) for term in rule.terms} if isinstance(rule, SentenceRule) else set()
     for index, term in enumerate(setting.terms_added):
         is_widened = isinstance(rule, SentenceRule) and term in rule.widened_by
-        if not takes_terms or not words_of(term):
+        if not takes_terms or not (is_literal(term) or (words_of(term) and not term.startswith("*"))):
             yield f"rule {rule.id!r} looks for no such terms", ("terms_added", index)
-        elif words_of(term) in own and not is_widened:
+        elif _is_own(term, own) and not is_widened:
             yield f"rule {rule.id!r} has the term {term!r} already", ("terms_added", index)
     for index, term in enumerate(setting.terms_removed):
         if words_of(term) not in own:
             yield f"rule {rule.id!r} does not have the term {term!r}", ("terms_removed", index)
+
+
+def _is_own(term: str, own: Collection[tuple[str, ...]]) -> bool:
+    """True if a rule has the words of a term, whatever their capitals; a character beside them makes it another."""
+    return words_of(term) in own and not is_literal(term.lower())

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from rgss.trace.sentences.comparison_phrases import LOWER_BEFORE, LOWER_BEHIND, UPPER_BEFORE, UPPER_BEHIND
     from rgss.trace.sentences.quantities import TextQuantity, quantities_in
     from rgss.trace.sentences.sentences import Sentence, read_sentence, response_start, words_of
-    from rgss.trace.sentences.terms import Match, TermList, listed, phrases
+    from rgss.trace.sentences.terms import Match, TermList, is_literal, listed, phrases
     from rgss.trace.sentences.units import is_unit
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -87,6 +87,19 @@ OPENINGS: Mapping[tuple[str, ...], ClauseKind] = MappingProxyType(
 )
 """Every phrase that opens a condition, by its words."""
 
+_NEGATED: Mapping[str, ClauseKind] = MappingProxyType(
+    {
+        "before": ClauseKind.STATE,
+        "except": ClauseKind.OPTION,
+        "immediately before": ClauseKind.STATE,
+        "prior to": ClauseKind.STATE,
+        "unless": ClauseKind.UNWANTED,
+        "until": ClauseKind.STATE,
+        "without": ClauseKind.STATE,
+    }
+)
+"""Phrases that hold as long as what follows does not, with the keyword of EARS for its negation."""
+
 CLAUSE_WORDS = frozenset(KEYWORDS) | {
     "after",
     "before",
@@ -100,6 +113,12 @@ CLAUSE_WORDS = frozenset(KEYWORDS) | {
     "whilst",
 }
 """Words that open a further condition behind a comma; the others may stand in the midst of one."""
+
+
+def ears_words(opening: tuple[str, ...]) -> str:
+    """Words of EARS with the meaning of an opening phrase, such as ``When``, or ``If … not`` for ``unless``."""
+    negated = _NEGATED.get(" ".join(opening))
+    return OPENINGS[opening].value.capitalize() if negated is None else f"{negated.value.capitalize()} … not"
 
 
 def opening_of(words: tuple[str, ...]) -> tuple[str, ...]:

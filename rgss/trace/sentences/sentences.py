@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
 
-from rgss.trace.sentences.condition_words import CLAUSE_WORDS, KEYWORDS, OPENINGS, ClauseKind, opening_of
+from rgss.trace.sentences.condition_words import CLAUSE_WORDS, KEYWORDS, OPENINGS, ClauseKind, ears_words, opening_of
 from rgss.trace.sentences.quantities import TextQuantity, quantities_in
+from rgss.trace.sentences.trailing_conditions import trailing_condition
 
 _TOKEN = re.compile(r"[^\W_]+(?:['’\-][^\W_]+)*")
-_THEN = re.compile(r"(?P<condition>if\b.*\S)\s+(?P<rest>then\b.*)", re.IGNORECASE)
 # "shall: a) stop; b) open", whose verbs are in the list.
 _LIST_MARK = re.compile(r"[:\s]*(?:[-•*]|\(?(?:[a-z]|[ivx]+|\d+)[).])\s+", re.IGNORECASE)
 _SHALL = re.compile(r"\bshall\b", re.IGNORECASE)
@@ -26,6 +26,7 @@ _SENTENCE_END = re.compile(
     r"[.!?](?<!\be\.g\.)(?<!\bi\.e\.)(?<!\betc\.)(?<!\bNo\.)(?<!\bFig\.)(?<![A-Z]\.)\s+(?=[A-Z\"“])"
 )
 _OTHER_MODALS = frozenset({"should", "must", "will", "may", "might", "can", "could", "would"})
+_NO_SUBJECTS = frozenset({"a", "an", "and", "any", "each", "every", "or", "the", "then", "there"})
 _NO_VERBS = re.compile(r"a|an|the|of|to|in|on|at|by|with|for|from|and|or|each|its|their")
 
 
@@ -126,7 +127,7 @@ def read_sentence(text: str) -> Sentence:
     if not shalls:
         flaw = _without_shall(tokens)
     elif not flaw:
-        flaw = _flaw_of_response(response)
+        flaw = _flaw_of_response(response) or _flaw_of_conditions(tokens, shalls)
     return Sentence(
         text=flat,
         tokens=tokens,
@@ -175,15 +176,11 @@ def response_start(text: str) -> int:
 def _parts(before: str) -> tuple[tuple[Clause, ...], str, str, str]:
     """Conditions and subject before ``shall``, their flaw, and their departure from EARS."""
     *lead, last = [part.strip() for part in before.split(",")]
-    divided = _THEN.fullmatch(last) if not lead else None
-    if divided is not None:
-        # As unambiguous as a comma.
-        lead, last = [divided["condition"]], divided["rest"]
     if not lead:
         opening = _first_word(last)
         if opening in KEYWORDS:
             return (), "", f"begins with {opening.capitalize()!r}, but has no comma between condition and subject", ""
-        return (), last, "" if last and last.lower() != "there" else "has no subject before 'shall'", ""
+        return (), last, "" if _is_subject(last) else "has no subject before 'shall'", ""
     if not _opening(lead[0]):
         return (), before.strip(), "", ""
     clauses: list[list[str]] = []
@@ -196,7 +193,7 @@ def _parts(before: str) -> tuple[tuple[Clause, ...], str, str, str]:
     subject, has_then = (last[4:].strip(), True) if _first_word(last) == "then" else (last, False)
     if _first_word(subject) in CLAUSE_WORDS:
         return conditions, "", "has no comma between its last condition and its subject", ""
-    if not subject:
+    if not _is_subject(subject):
         return conditions, "", "has no subject before 'shall'", ""
     return conditions, subject, "", _departure([_opening(each[0]) for each in clauses], has_then=has_then)
 
@@ -209,8 +206,7 @@ def _opening(part: str) -> tuple[str, ...]:
 def _departure(openings: list[tuple[str, ...]], *, has_then: bool) -> str:
     foreign = next((opening for opening in openings if opening[0] not in KEYWORDS), None)
     if foreign is not None:
-        said, keyword = " ".join(foreign).capitalize(), OPENINGS[foreign].value.capitalize()
-        return f"begins a condition with {said!r}, for which EARS has {keyword!r}"
+        return f"begins a condition with {' '.join(foreign).capitalize()!r}, for which EARS has {ears_words(foreign)!r}"
     return "says 'if' without 'then'" if ("if",) in openings and not has_then else ""
 
 
@@ -230,6 +226,18 @@ def _flaw_of_response(response: str) -> str:
     if not first:
         return "says nothing after 'shall'"
     return f"has no verb after 'shall', but {first!r}" if _NO_VERBS.fullmatch(first) else ""
+
+
+def _flaw_of_conditions(tokens: tuple[Token, ...], shalls: tuple[int, ...]) -> str:
+    # A second 'shall' makes two statements of the sentence, of which another rule says so.
+    words = [token.word for token in tokens if token.start >= shalls[0]] if len(shalls) == 1 else []
+    opening = trailing_condition(words)
+    return f"has a condition behind its response, with {opening!r}" if opening else ""
+
+
+def _is_subject(text: str) -> bool:
+    """True if a text names something; an article alone does not."""
+    return any(match[0].lower() not in _NO_SUBJECTS for match in _TOKEN.finditer(text))
 
 
 def _first_word(text: str) -> str:

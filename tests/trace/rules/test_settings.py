@@ -7,6 +7,7 @@ import pytest
 from rgss.findings import Severity
 from rgss.measures import Verdict
 from rgss.trace.evidence.evidence_state import EvidenceState, TrialVerdicts
+from rgss.trace.sentences import TermList, read_sentence
 
 VAGUE = "The gripper shall lift several cups of at least 0.8 kg."
 
@@ -39,6 +40,46 @@ def test_terms_are_added(project):
     (finding,) = project.findings()
 
     assert "'SYS-1' says 'at least', which is vague" in finding
+
+
+@pytest.mark.parametrize(
+    ("term", "text", "found"),
+    [
+        ("[a-", "lift a cup", False),
+        ("[a-", "lift a cup in [a-z]", True),
+        ("(", "lift (and hold) a cup", True),
+        ("(", "lift a cup", False),
+        ("c++", "run C++", True),
+        ("c++", "run c", False),
+        ("e.t.", "lift eat", False),
+        (".*", "lift a cup", False),
+        ("%", "lift 5 % of the mass", True),
+        ("Cup", "lift a Cup", True),
+        ("Cup", "lift a cup", False),
+        ("CUP", "lift a CUP", True),
+        ("CUP", "lift a cup", False),
+        ("cup", "lift a Cup", True),
+        ("A", "lift a cup", False),
+        ("A", "lift plan A", True),
+        ("Easy to *", "be Easy to lift", True),
+        ("Easy to *", "be easy to lift", False),
+    ],
+)
+def test_terms_that_are_added_match_letter_by_letter(term, text, found):
+    """Also where they are characters of regular expressions; small letters are found in any capitals."""
+    sentence = read_sentence(f"The gripper shall {text}")
+    terms = TermList((), added=[term])
+    assert [match.term for match in terms.find(sentence, start=sentence.response_start)] == [term] * found
+    assert terms.is_absent(sentence) is not found
+    assert all(0 <= one.first < one.after <= len(sentence.tokens) for one in terms.find(sentence))
+
+
+def test_a_symbol_is_a_term_of_every_rule_with_terms(project):
+    """Rules look at the words around a match: at the end of a sentence there are none."""
+    project.edit("system.yaml", "lift at least 0.8 kg", "lift at least 0.8 kg &")
+    for number in (7, 8, 16, 19, 24, 26, 35):
+        project.append("rules.yaml", setting(f"wording.R{number}: {{terms_added: ['&'], reason: R}}"))
+    assert set(project.rules()) == {f"wording.R{number}" for number in (7, 8, 16, 19, 24, 26, 35)}
 
 
 def test_terms_are_removed(vague):
@@ -123,7 +164,8 @@ def test_an_exemption_from_a_rule_of_evidence_is_judged_with_evidence(project):
         ("trace.cycle: {enabled: false, reason: R}", "trace.cycle", "error: rule 'trace.cycle' cannot be set"),
         ("wording.R7: {severity: error, reason: R}", "error", "warning: the severity of 'wording.R7' is error anyway"),
         ("wording.R7: {terms_added: [Several], reason: R}", "Several", "warning: rule 'wording.R7' has the term 'S"),
-        ("wording.R7: {terms_added: ['&'], reason: R}", "'&'", "warning: rule 'wording.R7' looks for no such terms"),
+        ("wording.R7: {terms_added: ['*'], reason: R}", "'*'", "warning: rule 'wording.R7' looks for no such terms"),
+        ("wording.R7: {terms_added: ['* go'], reason: R}", "'* go'", "warning: rule 'wording.R7' looks for no such t"),
         ("wording.R7: {terms_removed: [red], reason: R}", "red", "warning: rule 'wording.R7' does not have the te"),
         ("wording.R17: {terms_added: [red], reason: R}", "red", "warning: rule 'wording.R17' looks for no such terms"),
         ("trace.orphan: {terms_added: [red], reason: R}", "red", "warning: rule 'trace.orphan' looks for no such t"),

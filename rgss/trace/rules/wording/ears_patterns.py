@@ -31,7 +31,9 @@ RULES: tuple[SentenceRule, ...] = (
         explanation=(
             "A requirement has a pattern of EARS: it says who shall do what, after the conditions under which "
             "that holds, each with a comma behind it. A reader then finds the same part at the same place in "
-            "every requirement. Words that mean the same as a keyword of EARS, such as 'Upon', count as it."
+            "every requirement. Words that mean the same as a keyword of EARS, such as 'Upon', count as it. "
+            "A condition with 'when', 'while', 'if' or 'unless' behind the response breaks the rule too; one with "
+            "'where' does not, since it may refer to a noun."
         ),
         find=_pattern,
         breaking=(
@@ -40,6 +42,12 @@ RULES: tuple[SentenceRule, ...] = (
             "If the cup slips the gripper shall close.",
             "When the cup slips the gripper shall close.",
             "There shall be three fingers.",
+            "The shall stop.",
+            "When a cup is seen, the shall stop.",
+            "If the cup slips then the gripper shall close.",
+            "The gripper shall open when the cup is placed.",
+            "The gripper shall open only if the cup is placed.",
+            "The arm shall keep the cup upright while it moves.",
         ),
         passing=(
             "When a cup is ordered, the RGSS shall serve the cup within 25 s.",
@@ -49,6 +57,9 @@ RULES: tuple[SentenceRule, ...] = (
             "If the planning time reaches the limit, then the planner shall end the search.",
             "When the door opens, the controller shall cut the power of the heater.",
             "On a stop command, the controller shall enter the SAFE state.",
+            "The cell shall record when the door opens.",
+            "The display shall indicate if the door is open.",
+            "The arm shall reach the place where the cup is.",
         ),
     ),
     SentenceRule(
@@ -64,6 +75,7 @@ RULES: tuple[SentenceRule, ...] = (
             "Upon arrival, the gripper shall close.",
             "If the cup slips, the gripper shall close.",
             "For each cup, the gripper shall close.",
+            "Unless the cup slips, the gripper shall close.",
         ),
         passing=("While the aircraft is on the ground, the control unit shall inhibit the thrust reverser lock.",),
     ),

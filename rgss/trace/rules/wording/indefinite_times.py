@@ -31,6 +31,18 @@ INDEFINITE_TIMES = (
 )
 """Clauses to escape by (R8) may contain one of these; the sentence then breaks this rule alone."""
 _END_OR_PURPOSE = re.compile(r"\s+(?:for|to)\b|\s*[.,;:]|\s*$")
+# "50 mm before the table" and "before the shelf" are places, where no verb follows: "before the shelf moves".
+_LENGTH_BEFORE = re.compile(r"\d\s?(?:[mcdµ]?m|metres?|meters?|inch(?:es)?|in|feet|ft)\s+$")
+_PLACES = (
+    "barrier|basket|belt|bin|border|bottle|boundary|box|cabinet|camera|chair|container|conveyor|counter|cup|curtain|"
+    "desk|door|edge|end stop|fence|fixture|gate|gripper|guard|line|machine|mug|object|obstacle|pallet|person|place|"
+    "plate|post|rack|robot|scanner|screen|shelf|station|surface|table|target|tool|tray|wall|window|workpiece|zone"
+)
+_PLACE_AFTER = re.compile(
+    rf"\s+(?:an?|any|each|every|its|the)\s+(?:[a-z-]+\s+)??(?:{_PLACES})"
+    r"(?=\s*(?:[.,;:)]|$)|\s+(?:and|at|by|for|in|of|on|or|to|when|while|with|within)\b)",
+    re.IGNORECASE,
+)
 _TIME_GIVEN = re.compile(r"\d\s?(?:ns|us|µs|ms|s|sec|seconds?|min|minutes?|h|hours?|d|days?)\b")
 
 
@@ -41,18 +53,21 @@ def _indefinite_time(sentence: Sentence, terms: TermList, _: Worded) -> Iterator
     found = listed(
         match
         for match in terms.find(sentence, start=sentence.response_start)
-        if not (is_timed and match.term in _SEQUENCE_WORDS) and not _is_rate_or_name(sentence, match)
+        if not (is_timed and match.term in _SEQUENCE_WORDS) and not _is_no_time(sentence, match)
     )
     if found:
         yield Flaw(message=f"says {found}, which sets no time", hint="say within which time of which event")
 
 
-def _is_rate_or_name(sentence: Sentence, match: Match) -> bool:
-    """'once per day' is a rate, and 'a point in time' and 'in time services' are things."""
+def _is_no_time(sentence: Sentence, match: Match) -> bool:
+    """'once per day' is a rate, 'before the shelf' a place, 'a point in time' and 'in time services' are things."""
     tokens = sentence.tokens
     if match.term == "once":
         return match.after < len(tokens) and tokens[match.after].word in ("a", "again", "daily", "each", "every", "per")
     end = tokens[match.after - 1].end
+    if match.term == "before":
+        is_distance = _LENGTH_BEFORE.search(sentence.text, 0, tokens[match.first].start) is not None
+        return is_distance or _PLACE_AFTER.match(sentence.text, end) is not None
     is_point = match.first > 0 and tokens[match.first - 1].word in ("point", "points")
     return match.term == "in time" and (is_point or _END_OR_PURPOSE.match(sentence.text, end) is None)
 
@@ -63,7 +78,8 @@ RULES: tuple[SentenceRule, ...] = (
         severity=Severity.WARNING,
         explanation=(
             "A requirement sets its times by numbers. Words of sequence, such as 'after', are allowed where the "
-            "response states a time."
+            "response states a time, and 'before' where it is of a place: behind a length, or before a thing such as "
+            "'the shelf'."
         ),
         find=_indefinite_time,
         terms=INDEFINITE_TIMES,
@@ -79,11 +95,16 @@ RULES: tuple[SentenceRule, ...] = (
             "The arm shall stop in time.",
             "The arm shall stop once the cup is placed.",
             "The arm shall stop a.s.a.p. when told.",
+            "The arm shall stop before the shelf moves.",
+            "The arm shall stop before the alarm.",
+            "The arm shall stop before placing the cup.",
             "The arm shall stop in a timely fashion.",
         ),
         passing=(
             "The arm shall stop within 2 s after the alarm.",
             "The cell shall report once per day.",
+            "The arm shall stop before the shelf.",
+            "The arm shall stop at least 50 mm before the end of travel.",
             "The cell shall report the counters in Time Services telemetry.",
         ),
     ),

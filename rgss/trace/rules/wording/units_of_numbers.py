@@ -28,7 +28,10 @@ FUNCTION_WORDS = frozenset(
     )
 )
 # "between 3 and 5 kg", "3 to 5 kg", "2, 4 or 6 kg", "2 × 3 m": the unit stands behind the last number.
-_RANGE = re.compile(r"\s*(?:,|to\b|and\b|or\b|through\b|–|-|×|x\b|±|\+/-|:|/|\*|~|\.{3}|…)\s*[+-]?\d", re.IGNORECASE)
+# "95 of 100 cups", where what is counted stands there too.
+_RANGE = re.compile(
+    r"\s*(?:,|(?:out\s+)?of\b|to\b|and\b|or\b|through\b|–|-|×|x\b|±|\+/-|:|/|\*|~|\.{3}|…)\s*[+-]?\d", re.IGNORECASE
+)
 # What a quantity stands behind. Behind another word a number is a name: station 3, joint 6, ISO 9001, SYS-012.
 _INTRODUCTIONS = frozenset(
     words_of(
@@ -36,31 +39,55 @@ _INTRODUCTIONS = frozenset(
         "exceeds from is least maximum minimum most of over than to under was weigh weighs with within"
     )
 )
+_SHARE = re.compile(r"\d\s+(?:out\s+)?of\s+$")
+# "3 of the cups" is a count of them.
+_PART = re.compile(r"\s+of\s+(?:the|its|their|all|these|those)\s+(?P<word>[A-Za-z][A-Za-z-]*)")
+_ONES = "two|three|four|five|six|seven|eight|nine"
+_TEENS = "ten|eleven|twelve|thirteen|fourteen|fifteen|sixteen|seventeen|eighteen|nineteen"
+_TENS = "twenty|thirty|forty|fifty|sixty|seventy|eighty|ninety"
+_LARGE = "hundred|thousand|million|billion|dozen"
+# "one" is a pronoun more often than a number.
+_NUMBER_WORD = f"(?:{_ONES}|{_TEENS}|{_TENS}|{_LARGE})"
+_IN_WORDS = re.compile(
+    rf"\b(?:an?\s+(?={_LARGE}))?{_NUMBER_WORD}(?:(?:[\s-]|\s+and\s+)(?:one|{_NUMBER_WORD}))*\b", re.IGNORECASE
+)
 _YEAR = re.compile(r"(?:19|20)\d\d")
 
 
 def _without_unit(sentence: Sentence, terms: TermList, element: Worded) -> Iterator[Flaw]:
     bare = [
-        quantity
+        (quantity.start, quantity.text)
         for quantity in sentence.quantities
-        if quantity.unit == "1" and not _needs_no_unit(sentence, quantity, element)
+        if quantity.unit == "1"
+        and not _is_threshold(quantity, element)
+        and not _needs_no_unit(sentence, quantity.start, quantity.end)
+    ]
+    bare += [
+        (found.start(), found[0])
+        for found in _IN_WORDS.finditer(sentence.text)
+        if not _needs_no_unit(sentence, *found.span())
     ]
     if bare and not any(terms.find(sentence)):
-        numbers = ", ".join(repr(quantity.text) for quantity in bare)
+        numbers = ", ".join(repr(text) for _, text in sorted(bare))
         yield Flaw(message=f"has the number {numbers} without a unit", hint="give the unit, or say what is counted")
 
 
-def _needs_no_unit(sentence: Sentence, quantity: TextQuantity, element: Worded) -> bool:
-    if _RANGE.match(sentence.text, quantity.end) or _YEAR.fullmatch(quantity.text):
+def _needs_no_unit(sentence: Sentence, start: int, end: int) -> bool:
+    """True if a number from one place of a sentence to another is a name, counts something, or is a part of one."""
+    text = sentence.text
+    if _RANGE.match(text, end) or _YEAR.fullmatch(text, start, end) or _PART.match(text, end):
         return True
-    count = bisect_right(sentence.tokens, quantity.start, key=lambda token: token.end)
-    if count:
+    count = bisect_right(sentence.tokens, start, key=lambda token: token.end)
+    if count and _SHARE.search(text, 0, start) is None:
         before = sentence.tokens[count - 1]
         if before.start != sentence.response_start + 1 and before.word not in _INTRODUCTIONS:
             return True
-    counted = _COUNTED.match(sentence.text, quantity.end)
-    if counted is not None and counted["word"].lower() not in FUNCTION_WORDS:
-        return True
+    counted = _COUNTED.match(text, end)
+    return counted is not None and counted["word"].lower() not in FUNCTION_WORDS
+
+
+def _is_threshold(quantity: TextQuantity, element: Worded) -> bool:
+    """True if a pure number is the threshold of the requirement's criterion."""
     criterion = element.criterion if isinstance(element, Requirement) else None
     if criterion is None or criterion.unit != "1":
         return False
@@ -84,11 +111,20 @@ RULES: tuple[SentenceRule, ...] = (
             "The arm shall stop within 0.5.",
             "When the load exceeds 3, the arm shall stop.",
             "The table shall have a height of 0.74 for each guest.",
+            "The RGSS shall serve at least 95 of 100.",
+            "The RGSS shall succeed in 95 out of 100.",
+            "The gripper shall weigh at most ten.",
+            "The arm shall stop in less than twenty-five.",
         ),
         passing=(
             "The cell shall fit on a table of at most 2 × 3 m.",
             "The gripper shall weigh at most 3 kg.",
             "The gripper shall have 3 fingers.",
+            "The gripper shall have at least three fingers.",
+            "The arm shall stop in less than ten seconds.",
+            "The RGSS shall serve at least 95 of 100 cups.",
+            "The gripper shall hold at most two of the cups.",
+            "The gripper shall hold at most 3 of the cups.",
             "The gripper shall endure at least 10^6 cycles.",
             "The gripper shall endure at least 10⁶ cycles.",
             "The gripper shall run for at least 10 000 h.",
