@@ -96,6 +96,13 @@ def _run(arguments: Sequence[str] | None) -> int:
         # The reader of the output has closed the pipe, which is no error.
         _discard_output()
         return CLEAN
+    except UnicodeEncodeError as error:
+        if sys.stdout is None or error.encoding != sys.stdout.encoding:
+            raise
+        character = ascii(error.object[error.start])
+        hint = "write it to a file, or set PYTHONIOENCODING=utf-8"
+        _print_error(f"rgss: the output has the character {character}, which {error.encoding} lacks ({hint})")
+        return RUN_FAILED
     except OSError as error:
         _discard_output()
         # An error of a file has its name; an error of standard output has none.

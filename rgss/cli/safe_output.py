@@ -1,7 +1,11 @@
-"""Standard output and error with terminal control characters escaped; all output of a verb passes through here."""
+"""Standard output and error, through which all output of a verb passes.
+
+Terminal control characters are escaped, and so is what the encoding of the stream cannot express.
+"""
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,8 +21,13 @@ class SafeStream:
         self.own = stream
 
     def write(self, text: str) -> int:
-        """Write text with terminal control characters escaped."""
-        self.own.write(escaped_for_json(text) if has_control_characters(text) else text)
+        """Write text with terminal control characters escaped, and characters that the encoding lacks."""
+        safe = escaped_for_json(text) if has_control_characters(text) else text
+        try:
+            self.own.write(safe)
+        except UnicodeEncodeError as error:
+            # Nothing was written: the stream encodes a text as a whole.
+            self.own.write("".join(_expressed(character, error.encoding) for character in safe))
         return len(text)
 
     def writelines(self, lines: Iterator[str]) -> None:
@@ -28,6 +37,14 @@ class SafeStream:
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self.own, name)
+
+
+def _expressed(character: str, encoding: str) -> str:
+    try:
+        character.encode(encoding)
+    except UnicodeEncodeError:
+        return json.dumps(character)[1:-1]  # an escape of JSON, so that printed JSON keeps its meaning
+    return character
 
 
 @contextmanager
@@ -52,6 +69,9 @@ def own_stream(stream: TextIO) -> TextIO:
 
 
 def data_stream() -> TextIO:
-    """Stream for the content of a file on standard output: unchanged, except on a terminal."""
+    """Stream for the content of a file on standard output: unchanged, except on a terminal.
+
+    Text that the encoding cannot express raises a `UnicodeEncodeError`: an escape would be other content.
+    """
     own = own_stream(sys.stdout)
     return cast("TextIO", SafeStream(own)) if sys.stdout.isatty() else own

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -104,7 +105,9 @@ def deliver(order: TraceOrder, report: TraceReport, found: Chain | Impact | None
         )
     elif order.prints:
         ((_, content),) = _contents(order, report, found).items()
-        data_stream().write(content.decode("utf-8-sig"))
+        # An escape in a JSON document keeps its meaning.
+        stream = sys.stdout if order.file_format.name == "json" else data_stream()
+        stream.write(content.decode("utf-8-sig"))
     elif order.output is not None:
         _write(order, _contents(order, report, found))
     if order.diagrams is not None:

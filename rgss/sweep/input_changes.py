@@ -26,18 +26,19 @@ class Change:
 
 
 def changes_between(then: Any, now: Any) -> tuple[Change, ...]:
-    """Every value that differs, by its dotted name, in the order of the values.
+    """Every value that differs, by its dotted name, in the order of the values, and then every list in another order.
 
     Args:
         then: Plain data: mappings, lists, texts, numbers.
         now: The same as it is now.
     """
     before, after = values_by_name(then), values_by_name(now)
-    return tuple(
+    values = (
         Change(name=name, then=before.get(name, ABSENT), now=after.get(name, ABSENT))
         for name in dict.fromkeys([*before, *after])
         if before.get(name) != after.get(name)
     )
+    return (*values, *_reordered(then, now, ""))
 
 
 def values_by_name(value: Any) -> dict[str, str]:
@@ -49,12 +50,38 @@ def values_by_name(value: Any) -> dict[str, str]:
     return dict(_leaves(value, ""))
 
 
+def _reordered(then: Any, now: Any, name: str) -> Iterator[Change]:
+    """Lists of the same named entries in another order, each with the entries whose position changed."""
+    if isinstance(then, Mapping) and isinstance(now, Mapping):
+        for key in then:
+            if key in now:
+                yield from _reordered(then[key], now[key], f"{name}.{key}" if name else str(key))
+    elif _is_list(then) and _is_list(now):
+        before, after = _by_title(then), _by_title(now)
+        if before.keys() == after.keys():
+            moved = [pair for pair in zip(before, after, strict=True) if pair[0] != pair[1]]
+            if moved:
+                was, is_now = (", ".join(titles) for titles in zip(*moved, strict=True))
+                yield Change(name=f"order of {name}", then=was, now=is_now)
+        for title in before:
+            if title in after:
+                yield from _reordered(before[title], after[title], f"{name}[{title}]")
+
+
+def _is_list(value: Any) -> bool:
+    return isinstance(value, Sequence) and not isinstance(value, str)
+
+
+def _by_title(items: Sequence[Any]) -> dict[str, Any]:
+    return {_title(item, index): item for index, item in enumerate(items)}
+
+
 def _leaves(value: Any, name: str) -> Iterator[tuple[str, str]]:
     """Leaves of nested data by path; empty containers are leaves too."""
     if value and isinstance(value, Mapping):
         for key, item in value.items():
             yield from _leaves(item, f"{name}.{key}" if name else str(key))
-    elif value and isinstance(value, Sequence) and not isinstance(value, str):
+    elif value and _is_list(value):
         for index, item in enumerate(value):
             yield from _leaves(item, f"{name}[{_title(item, index)}]")
     else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import io
 import json
 import sys
 from pathlib import Path
@@ -72,6 +73,52 @@ def test_the_content_of_a_file_is_as_it_is_but_on_a_terminal(capsys, monkeypatch
         monkeypatch.setattr(own_stream(sys.stdout), "isatty", lambda: True)
         data_stream().write(HOSTILE)
         assert not has_control_characters(capsys.readouterr().out)
+
+
+@pytest.fixture
+def in_ascii(monkeypatch):
+    """Calls something with standard output in ASCII, as in the locale C; returns its result and the output."""
+
+    def call(function):
+        stream = io.TextIOWrapper(io.BytesIO(), encoding="ascii", write_through=True)
+        with monkeypatch.context() as patched:
+            patched.setattr(sys, "stdout", stream)
+            result = function()
+        return result, stream.detach().getvalue().decode("ascii")
+
+    return call
+
+
+def test_what_the_encoding_lacks_is_escaped(verb, in_ascii):
+    def handler(options):
+        sys.stdout.write(json.dumps({"detail": f"a{HOSTILE}…µ"}, ensure_ascii=False))
+        return 0
+
+    status, output = in_ascii(lambda: verb(handler))
+    assert status == 0
+    assert json.loads(output) == {"detail": f"a{HOSTILE}…µ"}
+
+
+@pytest.mark.parametrize("words", [["--help"], *([name, "--help"] for name in main_module.VERBS)])
+def test_help_is_printed_in_ascii(words, in_ascii):
+    def ask():
+        with pytest.raises(SystemExit) as left:
+            main(words)
+        return left.value.code
+
+    status, output = in_ascii(ask)
+    assert status == 0
+    assert "usage: rgss" in output
+
+
+def test_the_content_of_a_file_is_not_changed_for_an_encoding(verb, in_ascii, capsys):
+    def handler(options):
+        data_stream().write("5 × 3")
+        return 0
+
+    assert in_ascii(lambda: verb(handler)) == (3, "")
+    said = "the output has the character '\\xd7', which ascii lacks (write it to a file, or set PYTHONIOENCODING=utf-8)"
+    assert capsys.readouterr().err == f"rgss: {said}\n"
 
 
 def test_no_verb_goes_round_it():

@@ -34,6 +34,16 @@ from rgss.sweep.input_changes import Change, changes_between
             {"joints": [{"name": "elbow", "speed": 2.0}]},
             [("joints[elbow].speed", "3.0", "2.0")],
         ),
+        (
+            {"scene": {"bodies": [{"id": "floor", "s": 1}, {"id": "post", "s": 2}, {"id": "table", "s": 3}]}},
+            {"scene": {"bodies": [{"id": "post", "s": 2}, {"id": "floor", "s": 1}, {"id": "table", "s": 3}]}},
+            [("order of scene.bodies", "floor, post", "post, floor")],
+        ),
+        (
+            [{"id": "arm", "joints": [{"name": "a", "s": 1}, {"name": "b", "s": 1}]}],
+            [{"id": "arm", "joints": [{"name": "b", "s": 1}, {"name": "a", "s": 2}]}],
+            [("[arm].joints[a].s", "1", "2"), ("order of [arm].joints", "a, b", "b, a")],
+        ),
         (1, 2, [("", "1", "2")]),
     ],
 )
