@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
+from collections.abc import Iterable
 from contextlib import ContextDecorator
 from types import TracebackType
 
@@ -21,6 +22,9 @@ TERMS = (
     ("--what-if:", "what_if:"),
 )
 """Phrases of the command line and their replacements, applied in order."""
+
+
+_LONGEST_SHOWN = 60
 
 
 class ErrorsNameArguments(ContextDecorator):
@@ -66,7 +70,7 @@ def whole_argument(name: str, number: object, *, hint: str) -> int:
             return operator.index(number)  # type: ignore[arg-type]
         except TypeError:
             pass
-    raise DefinitionError(f"{name} must be a whole number, got {number!r}", hint=hint)
+    raise DefinitionError(f"{name} must be a whole number, got {_shown(number)}", hint=hint)
 
 
 def number_argument(name: str, number: object, *, hint: str) -> float:
@@ -85,5 +89,43 @@ def number_argument(name: str, number: object, *, hint: str) -> float:
     except (TypeError, ValueError):
         found = math.nan
     if not math.isfinite(found):
-        raise DefinitionError(f"{name} must be a finite number, got {number!r}", hint=hint)
+        raise DefinitionError(f"{name} must be a finite number, got {_shown(number)}", hint=hint)
     return found
+
+
+def text_argument(name: str, text: object, *, hint: str) -> str:
+    """Text of an argument.
+
+    Args:
+        name: Name of the argument.
+        text: Its value.
+        hint: What to give.
+
+    Raises:
+        DefinitionError: It is no text.
+    """
+    if isinstance(text, str):
+        return text
+    raise DefinitionError(f"{name} must be a text, got {_shown(text)}", hint=hint)
+
+
+def texts_argument(name: str, texts: object, *, hint: str) -> tuple[str, ...]:
+    """Texts of an argument that is a list of them.
+
+    Args:
+        name: Name of the argument.
+        texts: Its value.
+        hint: What to give.
+
+    Raises:
+        DefinitionError: It is no list, a text alone included, or an entry is no text.
+    """
+    if isinstance(texts, str) or not isinstance(texts, Iterable):
+        raise DefinitionError(f"{name} must be a list of texts, got {_shown(texts)}", hint=hint)
+    return tuple(text_argument(f"an entry of {name}", text, hint=hint) for text in texts)
+
+
+def _shown(value: object) -> str:
+    """A value in one line; a frame has many."""
+    text = repr(value)
+    return text if len(text) <= _LONGEST_SHOWN and text.isprintable() else f"a {type(value).__name__}"

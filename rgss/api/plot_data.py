@@ -6,6 +6,7 @@ import difflib
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from rgss.api.argument_terms import text_argument
 from rgss.assessment import VariantMeasures
 from rgss.errors import DefinitionError
 from rgss.measures import Measure
@@ -27,6 +28,7 @@ def measure_named(project: Project, name: str, *, argument: str) -> Measure:
     Raises:
         DefinitionError: There is no measure of that id, or it is a row of numbers.
     """
+    text_argument(argument, name, hint="give the id of a measure")
     known = {one.id: one for one in project.measures.measures if _is_single(one)}
     if name not in known:
         near = difflib.get_close_matches(name, known, n=1)

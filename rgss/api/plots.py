@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from rgss.api.argument_terms import text_argument, texts_argument, whole_argument
 from rgss.api.plot_data import deciding_measures, measure_named, plotted_designs, plotted_measure
 from rgss.api.sensitivity_frames import computed_tornado
 from rgss.api.trade_frames import weights_frame
@@ -81,6 +82,9 @@ class Plots:
         """
         from rgss.reports.study_plots import pareto_figure
 
+        for argument, name in (("x", x), ("y", y)):
+            if name is not None:
+                text_argument(argument, name, hint="give the id of a measure")
         heaviest = [name for name in self._weights if name not in (x, y)]
         if (x is None) + (y is None) > len(heaviest):
             raise DefinitionError("x, y: the trade-off weighs fewer than two measures", hint="name both")
@@ -101,11 +105,13 @@ class Plots:
         """
         from rgss.reports.study_plots import front_figure, nondominated_of
 
-        if isinstance(measures, str) or len(set(measures)) < 2:
-            raise DefinitionError(
-                f"measures: name two or more, got {measures!r}", hint="such as front(['C_total', 'P_max'])"
-            )
-        axes = [self._measure(name, "measures") for name in dict.fromkeys(measures)]
+        hint = "such as front(['C_total', 'P_max'])"
+        names = dict.fromkeys(
+            [measures] if isinstance(measures, str) else texts_argument("measures", measures, hint=hint)
+        )
+        if len(names) < 2:
+            raise DefinitionError(f"measures: name two or more, got {', '.join(map(repr, names)) or 'none'}", hint=hint)
+        axes = [self._measure(name, "measures") for name in names]
         designs = self._designs_on_front(axes)
         return front_figure(axes, designs, nondominated_of(axes, designs.feasible))
 
@@ -121,8 +127,9 @@ class Plots:
         """
         from rgss.reports.study_plots import parallel_figure
 
+        names = texts_argument("measures", measures, hint="such as parallel(['C_total', 'P_max'])")
+        named = [self._measure(name, "measures") for name in dict.fromkeys(names)]
         designs = self._designs()
-        named = [self._measure(name, "measures") for name in dict.fromkeys(measures)]
         shown = named or [self._plotted(one) for one in deciding_measures(self.project, among=self._weights)]
         varied = [one for one in shown if len({one.value(variant) for variant in one.known(designs.roles)}) > 1]
         if not varied:
@@ -146,7 +153,7 @@ class Plots:
         shown = self._measure(measure, "measure")
         levels = {one.variant.id: one.variant.levels for one in self.measured}
         factors = list(dict.fromkeys(factor for own in levels.values() for factor in own))
-        if by is not None and by not in factors:
+        if by is not None and text_argument("by", by, hint=f"factors: {', '.join(factors)}") not in factors:
             raise DefinitionError(f"by: {by!r} is not a factor", hint=f"factors: {', '.join(factors)}")
         groups: dict[str, list[int]] = {}
         for variant, own in sorted(levels.items()):
@@ -166,6 +173,8 @@ class Plots:
         from rgss.reports.study_plots import timeline_figure
 
         decision = self._decision
+        if variant is not None:
+            variant = whole_argument("variant", variant, hint="name a variant of the study")
         chosen = decision.chosen if variant is None and decision is not None else variant
         found = [one for one in self.measured if one.variant.id == chosen]
         if not found:

@@ -7,10 +7,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from numbers import Integral
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rgss.api.argument_terms import ErrorsNameArguments
+from rgss.api.argument_terms import ErrorsNameArguments, text_argument
 from rgss.api.assumptions import assumptions_frame, scenario_measures
 from rgss.api.column import Column, Kind
 from rgss.api.columns import FRAMES
@@ -29,7 +29,7 @@ from rgss.api.missing_trials import sweep_hint, with_trials
 from rgss.api.plots import Plots
 from rgss.api.portfolios import portfolio_of_study
 from rgss.api.suppositions import WhatIf, suppositions_of
-from rgss.api.sweep import sweep_study
+from rgss.api.sweep import sweep_study, variant_terms
 from rgss.api.trade import Trade
 from rgss.api.trial import Drawing, Trial, payload_of, run_one
 from rgss.assessment import VariantMeasures, read_record
@@ -39,12 +39,30 @@ from rgss.decision.what_if import suppose
 from rgss.designs import DesignVariant, picked
 from rgss.errors import DefinitionError, EvidenceError
 from rgss.evidence import EvidenceStore
-from rgss.studies import Project
+from rgss.studies import Project, load_project
 from rgss.tradeoff import Decision
 from rgss.trials.payload_bench import PayloadResult
 
 if TYPE_CHECKING:
     import pandas as pd
+
+
+def unpickled(folder: Path, label: str, asked: tuple[str, int, bool], drawing: Drawing) -> Study:
+    """A study that was pickled, from its files as they are now.
+
+    Args:
+        folder: The project's folder.
+        label: The study file.
+        asked: Its fidelity, its replicates, and whether it adds replicates until it is decided.
+        drawing: Functions that draw a trial.
+    """
+    fidelity, replicates, is_sequential = asked
+    project = load_project(folder, label)
+    if (project.study.replicates, project.study.is_sequential) != (replicates, is_sequential):
+        project = project.with_replicates(replicates)
+    if project.study.fidelity.value != fidelity:
+        project = project.with_fidelity(fidelity)
+    return Study(project=project, _drawing=drawing)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -68,6 +86,15 @@ class Study:
             f"Study({study.id!r}, {len(self._designs)} variants × {study.replicates} seeds, "
             f"{study.fidelity.value} fidelity)"
         )
+
+    def __reduce__(self) -> tuple[Callable[..., Study], tuple[object, ...]]:
+        """Pickle the folder and the arguments of `rgss.load_study`; unpickling reads files and evidence."""
+        study = self.project.study
+        asked = (study.fidelity.value, study.replicates, study.is_sequential)
+        return unpickled, (self.project.folder.resolve(), study.label, asked, self._drawing)
+
+    def __copy__(self) -> Study:
+        return replace(self)
 
     def _repr_html_(self) -> str:
         return study_view(repr(self), self.project, len(self._designs))
@@ -231,8 +258,9 @@ class Study:
         Raises:
             DefinitionError: There is no frame of that name.
         """
-        if frame not in FRAMES:
-            raise DefinitionError(f"unknown frame {frame!r}", hint=f"frames: {', '.join(FRAMES)}")
+        hint = f"frames: {', '.join(FRAMES)}"
+        if text_argument("frame", frame, hint=hint) not in FRAMES:
+            raise DefinitionError(f"unknown frame {frame!r}", hint=hint)
         described = FRAMES[frame]
         columns = variant_columns(self.project) if frame == "variants" else described.columns
         rows = [{"column": one.title, "unit": one.unit, "meaning": one.meaning} for one in (*described.index, *columns)]
@@ -268,10 +296,9 @@ class Study:
             EvidenceError: The store cannot be read or written.
             SimulationError: Trials could not be run; the others are stored.
         """
-        terms = [only] if isinstance(only, (str, int, Integral)) else only
         sweep_study(
             self.project,
-            picked(self.project.designs, [str(term) for term in terms], option="only"),
+            picked(self.project.designs, variant_terms(only), option="only"),
             jobs=jobs,
             on_trial=on_trial,
         )

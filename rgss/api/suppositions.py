@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from rgss.api.argument_terms import number_argument, texts_argument
+
 WhatIf = Mapping[str, float | str] | Sequence[str] | str
 """Suppositions: ``{"weight.t_p": 0.4}``, or texts as ``--what-if`` takes them."""
+
+
+_HINT = "such as {'weight.t_p': 0.4, 'SYS-012.threshold': '0.9 kg'} or ['weight.t_p=0.4']"
 
 
 def suppositions_of(what_if: WhatIf) -> list[str]:
@@ -13,10 +18,17 @@ def suppositions_of(what_if: WhatIf) -> list[str]:
 
     Args:
         what_if: The suppositions.
+
+    Raises:
+        DefinitionError: They have another form, or a value is neither a number nor a text.
     """
     if isinstance(what_if, str):
         return [what_if]
     if isinstance(what_if, Mapping):
-        # `float` first: the repr of a number of NumPy is a call such as `np.float64(0.4)`.
-        return [f"{name}={value if isinstance(value, str) else repr(float(value))}" for name, value in what_if.items()]
-    return list(what_if)
+        return [f"{name}={_value(name, value)}" for name, value in what_if.items()]
+    return list(texts_argument("what_if", what_if, hint=_HINT))
+
+
+def _value(name: str, value: object) -> str:
+    # A plain float: the repr of a number of NumPy is a call such as `np.float64(0.4)`.
+    return value if isinstance(value, str) else repr(number_argument(f"what_if: {name}", value, hint=_HINT))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
+from numbers import Integral
 
 from rgss.api.argument_terms import whole_argument
 from rgss.decision import sweep_in_stages
@@ -43,6 +44,23 @@ def sweep_study(
     runner.require_all()
 
 
+def variant_terms(only: Sequence[str | int] | str | int) -> list[str]:
+    """The terms that name variants, as ``--only`` takes them.
+
+    Args:
+        only: One of them, or a list.
+
+    Raises:
+        DefinitionError: It is neither.
+    """
+    if isinstance(only, (str, Integral)):
+        return [str(only)]
+    if not isinstance(only, Iterable):
+        hint = "give ids such as '1,5' or a filter; omit it for all variants"
+        raise DefinitionError(f"only must be a term or a list of terms, got {only!r}", hint=hint)
+    return [str(term) for term in only]
+
+
 def run_trials(project: Project, specs: Sequence[TrialSpec], store: EvidenceStore, *, jobs: int | None = None) -> None:
     """Run missing trials of a study or of suppositions.
 
@@ -63,6 +81,8 @@ def run_trials(project: Project, specs: Sequence[TrialSpec], store: EvidenceStor
 
 
 def _runner(project: Project, jobs: int | None, on_trial: Callable[[int, int], None] | None) -> _Runner:
+    if on_trial is not None and not callable(on_trial):
+        raise DefinitionError(f"on_trial must be a function of two numbers, got {on_trial!r}", hint="or omit it")
     jobs = None if jobs is None else whole_argument("jobs", jobs, hint="0 runs all trials in one child process")
     if jobs is not None and jobs < 0:
         raise DefinitionError(f"jobs must be at least 0, got {jobs}", hint="0 runs all trials in one child process")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import rgss
@@ -171,7 +172,21 @@ def test_suppositions_are_drawn(study):
         ),
         (lambda plot: plot.pareto("C_total", "zzz"), r"y: 'zzz' is not a measure .* \(measures: "),
         (lambda plot: plot.front("C_total"), r"measures: name two or more, got 'C_total'"),
-        (lambda plot: plot.front(["C_total", "C_total"]), r"measures: name two or more"),
+        (lambda plot: plot.front(["C_total", "C_total"]), r"measures: name two or more, got 'C_total'"),
+        (lambda plot: plot.front([]), r"measures: name two or more, got none"),
+        (lambda plot: plot.front(None), r"measures must be a list of texts, got None \(such as front"),
+        (lambda plot: plot.front([5, 6]), r"an entry of measures must be a text, got 5 \(such as front"),
+        (lambda plot: plot.pareto(5), r"x must be a text, got 5 \(give the id of a measure\)"),
+        (lambda plot: plot.pareto("C_total", ["t_p"]), r"y must be a text, got \['t_p'\] \(give the id of a measure\)"),
+        (lambda plot: plot.pareto(pd.DataFrame({"a": [1]})), r"x must be a text, got a DataFrame"),
+        (lambda plot: plot.parallel("C_total"), r"measures must be a list of texts, got 'C_total' \(such as parallel"),
+        (lambda plot: plot.parallel(None), r"measures must be a list of texts, got None"),
+        (lambda plot: plot.measure(["t_p"]), r"measure must be a text, got \['t_p'\]"),
+        (
+            lambda plot: plot.measure("t_p", by=["colour"]),
+            r"by must be a text, got \['colour'\] \(factors: gripper_mass",
+        ),
+        (lambda plot: plot.timeline([28]), r"variant must be a whole number, got \[28\]"),
         (
             lambda plot: plot.measure("t_p", by="colour"),
             r"by: 'colour' is not a factor \(factors: gripper_mass, fingers",

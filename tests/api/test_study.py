@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -259,6 +261,20 @@ def test_a_script_that_sweeps_with_processes(empty, guarded, said):
         (lambda study: study.sweep("d8=PRM", jobs=0), "only: "),
         (lambda study: study.trade({"weight.x": 1}), "what_if: unknown input 'weight.x'"),
         (lambda study: study.trade("weight.t_e"), "what_if: supposition must be NAME=VALUE, got 'weight.t_e'"),
+        (
+            lambda study: study.trade({"weight.t_p": None}),
+            "what_if: weight.t_p must be a finite number, got None (such",
+        ),
+        (lambda study: study.trade({"weight.t_p": [0.4]}), "what_if: weight.t_p must be a finite number, got [0.4]"),
+        (
+            lambda study: study.trade([("weight.t_p", 0.4)]),
+            "an entry of what_if must be a text, got ('weight.t_p', 0.4)",
+        ),
+        (lambda study: study.trade(None), "what_if must be a list of texts, got None (such as {'weight.t_p': 0.4"),
+        (lambda study: study.sweep(None), "only must be a term or a list of terms, got None (give ids such as '1,5'"),
+        (lambda study: study.sweep(on_trial=5), "on_trial must be a function of two numbers, got 5 (or omit it)"),
+        (lambda study: study.columns([]), "frame must be a text, got [] (frames: variants, trials"),
+        (lambda study: study.columns("trails"), "unknown frame 'trails' (frames: variants, trials"),
         (lambda study: study.trial(99), "unknown variant 99"),
         (lambda study: study.trial(1, -1), "seed -1 is out of range (give a seed from 0 to 2147483647)"),
         (lambda study: study.trial(1.5), "variant must be a whole number, got 1.5 (give an id and a seed)"),
@@ -281,6 +297,22 @@ def test_what_cannot_be(study, ask, message):
     with pytest.raises(DefinitionError) as caught:
         ask(study)
     assert message in str(caught.value)
+
+
+@pytest.mark.parametrize("asked", [ASKED, {}])
+def test_a_study_is_pickled_by_its_arguments(swept, tmp_path, monkeypatch, asked):
+    """The folder is absolute; what the study's file states is not overridden."""
+    monkeypatch.chdir(swept)
+    study = rgss.load_study(**asked)
+    written = pickle.dumps(study)
+    monkeypatch.chdir(tmp_path)
+    again = pickle.loads(written)  # noqa: S301 - written above
+    assert len(written) < 1000
+    assert repr(again) == repr(study)
+    assert again.project.study == study.project.study
+    if asked:
+        assert again.ranking.equals(study.ranking)
+    assert copy.copy(study).project is study.project
 
 
 def test_what_cannot_be_loaded(empty, tmp_path):
