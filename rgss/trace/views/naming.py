@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from rgss.errors import DefinitionError
@@ -13,6 +14,7 @@ from rgss.trace.model import TraceModel
 from rgss.trace.views.neighbours import ThingKind, kinds_of
 
 _SHORTEST_KEY = 6
+_TRIAL = re.compile(r"(?P<variant>[0-9]{1,9})/[0-9]{1,10}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,11 +53,34 @@ def named(model: TraceModel, evidence: TraceEvidence, name: str, *, definitions:
     trial = _trial(evidence, name)
     if trial is not None:
         return trial
-    hint = nearest(name, [*kinds, *symbols])
+    if (asked := _TRIAL.fullmatch(name)) is not None:
+        raise DefinitionError(
+            f"trial {name} is not one of the trials shown", hint=_where(evidence, int(asked["variant"]))
+        )
     raise DefinitionError(
         f"{name!r} is not an id of the requirements, the architecture, the measures, the tests or the trials shown",
-        hint=hint or "name one, such as SYS-004, BLK-gripper, P_max or 28/1",
+        hint=nearest(name, [*kinds, *symbols]) or f"name one, such as {', '.join(_examples(kinds, evidence))}",
     )
+
+
+def _where(evidence: TraceEvidence, variant: int) -> str:
+    """The trials that are shown, and how to see those of a variant."""
+    shown = evidence.shown
+    if shown is None or shown.variant != variant:
+        held = "no variant is shown" if shown is None else f"those of variant {shown.variant} are"
+        return f"{held}; --variant {variant} shows those of variant {variant}"
+    seeds = sorted(trial.seed for trial in shown.trials)
+    if not seeds:
+        return f"variant {variant} has no evidence of this fidelity; run 'rgss sweep' first"
+    return f"variant {variant} has trials of seeds {seeds[0]} to {seeds[-1]}; --replicates shows others"
+
+
+def _examples(kinds: Mapping[str, ThingKind], evidence: TraceEvidence) -> Iterator[str]:
+    """An id of a requirement, a block and a measure, and a trial that is shown."""
+    for kind in (ThingKind.REQUIREMENT, ThingKind.BLOCK, ThingKind.MEASURE):
+        yield from [name for name, own in kinds.items() if own is kind][:1]
+    if evidence.shown is not None:
+        yield from [f"{trial.variant}/{trial.seed}" for trial in evidence.shown.trials[:1]]
 
 
 def _symbols(definitions: MeasureSet) -> Iterator[tuple[str, Named]]:

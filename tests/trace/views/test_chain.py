@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
@@ -200,7 +201,7 @@ def test_what_a_measure_uses_leads_up_to_the_need(model, definitions, name, kind
     ("name", "hint"),
     [
         ("SYS-11", "did you mean 'SYS-1'?"),
-        ("7/9", "name one, such as SYS-004, BLK-gripper, P_max or 28/1"),
+        ("nothing", "name one, such as SYS-1, BLK-system, P, 7/1"),
         ("000", ""),
     ],
 )
@@ -210,6 +211,31 @@ def test_an_id_that_is_not_there(model, name, hint, story):
 
     assert caught.value.message.startswith(f"{name!r} is not an id of the requirements, the architecture, the measures")
     assert hint in caught.value.hint
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [
+        ("7/9", "variant 7 has trials of seeds 1 to 3; --replicates shows others"),
+        ("28/1", "those of variant 7 are; --variant 28 shows those of variant 28"),
+    ],
+)
+def test_a_trial_that_is_not_shown(model, name, hint, story):
+    with pytest.raises(DefinitionError) as caught:
+        chain_of(model, story.evidence(), name)
+
+    assert (caught.value.message, caught.value.hint) == (f"trial {name} is not one of the trials shown", hint)
+
+
+def test_a_trial_where_none_is_shown(model, story):
+    evidence = story.evidence()
+    for shown, hint in (
+        (None, "no variant is shown; --variant 7 shows those of variant 7"),
+        (replace(evidence.shown, trials=()), "variant 7 has no evidence of this fidelity; run 'rgss sweep' first"),
+    ):
+        with pytest.raises(DefinitionError) as caught:
+            chain_of(model, replace(evidence, shown=shown), "7/1")
+        assert caught.value.hint == hint
 
 
 def test_a_trial_is_told_with_what_was_observed_of_all_that_the_measure_stands_on(model, definitions, story):
