@@ -16,6 +16,7 @@ from rgss.trace.sentences.condition_words import CLAUSE_WORDS, KEYWORDS, OPENING
 from rgss.trace.sentences.quantities import TextQuantity, quantities_in
 from rgss.trace.sentences.trailing_conditions import trailing_condition
 
+_THEN = re.compile(r"(?P<condition>if\b.*\S)\s+(?P<rest>then\b.*)", re.IGNORECASE)
 _TOKEN = re.compile(r"[^\W_]+(?:['’\-][^\W_]+)*")
 # "shall: a) stop; b) open", whose verbs are in the list.
 _LIST_MARK = re.compile(r"[:\s]*(?:[-•*]|\(?(?:[a-z]|[ivx]+|\d+)[).])\s+", re.IGNORECASE)
@@ -127,7 +128,7 @@ def read_sentence(text: str) -> Sentence:
     if not shalls:
         flaw = _without_shall(tokens)
     elif not flaw:
-        flaw = _flaw_of_response(response) or _flaw_of_conditions(tokens, shalls)
+        flaw = _flaw_of_response(response)
     return Sentence(
         text=flat,
         tokens=tokens,
@@ -140,7 +141,7 @@ def read_sentence(text: str) -> Sentence:
         response=response,
         pattern=None if flaw else _pattern(conditions),
         flaw=flaw,
-        departure=departure,
+        departure=departure or _late_condition(tokens, shalls),
     )
 
 
@@ -176,6 +177,10 @@ def response_start(text: str) -> int:
 def _parts(before: str) -> tuple[tuple[Clause, ...], str, str, str]:
     """Conditions and subject before ``shall``, their flaw, and their departure from EARS."""
     *lead, last = [part.strip() for part in before.split(",")]
+    divided = _THEN.fullmatch(last) if not lead else None
+    if divided is not None:
+        # As unambiguous as a comma.
+        lead, last = [divided["condition"]], divided["rest"]
     if not lead:
         opening = _first_word(last)
         if opening in KEYWORDS:
@@ -228,11 +233,11 @@ def _flaw_of_response(response: str) -> str:
     return f"has no verb after 'shall', but {first!r}" if _NO_VERBS.fullmatch(first) else ""
 
 
-def _flaw_of_conditions(tokens: tuple[Token, ...], shalls: tuple[int, ...]) -> str:
+def _late_condition(tokens: tuple[Token, ...], shalls: tuple[int, ...]) -> str:
     # A second 'shall' makes two statements of the sentence, of which another rule says so.
     words = [token.word for token in tokens if token.start >= shalls[0]] if len(shalls) == 1 else []
     opening = trailing_condition(words)
-    return f"has a condition behind its response, with {opening!r}" if opening else ""
+    return f"has a condition behind its response, with {opening!r}; EARS has it before the subject" if opening else ""
 
 
 def _is_subject(text: str) -> bool:

@@ -48,12 +48,9 @@ def test_patterns_are_recognised(text, pattern, kinds, subject, response):
         ("When a cup slips the gripper shall close.", "begins with 'When', but has no comma"),
         ("While a, when b the gripper shall close.", "has no comma between its last condition and its subject"),
         ("If a cup slips the gripper shall close.", "begins with 'If', but has no comma"),
-        ("If a cup slips then the gripper shall close.", "begins with 'If', but has no comma"),
         ("The shall stop.", "has no subject before 'shall'"),
         ("When a cup is seen, the shall stop.", "has no subject before 'shall'"),
         ("If a cup slips, then the shall stop.", "has no subject before 'shall'"),
-        ("The gripper shall open when a cup is seen.", "has a condition behind its response, with 'when'"),
-        ("The gripper shall stay closed UNLESS a cup is seen.", "has a condition behind its response, with 'unless'"),
         ("Upon a, when b the gripper shall close.", "has no comma between its last condition and its subject"),
         ("The arm shall: the cup.", "has no verb after 'shall', but 'the'"),
     ],
@@ -96,6 +93,13 @@ def test_words_that_mean_the_same_as_a_keyword(opening, kind):
     [
         ("If a cup slips, the gripper shall close.", "unwanted", "says 'if' without 'then'"),
         ("If a cup slips, then the gripper shall close.", "unwanted", ""),
+        ("If a cup slips then the gripper shall close.", "unwanted", ""),
+        (
+            "The gripper shall open when a cup is seen.",
+            "ubiquitous",
+            "has a condition behind its response, with 'when'",
+        ),
+        ("The gripper shall stay closed UNLESS a cup is seen.", "ubiquitous", "has a condition behind its response"),
         ("When a cup slips, if b, the gripper shall close.", "complex", "says 'if' without 'then'"),
         ("When a, b or, in doubt, c is seen, the gripper shall close.", "event", ""),
         ("In the event of a slip, the gripper shall close.", "unwanted", "begins a condition with 'In the event of'"),
@@ -125,7 +129,7 @@ def test_conditions_in_other_words(text, pattern, departure):
     ],
 )
 def test_words_of_conditions_that_open_none(response):
-    assert read_sentence(f"The gripper shall {response}.").flaw == ""
+    assert read_sentence(f"The gripper shall {response}.").departure == ""
 
 
 def test_a_subject_may_be_set_off_by_commas():

@@ -30,10 +30,8 @@ RULES: tuple[SentenceRule, ...] = (
         severity=Severity.ERROR,
         explanation=(
             "A requirement has a pattern of EARS: it says who shall do what, after the conditions under which "
-            "that holds, each with a comma behind it. A reader then finds the same part at the same place in "
-            "every requirement. Words that mean the same as a keyword of EARS, such as 'Upon', count as it. "
-            "A condition with 'when', 'while', 'if' or 'unless' behind the response breaks the rule too; one with "
-            "'where' does not, since it may refer to a noun."
+            "that holds, each with a comma or 'then' behind it. A reader then finds the same part at the same place "
+            "in every requirement. Words that mean the same as a keyword of EARS, such as 'Upon', count as it."
         ),
         find=_pattern,
         breaking=(
@@ -44,10 +42,6 @@ RULES: tuple[SentenceRule, ...] = (
             "There shall be three fingers.",
             "The shall stop.",
             "When a cup is seen, the shall stop.",
-            "If the cup slips then the gripper shall close.",
-            "The gripper shall open when the cup is placed.",
-            "The gripper shall open only if the cup is placed.",
-            "The arm shall keep the cup upright while it moves.",
         ),
         passing=(
             "When a cup is ordered, the RGSS shall serve the cup within 25 s.",
@@ -57,9 +51,6 @@ RULES: tuple[SentenceRule, ...] = (
             "If the planning time reaches the limit, then the planner shall end the search.",
             "When the door opens, the controller shall cut the power of the heater.",
             "On a stop command, the controller shall enter the SAFE state.",
-            "The cell shall record when the door opens.",
-            "The display shall indicate if the door is open.",
-            "The arm shall reach the place where the cup is.",
         ),
     ),
     SentenceRule(
@@ -67,7 +58,8 @@ RULES: tuple[SentenceRule, ...] = (
         severity=Severity.INFO,
         explanation=(
             "Conditions begin with the keywords of EARS: While a state, When an event, Where an option, If "
-            "something unwanted, then. A project that wants no other words raises this rule's severity."
+            "something unwanted, then; and they come before the subject. A condition with 'where' behind the response "
+            "is not noted, since it may refer to a noun. A project that wants nothing else raises this rule's severity."
         ),
         find=_departure,
         breaking=(
@@ -76,7 +68,16 @@ RULES: tuple[SentenceRule, ...] = (
             "If the cup slips, the gripper shall close.",
             "For each cup, the gripper shall close.",
             "Unless the cup slips, the gripper shall close.",
+            "The gripper shall open when the cup is placed.",
+            "The gripper shall open only if the cup is placed.",
+            "The arm shall keep the cup upright while it moves.",
         ),
-        passing=("While the aircraft is on the ground, the control unit shall inhibit the thrust reverser lock.",),
+        passing=(
+            "If the cup slips then the gripper shall close.",
+            "The cell shall record when the door opens.",
+            "The display shall indicate if the door is open.",
+            "The arm shall reach the place where the cup is.",
+            "While the aircraft is on the ground, the control unit shall inhibit the thrust reverser lock.",
+        ),
     ),
 )
