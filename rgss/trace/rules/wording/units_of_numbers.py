@@ -27,11 +27,6 @@ FUNCTION_WORDS = frozenset(
         "once or over per shall than that the then through to under until was when where while with within"
     )
 )
-# "between 3 and 5 kg", "3 to 5 kg", "2, 4 or 6 kg", "2 × 3 m": the unit stands behind the last number.
-# "95 of 100 cups", where what is counted stands there too.
-_RANGE = re.compile(
-    r"\s*(?:,|(?:out\s+)?of\b|to\b|and\b|or\b|through\b|–|-|×|x\b|±|\+/-|:|/|\*|~|\.{3}|…)\s*[+-]?\d", re.IGNORECASE
-)
 # What a quantity stands behind. Behind another word a number is a name: station 3, joint 6, ISO 9001, SYS-012.
 _INTRODUCTIONS = frozenset(
     words_of(
@@ -48,6 +43,13 @@ _TENS = "twenty|thirty|forty|fifty|sixty|seventy|eighty|ninety"
 _LARGE = "hundred|thousand|million|billion|dozen"
 # "one" is a pronoun more often than a number.
 _NUMBER_WORD = f"(?:{_ONES}|{_TEENS}|{_TENS}|{_LARGE})"
+# "between 3 and 5 kg", "3 to 5 kg", "2, 4 or 6 kg", "2 × 3 m": the unit stands behind the last number.
+# "95 of 100 cups", "two- and three-finger grippers", where what is counted stands there too.
+_RANGE = re.compile(
+    r"(?:-(?=\s))?\s*(?:,|(?:out\s+)?of\b|to\b|and\b|or\b|through\b|–|-|×|x\b|±|\+/-|:|/|\*|~|\.{3}|…)\s*"
+    rf"(?:at\s+(?:least|most)\s+)?(?:[+-]?\d|{_NUMBER_WORD}\b)",
+    re.IGNORECASE,
+)
 _IN_WORDS = re.compile(
     rf"\b(?:an?\s+(?={_LARGE}))?{_NUMBER_WORD}(?:(?:[\s-]|\s+and\s+)(?:one|{_NUMBER_WORD}))*\b", re.IGNORECASE
 )
@@ -123,6 +125,9 @@ RULES: tuple[SentenceRule, ...] = (
             "The gripper shall have at least three fingers.",
             "The arm shall stop in less than ten seconds.",
             "The RGSS shall serve at least 95 of 100 cups.",
+            "The RGSS shall serve two to four cups.",
+            "The RGSS shall accept two- and three-finger grippers.",
+            "The gripper shall have at least 2, at most three fingers.",
             "The gripper shall hold at most two of the cups.",
             "The gripper shall hold at most 3 of the cups.",
             "The gripper shall endure at least 10^6 cycles.",
