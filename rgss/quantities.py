@@ -111,6 +111,58 @@ def conversion_factor(from_unit: str, to_unit: str) -> float:
     return float(_factor(from_unit, to_unit))
 
 
+def check_scale(value: float, unit: str) -> None:
+    """Check that a unit converts to SI by a factor, as thresholds and measures do.
+
+    Args:
+        value: The magnitude, for the hint.
+        unit: The unit.
+
+    Raises:
+        QuantityError: The unit is unknown, has an offset, such as degC, or is logarithmic, such as dB.
+    """
+    if common_unit(unit) is not None:
+        return
+    base = _base_unit(unit)
+    try:
+        _factor(unit, base)
+    except QuantityError as error:
+        point = _on_scale(value, unit, base)
+        if point is None:
+            hint = f"write the level as a pure number, {value:.12g}, and give its measure the unit 1"
+        else:
+            hint = f'write "{point:.12g} {base}", or use delta_{unit} for a difference'
+        raise QuantityError(error.message, hint=hint) from error
+
+
+def possible_magnitudes(value: float, from_unit: str, to_unit: str) -> tuple[float, ...]:
+    """Magnitudes that a quantity in a sentence may have in another unit.
+
+    A temperature in degrees Celsius may be a point on the scale or a difference; a level in decibels is written as a
+    pure number here.
+
+    Args:
+        value: The magnitude.
+        from_unit: Its unit.
+        to_unit: The other unit, which converts to SI by a factor.
+
+    Returns:
+        The magnitudes, the most likely first; none if the units do not convert.
+
+    Raises:
+        QuantityError: A unit is unknown.
+    """
+    try:
+        return (value * conversion_factor(from_unit, to_unit),)
+    except QuantityError:
+        if not same_dimension(from_unit, to_unit):
+            return ()
+    point, zero = (_on_scale(number, from_unit, to_unit) for number in (value, 0.0))
+    if point is None or zero is None:
+        return (value,) if to_unit == "1" else ()
+    return point, point - zero
+
+
 def same_dimension(unit: str, other: str) -> bool:
     """True if two units have the same dimension.
 
@@ -158,6 +210,8 @@ def _unit(text: str) -> pint.Unit:
     cleaned = text.replace("·", "*").replace("^", "**").replace("$", "USD").replace("%", "percent")
     try:
         unit: pint.Unit = _registry().Unit("dimensionless" if text == "1" else cleaned)
+        # Of a quotient with a logarithmic unit, such as dB/m, pint finds only here that it is undefined.
+        _ = unit.dimensionality
     except (pint.errors.PintError, ValueError) as error:
         if other := _OTHER_CURRENCY.search(text):
             raise _other_currency(other[0]) from error
@@ -200,6 +254,21 @@ def _factor(from_unit: str, to_unit: str) -> Decimal:
     if zero:
         raise QuantityError(f"unit {shown(from_unit)} is not on a scale that starts at zero", hint=f"use {to_unit}")
     return one
+
+
+def _base_unit(unit: str) -> str:
+    """Symbol of a unit's base unit, such as K for degC."""
+    return f"{_registry().get_base_units(_unit(unit))[1]:~}" or "1"
+
+
+def _on_scale(value: float, from_unit: str, to_unit: str) -> float | None:
+    """Magnitude on the scale of another unit, with its zero; None for a level, such as dB."""
+    import pint
+
+    try:
+        return float(_registry().convert(Decimal(repr(value)), _unit(from_unit), _unit(to_unit)))
+    except (pint.errors.PintError, TypeError):  # TypeError: a logarithm of a Decimal
+        return None
 
 
 def _mismatch(written: str, wanted: str) -> QuantityError:

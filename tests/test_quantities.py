@@ -110,6 +110,7 @@ def test_torques_are_read_as_data_sheets_write_them(text, torque_nm):
         ("£5", "USD", OTHER_CURRENCY.format("£")),
         ("EUR 5", "USD", OTHER_CURRENCY.format("EUR")),
         ("5 m/0", "m", "'m/0' is not a unit (write units such as mm, m/s or kg*m**2)"),
+        ("3 dB/m", "1/m", "unknown unit 'dB/m' (use units such as mm, kg, s, N, deg, USD)"),
         ("20 degC", "K", "unit 'degC' is not on a scale that starts at zero (use K)"),
         ("3 dBm", "W", "unit 'dBm' is not on a scale that starts at zero (use W)"),
         ("1e999 m", "m", "'1e999 m' is too large (give a number below 1e308)"),

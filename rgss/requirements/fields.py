@@ -9,7 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 from rgss.documents import QuantityText
 from rgss.errors import QuantityError
 from rgss.findings import shown
-from rgss.quantities import parse_quantity, written_unit
+from rgss.quantities import check_scale, parse_quantity, written_unit
 
 _Entry = TypeVar("_Entry")
 
@@ -21,14 +21,17 @@ def split_quantity(text: str) -> tuple[float, str]:
         The magnitude, and the unit as written; ``"1"`` for a pure number.
 
     Raises:
-        QuantityError: The text is not a number with a known unit.
+        QuantityError: The text is not a number with a known unit, or its unit has an offset or is logarithmic.
     """
     unit = written_unit(text)
     if unit is None and not any(map(str.isdigit, text)):
         raise QuantityError(f"{shown(text)} has no number", hint='write a number and a unit, such as "1 kg"')
     if unit is None:
         unit = "kg"  # for the example in the message that the text is not a quantity
-    return parse_quantity(text, unit or "1"), unit or "1"
+    unit = unit or "1"
+    number = parse_quantity(text, unit)
+    check_scale(number, unit)
+    return number, unit
 
 
 def as_text(value: Any) -> Any:

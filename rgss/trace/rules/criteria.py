@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from rgss.errors import QuantityError
 from rgss.findings import Severity
-from rgss.quantities import conversion_factor, same_dimension
+from rgss.quantities import possible_magnitudes, same_dimension
 from rgss.requirements import Criterion, Requirement, VerificationMethod
 from rgss.trace.model import MeasureTrace, TraceModel
 from rgss.trace.rules.rule import ModelRule, Violation
@@ -113,13 +112,10 @@ def _equal(quantity: TextQuantity, criterion: Criterion) -> bool:
     if quantity.currency not in ("", "USD"):
         # Thresholds are in US dollars; there are no exchange rates.
         return False
-    try:
-        factor = conversion_factor(quantity.unit, criterion.unit)
-    except QuantityError:
-        # Units with an offset zero, such as degrees Celsius, cannot be compared by a factor.
-        return False
     return any(
-        math.isclose(value * factor, criterion.threshold, rel_tol=1e-9, abs_tol=1e-12) for value in quantity.values
+        math.isclose(magnitude, criterion.threshold, rel_tol=1e-9, abs_tol=1e-12)
+        for value in quantity.values
+        for magnitude in possible_magnitudes(value, quantity.unit, criterion.unit)
     )
 
 

@@ -185,9 +185,42 @@ def test_pure_numbers_agree_with_pure_thresholds(project, text, threshold, agree
     assert [finding.rsplit(" ", 1)[1] for finding in project.findings()] == expected
 
 
-def test_a_unit_with_an_offset_zero_agrees_with_none(project):
-    project.change("P", unit="K").edit("system.yaml", '"800 g"', '"293 K"').edit("system.yaml", "0.8 kg", "20 degC")
-    assert [finding.rsplit(" ", 1)[1] for finding in project.findings()] == ["[trace.contradicting-number]"]
+@pytest.mark.parametrize(
+    ("unit", "text", "threshold", "agrees"),
+    [
+        ("K", "20 degC", "293.15 K", True),
+        ("K", "20 °C", "293.15 K", True),
+        ("K", "68 degF", "293.15 K", True),
+        ("K", "20 degC", "20 K", True),
+        ("K", "20 degC", "293 K", False),
+        ("1", "62 dB", "62", True),
+        ("1", "62 dB", "60", False),
+    ],
+)
+def test_a_temperature_is_a_point_or_a_difference_and_a_level_a_pure_number(project, unit, text, threshold, agrees):
+    project.change("P", unit=unit).edit("system.yaml", '"800 g"', threshold).edit("system.yaml", "0.8 kg", text)
+    expected = [] if agrees else ["[trace.contradicting-number]"]
+    assert [finding.rsplit(" ", 1)[1] for finding in project.findings()] == expected
+
+
+@pytest.mark.parametrize(
+    ("threshold", "hint"),
+    [
+        ("40 degC", 'write "313.15 K", or use delta_degC for a difference'),
+        ("14 degF", 'write "263.15 K", or use delta_degF for a difference'),
+        ("62 dB", "write the level as a pure number, 62, and give its measure the unit 1"),
+        ("3 dBm", "write the level as a pure number, 3, and give its measure the unit 1"),
+    ],
+)
+def test_a_threshold_with_an_offset_or_a_logarithm_is_refused_where_it_is_read(project, threshold, hint):
+    (finding,) = project.edit("system.yaml", '"800 g"', threshold).found()
+    unit = threshold.split()[1]
+    assert finding.message == f"threshold: unit '{unit}' is not on a scale that starts at zero ({hint})"
+
+
+def test_a_difference_of_temperatures_is_a_threshold(project):
+    project.change("P", unit="K").edit("system.yaml", '"800 g"', "5 delta_degC").edit("system.yaml", "0.8 kg", "5 K")
+    assert not project.findings()
 
 
 @pytest.mark.parametrize(
