@@ -50,6 +50,31 @@ def value_function_of(project: Project, valued: AnchoredValue) -> ValueFunction:
     return function
 
 
+def anchored_measures(project: Project) -> dict[str, tuple[str, ...]]:
+    """Valued measures whose value functions are anchored on each requirement, by the requirement's id.
+
+    Raises:
+        TradeoffError: As for `value_function_of`.
+        DefinitionError: As for `quantity_of`.
+    """
+    found: dict[str, list[str]] = {}
+    trade_off = project.study.trade_off
+    for valued in trade_off.valued:
+        if valued.measure not in trade_off.weighting.deciding_measures:
+            continue
+        named: dict[str, None] = {}
+
+        def quantity(anchor: Anchor, measure: str = valued.measure, named: dict[str, None] = named) -> float:
+            if isinstance(anchor, RequirementAnchor):
+                named[anchor.requirement] = None
+            return quantity_of(project, anchor, measure)
+
+        valued.function(quantity)
+        for requirement in named:
+            found.setdefault(requirement, []).append(valued.measure)
+    return {requirement: tuple(measures) for requirement, measures in found.items()}
+
+
 def threshold_of(project: Project, requirement: str, criterion: Criterion, *, column: str | None = None) -> Threshold:
     """The threshold of a requirement's criterion, in the measure's unit.
 

@@ -41,6 +41,7 @@ class MeasureEffects:
             designs are a sample.
         sampled: For a sample of designs, the share of each factor alone with its interval, by
             factor; empty otherwise, and if too few designs have estimates.
+        not_computed: Reason why the effects were not computed, as part of a sentence; empty if they were.
     """
 
     measure: str
@@ -50,6 +51,7 @@ class MeasureEffects:
     designs: int
     analysis: FactorialAnalysis | None
     sampled: Mapping[str, SampledIndex] = field(default_factory=dict)
+    not_computed: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

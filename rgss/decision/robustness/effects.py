@@ -26,6 +26,8 @@ from rgss.tradeoff.robustness import (
 SAMPLE_RESAMPLES = 200
 """Number of resamples of sampled designs for the intervals of shares."""
 
+_NO_FACTORS = "no factor varies"
+
 
 def study_effects(project: Project, measured: Sequence[VariantMeasures], resamples: Resamples | None) -> StudyEffects:
     """Main effects and interactions of two factors on every measure, with bootstrap intervals.
@@ -112,10 +114,10 @@ def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEf
     for measure in _analysed(project):
         values = np.array([_number(entry.estimates[measure.id].value) for entry in rows])
         known = np.isfinite(values)
-        enough = known.sum() >= 2 * FEWEST_PER_CLASS and bool(factors)
+        missing = _missing_of_sample(int(known.sum()), factors)
         indices = (
             first_order_indices(classes[known], values[known], resamples=SAMPLE_RESAMPLES, generator=generator)
-            if enough
+            if not missing
             else ()
         )
         found.append(
@@ -127,6 +129,7 @@ def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEf
                 designs=int(known.sum()),
                 analysis=None,
                 sampled={factor.id: index for factor, index in zip(factors, indices, strict=False)},
+                not_computed=missing,
             )
         )
     varying = {parameter for factor in factors for parameter in factor.parameters}
@@ -135,6 +138,14 @@ def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEf
         constants=tuple(parameter.id for parameter in project.designs.parameters if parameter.id not in varying),
         measures=tuple(found),
     )
+
+
+def _missing_of_sample(known: int, factors: Sequence[FactorLevels]) -> str:
+    """Reason why the shares of the factors cannot be estimated from so many designs with a value; empty if they can."""
+    if not factors:
+        return _NO_FACTORS
+    fewest = 2 * FEWEST_PER_CLASS
+    return "" if known >= fewest else f"{known} of the sampled designs have a value, of at least {fewest}"
 
 
 def _classes(factor: FactorLevels, rows: Sequence[VariantMeasures]) -> NDArray[np.int64]:
@@ -218,9 +229,11 @@ def _effects(
     resampled: NDArray[np.float64] | None,
     resamples: Resamples | None,
 ) -> MeasureEffects:
-    nothing = MeasureEffects(measure=measure, unit=unit, factors=(), left_out=(), designs=0, analysis=None)
     if block is None:
-        return nothing
+        reason = "no block of two or more levels has a value of every combination" if design.factors else _NO_FACTORS
+        return MeasureEffects(
+            measure=measure, unit=unit, factors=(), left_out=(), designs=0, analysis=None, not_computed=reason
+        )
     kept = [axis for axis, levels in enumerate(block) if len(levels) > 1]
     cut = np.ix_(*block)
     shape = [len(block[axis]) for axis in kept]

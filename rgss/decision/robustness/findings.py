@@ -33,10 +33,13 @@ class RequirementPrice:
         condition: The requirement as a condition.
         steps: Choice and feasible set as functions of its limit, from loose to tight; rows
             are those of the analysis.
+        anchored: Measures whose value functions are anchored on the requirement; they are as at its present limit in
+            every step.
     """
 
     condition: Condition
     steps: tuple[PriceStep, ...]
+    anchored: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

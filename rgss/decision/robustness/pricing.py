@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,13 +14,20 @@ from rgss.tradeoff.problem import Comparison, EvidenceTable
 from rgss.tradeoff.programs import condition_column, orderings_of, weighted_values
 from rgss.tradeoff.robustness import condition_masks, price_list
 
+_NO_ANCHORS: Mapping[str, tuple[str, ...]] = MappingProxyType({})
 
-def requirement_prices(problem: TradeProblem, table: EvidenceTable) -> tuple[RequirementPrice, ...]:
+
+def requirement_prices(
+    problem: TradeProblem, table: EvidenceTable, anchored: Mapping[str, tuple[str, ...]] = _NO_ANCHORS
+) -> tuple[RequirementPrice, ...]:
     """Price of each requirement: the best value at every limit of it.
+
+    The limit moves as a demand alone; a value function that is anchored on it stays as it is.
 
     Args:
         problem: The trade-off.
         table: The alternatives.
+        anchored: Measures whose value functions are anchored on each requirement, by the requirement's id.
     """
     totals = weighted_values(problem, table)
     masks = condition_masks(problem, table)
@@ -34,6 +44,7 @@ def requirement_prices(problem: TradeProblem, table: EvidenceTable) -> tuple[Req
         found.append(
             RequirementPrice(
                 condition=condition,
+                anchored=anchored.get(condition.requirement, ()),
                 steps=price_list(
                     condition_column(condition, table),
                     totals,

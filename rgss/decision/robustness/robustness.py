@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 from rgss.assessment import VariantMeasures, common_seeds
 from rgss.decision.choosing import proportion_measures, trade_problem
 from rgss.decision.level_structure import level_numbers
+from rgss.decision.preference_model import anchored_measures
 from rgss.decision.robustness.assumptions import AssumptionFinding, assumption_findings
 from rgss.decision.robustness.cost_box import CostBox, cost_box
 from rgss.decision.robustness.effect_findings import StudyEffects
 from rgss.decision.robustness.effects import study_effects
-from rgss.decision.robustness.findings import Robustness, WeightRobustness
+from rgss.decision.robustness.findings import RequirementPrice, Robustness, WeightRobustness
 from rgss.decision.robustness.parts import Part, PartComputer
 from rgss.decision.robustness.pricing import requirement_prices
 from rgss.decision.robustness.remeasuring import Remeasuring
@@ -158,7 +159,7 @@ def analyse_robustness(
         weighting=weighting,
         assumptions=assumed[0],
         costs=assumed[1],
-        prices=parts.compute(Part.PRICES, lambda: requirement_prices(problem, table), ()),
+        prices=parts.compute(Part.PRICES, lambda: _prices(project, problem, table), ()),
         reversals=parts.compute(Part.REVERSALS, lambda: _reversals(problem, table, feasible), ()),
         stretched=parts.compute(Part.STRETCHED, lambda: _stretched(problem, table, feasible, weights), ()),
         effects=parts.compute(Part.EFFECTS, lambda: _effects(project, measured, resamples), _NO_EFFECTS),
@@ -168,6 +169,10 @@ def analyse_robustness(
         refused=refused,
         not_computed=parts.missing,
     )
+
+
+def _prices(project: Project, problem: TradeProblem, table: EvidenceTable) -> tuple[RequirementPrice, ...]:
+    return requirement_prices(problem, table, anchored_measures(project))
 
 
 def _effects(project: Project, measured: Sequence[VariantMeasures], resamples: Resamples | None) -> StudyEffects:

@@ -39,11 +39,13 @@ class Driver:
         measure: The measure.
         shares: The share of its variance by factor, the largest first.
         left_out: Levels that are omitted for lack of successful trials.
+        not_computed: Reason why the shares were not computed, as part of a sentence; empty if they were.
     """
 
     measure: str
     shares: Mapping[str, float] = field(hash=False)
     left_out: tuple[str, ...]
+    not_computed: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -112,7 +114,13 @@ def robustness_findings(project: Project, found: Robustness, *, chosen: int | No
         corner=_corner(found),
         effects=effects,
         drivers=tuple(
-            Driver(measure=one.measure, shares=leading_factors(one), left_out=tuple(one.left_out)) for one in effects
+            Driver(
+                measure=one.measure,
+                shares=leading_factors(one),
+                left_out=tuple(one.left_out),
+                not_computed=one.not_computed,
+            )
+            for one in effects
         ),
         sampled=project.designs.sample is not None,
     )

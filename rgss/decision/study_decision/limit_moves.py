@@ -35,6 +35,7 @@ class LimitMoves:
         at_least: True if the limit is a lower bound.
         looser: The nearest change when it is loosened; None if there is none.
         tighter: The nearest change when it is tightened; None if there is none.
+        anchored: Measures whose value functions are anchored on the requirement, and do not move with the limit.
     """
 
     requirement: str
@@ -43,6 +44,7 @@ class LimitMoves:
     at_least: bool
     looser: LimitMove | None
     tighter: LimitMove | None
+    anchored: tuple[str, ...]
 
 
 def limit_moves(found: Robustness, *, chosen: int | None) -> tuple[LimitMoves, ...]:
@@ -79,4 +81,5 @@ def _moves(found: Robustness, price: RequirementPrice, chosen: int | None) -> Li
         at_least=at_least,
         looser=None if looser is None else move(steps[looser].tightest, looser),
         tighter=None if tighter is None else move(steps[tighter - 1].tightest, tighter),
+        anchored=price.anchored,
     )

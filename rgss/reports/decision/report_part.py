@@ -16,6 +16,7 @@ from rgss.reports.decision.conclusion import (
     uncertainty_sentences,
 )
 from rgss.reports.decision.json import assumptions_to_json, costs_to_json
+from rgss.reports.decision.limit_sentences import anchored_limits_sentence
 from rgss.reports.decision.report_conflicts import conflict_reasons
 from rgss.reports.decision.sentences import cautions, no_portfolio, portfolio_proof, reading_lines, reasons
 from rgss.reports.failure_drivers import cases_to_json, driver_sentence
@@ -98,6 +99,7 @@ def _robustness(found: RobustnessFindings | None) -> Plain:
         "acceptability": _acceptability(found),
         "weight_ranges": _weight_ranges(found),
         "limits": [_limit(moves) for moves in found.limits],
+        "anchored_limits": anchored_limits_sentence(found.limits),
         "assumptions": assumptions_to_json(found.analysis),
         "costs": costs_to_json(found.analysis),
         "refused": dict(found.analysis.refused),

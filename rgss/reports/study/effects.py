@@ -51,6 +51,7 @@ def _effects(one: MeasureEffects) -> Plain:
         "left_out": list(one.left_out),
         "mean": None if analysis is None else plain_number(analysis.mean),
         "note": "" if analysis is None else usable_resamples_sentence(analysis),
+        "not_computed": one.not_computed,
         "main": [
             {
                 "factor": term.factors[0],

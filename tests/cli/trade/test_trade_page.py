@@ -307,10 +307,10 @@ def test_effects_of_sampled_designs():
             "d7": SampledIndex(share=-0.1, low=-0.2, high=0),
         },
     )
-    nothing = MeasureEffects(measure="S", unit="1", factors=(), left_out=(), designs=0, analysis=None)
+    nothing = MeasureEffects(measure="S", unit="1", factors=(), left_out=(), designs=0, analysis=None, not_computed="R")
     text = "\n".join(effects_lines((effects, nothing)))
 
     assert "Effects on P_max [kg]: 64 designs of a sample" in text
     assert re.search(r"^fingers +90 % +80 % – 95 %$", text, re.MULTILINE)
     assert re.search(r"^d7 +0 % +0 % – 0 %$", text, re.MULTILINE)
-    assert "Effects on S: too few designs have estimates" in text
+    assert "Effects on S: not computed, since R" in text

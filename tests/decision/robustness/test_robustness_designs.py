@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import pytest
 
@@ -12,9 +13,15 @@ from rgss.decision.robustness.assumptions import assumption_findings
 from rgss.decision.robustness.effects import study_effects
 from rgss.decision.robustness.remeasuring import Remeasuring
 from rgss.decision.robustness.robustness import analyse_robustness
+from rgss.decision.study_decision import decide_study
+from rgss.decision.what_if import measured_in, suppose
 from rgss.reports.decision.json.robustness import robustness_to_json
+from rgss.reports.decision.report_part import decision_part
+from rgss.reports.decision.text.robustness import robustness_lines
+from rgss.reports.study.effects import effect_columns
 from rgss.studies.project import load_project
 from rgss.tradeoff.problem.evidence_table import tabulated
+from rgss.tradeoff.robustness.prices import step_at
 
 
 def test_effects_without_levels_that_never_succeed(shipped, filled, record_of):
@@ -73,6 +80,57 @@ def test_designs_that_are_a_sample(folder, filled, record_of):
     assert effects["t_e"].sampled["velocity"].share > 0.9
     assert max(effects["t_e"].sampled, key=lambda factor: effects["t_e"].sampled[factor].share) == "velocity"
     assert json.loads(json.dumps(robustness_to_json(found), allow_nan=False))
+
+
+def test_effects_of_few_designs_are_not_computed_rather_than_absent(folder, filled, record_of):
+    file = folder / "designs/grasping_system.yaml"
+    head, rest = file.read_text(encoding="utf-8").split("factors:\n", 1)
+    few = SAMPLED.replace("size: 64", "size: 4")
+    file.write_text(head + few + "\nrules:" + rest.split("\nrules:", 1)[1], encoding="utf-8")
+    project = load_project(folder)
+    sampled = measure_variants(project, filled(project, lambda spec: record_of(spec, planning_s=0.2)))
+    made = decide_study(project, sampled, evidence="evidence.sqlite")
+    page = "\n".join(robustness_lines(made))
+
+    effects = made.robustness.analysis.effects
+    reason = {one.measure: one.not_computed for one in effects.measures}["P_max"]
+    count = len(sampled)
+    assert count < 8
+    assert reason == f"{count} of the sampled designs have a value, of at least 8"
+    assert f": {reason}." in page
+    assert re.search("^P_max +not computed", page, re.MULTILINE)
+    assert "no differences" not in page
+    assert {one["measure"]: one["not_computed"] for one in effect_columns(effects)}["P_max"] == reason
+
+
+def test_limits_on_which_a_value_is_anchored_are_named(folder, edit, filled, record_of):
+    """The price list keeps the value of cost, which moves with its limit where the study is decided anew."""
+    edit("studies/pick_place.yaml", "worst: 44000 USD", "worst: {requirement: SYS-004}")
+    project = load_project(folder)
+    measured = measure_variants(project, filled(project, lambda spec: record_of(spec, planning_s=0.2)))
+    made = decide_study(project, measured, evidence="evidence.sqlite")
+
+    assert {one.requirement: one.anchored for one in made.robustness.limits if one.anchored} == {
+        "SYS-004": ("C_total",)
+    }
+    (price,) = [one for one in made.robustness.analysis.prices if one.anchored]
+    kept = step_at(price.steps, 45000.0, at_least=False).value
+    scenario = suppose(project, ["SYS-004.threshold=45000 USD"])
+    moved = choose(scenario.project, measured_in(scenario, measured))
+    assert moved.ranking[0].value > kept + 0.01
+    sentence = "(SYS-004: C_total): rgss trade --what-if SYS-004.threshold=… answers for both."
+    assert sentence in "\n".join(robustness_lines(made))
+    assert sentence in decision_part(made)["anchored_limits"]
+    document = robustness_to_json(made.robustness.analysis)
+    assert {one["requirement"]: one["values_kept"] for one in document["prices"] if one["values_kept"]} == {
+        "SYS-004": ["C_total"]
+    }
+
+
+def test_limits_without_anchors_have_no_such_sentence(shipped, filled, record_of):
+    measured = measure_variants(shipped, filled(shipped, lambda spec: record_of(spec, planning_s=0.2)))
+    made = decide_study(shipped, measured, evidence="evidence.sqlite")
+    assert "moves as a demand alone" not in "\n".join(robustness_lines(made))
 
 
 def test_a_constraint_on_an_assumed_number_is_followed_by_steps(folder, edit, filled, record_of):

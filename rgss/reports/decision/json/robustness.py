@@ -11,16 +11,14 @@ from numpy.typing import NDArray
 from rgss.decision.robustness import (
     AssumptionFinding,
     CostBox,
-    FactorLevels,
-    MeasureEffects,
     Part,
     RequirementPrice,
     Robustness,
-    StudyEffects,
     WeightRobustness,
 )
 from rgss.decision.what_if import Change, Scenario
-from rgss.tradeoff.robustness import Acceptability, Effect, RankReversal
+from rgss.reports.decision.json.effects import effects_to_json
+from rgss.tradeoff.robustness import Acceptability, RankReversal
 from rgss.tradeoff.weights import WeightRegion
 
 Plain = dict[str, object]
@@ -48,7 +46,7 @@ def robustness_to_json(found: Robustness) -> Plain:
             "of_the_program": _reversals(found, found.reversals, Part.REVERSALS),
             "if_values_were_stretched_over_the_sample": _reversals(found, found.stretched, Part.STRETCHED),
         },
-        "effects": None if Part.EFFECTS in found.not_computed else _effects(found.effects),
+        "effects": None if Part.EFFECTS in found.not_computed else effects_to_json(found.effects),
         "refused": dict(found.refused),
         "not_computed": not_computed_to_json(found),
     }
@@ -210,6 +208,7 @@ def _price(found: Robustness, price: RequirementPrice) -> Plain:
         "limit": price.condition.limit,
         "unit": price.condition.limit_unit,
         "sense": price.condition.sense.value,
+        "values_kept": list(price.anchored),
         "steps": [
             {
                 "after": _finite(step.loosest),
@@ -236,54 +235,6 @@ def _reversals(found: Robustness, reversals: Iterable[RankReversal], part: Part)
         }
         for one in reversals
     ]
-
-
-def _effects(effects: StudyEffects) -> Plain:
-    return {
-        "factors": [_factor(factor) for factor in effects.factors],
-        "constant_parameters": list(effects.constants),
-        "measures": [_measure_effects(one) for one in effects.measures],
-    }
-
-
-def _factor(factor: FactorLevels) -> Plain:
-    return {"id": factor.id, "parameters": list(factor.parameters), "levels": list(factor.levels)}
-
-
-def _measure_effects(one: MeasureEffects) -> Plain:
-    analysis = one.analysis
-    return {
-        "measure": one.measure,
-        "unit": one.unit,
-        "designs": one.designs,
-        "left_out": list(one.left_out),
-        "factors": [_factor(factor) for factor in one.factors],
-        "mean": None if analysis is None else analysis.mean,
-        "total_sum_of_squares": None if analysis is None else analysis.total_sum_of_squares,
-        "first_order": {} if analysis is None else dict(analysis.first_order),
-        "total_order": {} if analysis is None else dict(analysis.total_order),
-        "higher_order_share": None if analysis is None else analysis.rest,
-        "usable_resamples": None if analysis is None else analysis.used,
-        "sampled_first_order": {
-            factor: {"share": index.share, "low": index.low, "high": index.high}
-            for factor, index in one.sampled.items()
-        },
-        "effects": [] if analysis is None else [_effect(effect) for effect in analysis.effects],
-    }
-
-
-def _effect(effect: Effect) -> Plain:
-    return {
-        "factors": list(effect.factors),
-        "levels": effect.levels.tolist(),
-        "low": None if effect.low is None else effect.low.tolist(),
-        "high": None if effect.high is None else effect.high.tolist(),
-        "sum_of_squares": effect.sum_of_squares,
-        "degrees_of_freedom": effect.degrees_of_freedom,
-        "share": effect.share,
-        "share_low": effect.share_low,
-        "share_high": effect.share_high,
-    }
 
 
 def _by_measure(found: Robustness, weights: NDArray[np.float64] | None) -> dict[str, float] | None:

@@ -67,7 +67,7 @@ def usable_resamples_sentence(analysis: FactorialAnalysis) -> str:
 
 def _sampled(title: str, one: MeasureEffects) -> Iterator[str]:
     if not one.sampled:
-        yield f"{title}: too few designs have estimates"
+        yield f"{title}: not computed, since {one.not_computed}"
         return
     yield f"{title}: {one.designs} designs of a sample"
     rows = []

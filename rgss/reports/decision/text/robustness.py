@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from rgss.decision.robustness import Part, WeightRobustness, not_computed_lines
 from rgss.decision.study_decision import LimitMove, RobustnessFindings, StudyDecision
+from rgss.reports.decision.limit_sentences import anchored_limits_sentence
 from rgss.reports.decision.sensitivity_sentences import tied_by_weights_sentence
 from rgss.reports.decision.text.assumptions import assumption_lines
 from rgss.reports.decision.text.contenders import contender_lines
@@ -95,6 +96,8 @@ def _limits(found: RobustnessFindings, value: float) -> Iterator[str]:
     yield ""
     yield from aligned_table(["threshold", "demands", "loosened to", "tightened to"], rows)
     yield "(which variant would then win, and what its value gains or loses)"
+    if sentence := anchored_limits_sentence(found.limits):
+        yield sentence
 
 
 def _reversals(found: RobustnessFindings) -> str:
@@ -122,8 +125,13 @@ def _drivers(found: RobustnessFindings) -> Iterator[str]:
     rows = []
     for one in found.drivers:
         shares = ", ".join(f"{factor} {share_in_words(share)}" for factor, share in one.shares.items())
-        rows.append([one.measure, shares or "no differences", ", ".join(one.left_out) or UNKNOWN])
+        # No factor of a sample need explain a share alone, though designs differ.
+        none = "not computed" if one.not_computed else "none" if found.sampled else "no differences"
+        rows.append([one.measure, shares or none, ", ".join(one.left_out) or UNKNOWN])
     yield from aligned_table(["measure", "factors", "left out, for lack of success"], rows)
+    for reason in dict.fromkeys(one.not_computed for one in found.drivers if one.not_computed):
+        measures = ", ".join(one.measure for one in found.drivers if one.not_computed == reason)
+        yield f"Not computed for {measures}: {reason}."
     effects = found.analysis.effects
     joint = [f"{factor.id} sets {' and '.join(factor.parameters)}" for factor in effects.factors]
     held = f"; {', '.join(effects.constants)} do not vary" if effects.constants else ""

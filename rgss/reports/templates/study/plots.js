@@ -300,7 +300,11 @@ const startEffects = () => {
   onShown(update);
   const tell = () => {
     const one = current();
-    if (!one) { note.textContent = "No factor varies."; return; }
+    if (!one) {
+      const reasons = new Set(data.effects.map((each) => each.not_computed).filter((reason) => reason));
+      note.textContent = reasons.size ? `Not computed: ${[...reasons].join("; ")}.` : "No factor varies.";
+      return;
+    }
     const joint = one.interactions.map((term) => `${term.factors.join(" × ")} ${percent(term.share)}`).join(", ");
     note.textContent = `Over ${one.designs} designs${one.left_out.length ? `, without ${one.left_out.join(", ")}, which lack the measure` : ""}; ${one.main.length ? "in brackets the share of the differences between designs" : "the share of the differences between designs that each factor explains alone"}.${joint ? ` Interactions: ${joint}.` : ""}${one.note ? ` ${one.note}` : ""}`;
   };
