@@ -20,6 +20,7 @@ from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number
 from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.loading import load_measures
 from rgss.measures.mean_limits import UNSEEN_FACTOR
+from rgss.measures.possible_values import estimate_ranges
 from rgss.measures.ranges import Range
 from rgss.measures.ratios import ratio_values
 from rgss.measures.readings import with_alternative

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from rgss.measures.definitions import MeasureSet
+from rgss.measures.definitions import Estimator, MeasureSet
 from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
 from rgss.measures.functions import FUNCTIONS
 from rgss.measures.ranges import Range
@@ -42,6 +42,33 @@ def symbol_ranges(measure_set: MeasureSet, design: Mapping[str, float]) -> dict[
         if measure.from_trials:
             ranges[measure.id] = range_of(measure.expression.root, ranges)
     return ranges
+
+
+def estimate_ranges(measure_set: MeasureSet) -> dict[str, Range]:
+    """Range of every measure's estimates whatever the design, each in the unit of its estimates.
+
+    A share of trials is from 0 to 1; any other has the declared bounds, and those that follow from its expression.
+
+    Args:
+        measure_set: The measures, with the ranges of metrics.
+    """
+    ranges = {constant.id: Range.of_number(constant.value) for constant in measure_set.constants}
+    for symbol in measure_set.inputs:
+        known = measure_set.metric_ranges.get(symbol.metric, Range()) if symbol.from_trial else Range()
+        ranges[symbol.id] = replace(known, length=symbol.length)
+    for measure in measure_set.evaluation_order:
+        ranges[measure.id] = range_of(measure.expression.root, ranges)
+    found = possible_ranges(measure_set, ranges)
+    for measure in measure_set.measures:
+        if measure.estimate is not None and measure.estimate.statistic is Estimator.PROPORTION:
+            found[measure.id] = Range(low=0.0, high=1.0)
+            continue
+        one = found[measure.id]
+        found[measure.id] = Range(
+            low=one.low if measure.least is None else max(one.low, measure.least),
+            high=one.high if measure.most is None else min(one.high, measure.most),
+        )
+    return found
 
 
 def range_of(node: Node, ranges: Mapping[str, Range]) -> Range:

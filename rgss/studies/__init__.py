@@ -13,6 +13,7 @@ if TYPE_CHECKING:
         object_limit_findings,
         strict_findings,
         task_time_findings,
+        threshold_findings,
     )
     from rgss.studies.document import MOST_REPLICATES, StudyDocument
     from rgss.studies.document_kinds import DOCUMENT_KINDS, document_kind

@@ -129,6 +129,7 @@ def _checked(folder: Path, study: str | None, options: argparse.Namespace) -> _C
         object_limit_findings,
         strict_findings,
         task_time_findings,
+        threshold_findings,
         uncounted_mass_findings,
         unused_findings,
     )
@@ -147,6 +148,7 @@ def _checked(folder: Path, study: str | None, options: argparse.Namespace) -> _C
             *draw_findings(project),
             *task_time_findings(project),
             *strict_findings(project),
+            *threshold_findings(project),
             *double_counting_findings(project),
             *assumption_findings(project),
             *scene.findings,

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rgss.studies.checks.step_check import step_findings
     from rgss.studies.checks.strict_check import strict_findings
     from rgss.studies.checks.task_time_check import task_time_findings
+    from rgss.studies.checks.threshold_check import threshold_findings
     from rgss.studies.checks.too_tall import TooTall, objects_too_tall
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -1,0 +1,53 @@
+"""Findings about thresholds beyond the values that a measure can have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.findings import Finding, Severity
+from rgss.measures import Range, estimate_ranges
+from rgss.requirements import Comparison, Criterion
+from rgss.studies.project import Project
+
+
+def threshold_findings(project: Project) -> Iterator[Finding]:
+    """Report criteria that no value of their measure can meet, and warn of those that every value meets.
+
+    The bounds are those that the measure declares, and those that follow from its definition.
+
+    Args:
+        project: The project with its study.
+    """
+    ranges = estimate_ranges(project.measures)
+    for requirement in project.requirements.system:
+        criterion = requirement.criterion
+        if criterion is None:
+            continue
+        unit = project.measures.measure(criterion.measure).unit
+        outcome = _outcome(criterion, criterion.threshold_in(unit), ranges[criterion.measure], unit)
+        if outcome is None:
+            continue
+        reason, is_met = outcome
+        place = project.requirements.places[requirement.id]
+        yield place.document.finding(
+            "study.threshold-range",
+            f"{requirement.id} demands {criterion}, but {criterion.measure} is {reason}: "
+            f"{'every design meets it' if is_met else 'no design can meet it'}",
+            (*place.location, "criterion", "threshold"),
+            severity=Severity.WARNING if is_met else Severity.ERROR,
+            hint="correct the threshold, or the bounds of the measure",
+        )
+
+
+def _outcome(criterion: Criterion, threshold: float, possible: Range, unit: str) -> tuple[str, bool] | None:
+    """The bound that decides a criterion, and whether it is met; None if values on both sides are possible."""
+    suffix = "" if unit == "1" else f" {unit}"
+    least, most = f"at least {possible.low:g}{suffix}", f"at most {possible.high:g}{suffix}"
+    if criterion.comparison.is_lower_bound:
+        if not criterion.comparison.holds(possible.high, threshold):
+            return most, False
+        # A threshold at the bound itself, such as a clearance of at least 0 mm, is deliberate.
+        return (least, True) if Comparison.ABOVE.holds(possible.low, threshold) else None
+    if not criterion.comparison.holds(possible.low, threshold):
+        return least, False
+    return (most, True) if Comparison.BELOW.holds(possible.high, threshold) else None
