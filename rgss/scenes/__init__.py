@@ -43,6 +43,7 @@ from rgss.scenes.hands import (
     find_pads,
     misfit,
     object_in_hand,
+    pad_limits,
     palm_fit,
     suction_point_of,
     too_narrow,

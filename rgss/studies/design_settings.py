@@ -16,7 +16,7 @@ from rgss.documents import Document
 from rgss.errors import QuantityError
 from rgss.findings import Finding, shown
 from rgss.motion import available_planners
-from rgss.scenes import GripperFile, Robot
+from rgss.scenes import GripperFile, Robot, motion_of, pad_limits
 from rgss.studies.planning import PlanningChoice, planner_problem, require_value
 from rgss.studies.trial_values import values_of
 
@@ -27,6 +27,8 @@ TIME_LIMIT = "planning.time_limit"
 PLANNER = "planning.planner"
 MOUNTING = "gripper.mounting"
 _FINGERS, _TOOL_SPEED = "gripper.fingers", "robot.tool_speed"
+_FORCE, _SPEED = "gripper.finger.force", "gripper.finger.speed"
+_ROUNDING = 1.0 + 1e-9
 
 
 def design_findings(
@@ -50,6 +52,7 @@ def design_findings(
     yield from _planner_parameter_findings(designs, document, planning)
     yield from _component_findings(designs, grippers)
     yield from _mounting_findings(designs, document, grippers)
+    yield from _linkage_findings(designs, document, grippers)
 
 
 def default_values(robot: Robot, planning: PlanningChoice) -> Mapping[str, ParameterValue]:
@@ -170,3 +173,40 @@ def _mounting_findings(
             yield document.finding(
                 "design.mounting", f"no gripper has a mounting {shown(str(value))}", place, hint=hint
             )
+
+
+def _linkage_findings(
+    designs: DesignSpace, document: Document, grippers: Mapping[str, GripperFile]
+) -> Iterator[Finding]:
+    """Forces and speeds of fingers beyond what the driven joint of their linkage gives.
+
+    Args:
+        designs: The design space.
+        document: Its file, for positions.
+        grippers: The gripper file of each gripper component, by its name.
+    """
+    found: dict[tuple[str, str, float], int] = {}
+    linkages = {name: file.geometry.linkage for name, file in grippers.items() if file.geometry.linkage is not None}
+    if not linkages or not {_FORCE, _SPEED} & setters_of(designs):
+        return
+    for variant in designs.expand():
+        component = variant.components.get(GRIPPER)
+        if component is None or component.geometry not in linkages:
+            continue
+        for name, value in values_of(variant, grippers[component.geometry].settings).items():
+            if name in (_FORCE, _SPEED) and isinstance(value, (int, float)):
+                found.setdefault((component.geometry, name, value), variant.id)
+    for (geometry, name, value), number in found.items():
+        force_n, speed_m_s = pad_limits(motion_of(linkages[geometry]))
+        limit, unit = (force_n, "N") if name == _FORCE else (speed_m_s, "m/s")
+        if value <= limit * _ROUNDING:
+            continue
+        ids = {parameter.id for parameter in designs.parameters if parameter.sets == name}
+        places = (place for place, own, written in written_values(designs) if own in ids and written == value)
+        yield document.finding(
+            "design.linkage-limit",
+            f"variant {number}: {name} is {value:g} {unit}, but the driven joint of {geometry} gives each pad "
+            f"{limit:.4g} {unit} at most",
+            next(places, ("parameters",)),
+            hint="lower it, or correct the effort and velocity of the joint in the URDF",
+        )

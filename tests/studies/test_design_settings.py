@@ -7,6 +7,9 @@ import re
 import pytest
 
 from rgss.motion import SOURCE_PLANNERS, available_planners
+from rgss.scenes import load_gripper_file, motion_of, pad_limits
+from rgss.studies.project import load_project
+from tests.trials.hands.gripper_files import FILES, TWO_FINGER
 
 SPACE, CATALOGUE = "designs/grasping_system.yaml", "designs/catalogue.yaml"
 
@@ -138,3 +141,33 @@ def test_a_gripper_with_the_shape_of_another(edit, problems):
     assert re.match(
         rf"{CATALOGUE}:\d+:15: error: '.*' is for d1 = 3, its shape has 2 fingers \(name the file of another", problem
     )
+
+
+@pytest.fixture
+def cranks(folder):
+    """The shipped project with a linkage as its hand of two fingers, whose driven joint has a limited effort."""
+    (folder / "scenes/grippers/kg-2.yaml").write_text(FILES["linkage"], encoding="utf-8")
+    urdf = TWO_FINGER.read_text(encoding="utf-8")
+    # An effort of which each pad has some 10 N, which the rules of the design space allow.
+    (folder / "scenes/grippers" / TWO_FINGER.name).write_text(
+        re.sub('effort="[0-9.]+"', 'effort="1.2"', urdf), encoding="utf-8"
+    )
+    return pad_limits(motion_of(load_gripper_file(folder / "scenes/grippers/kg-2.yaml").geometry.linkage))
+
+
+@pytest.mark.parametrize(
+    ("written", "quantity", "limit"),
+    [("d5: 10 N", "gripper.finger.force", 0), ("d4: 0.04 m/s", "gripper.finger.speed", 1)],
+)
+def test_more_than_the_joint_of_a_linkage_gives(folder, cranks, edit, problems, place_of, written, quantity, limit):
+    """The hand of three fingers is no linkage, and has no such limit."""
+    name, unit = written.split()[0], written.split()[-1]
+    most = cranks[limit]
+    edit(SPACE, written, f"{name} {most:.9g} {unit}")
+    load_project(folder)
+    edit(SPACE, f"{name} {most:.9g} {unit}", f"{name} {1.01 * most:.4g} {unit}")
+
+    (problem,) = problems()
+    assert problem.startswith(f"{place_of(SPACE, f'{1.01 * most:.4g} {unit}')}: error: variant ")
+    assert f": {quantity} is {1.01 * most:.4g} {unit}, but the driven joint of scenes/grippers/kg-2.yaml" in problem
+    assert f"gives each pad {most:.4g} {unit} at most (lower it" in problem

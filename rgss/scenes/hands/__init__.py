@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from rgss.scenes.hands.kinds import kind_of_gripper
     from rgss.scenes.hands.linkage_document import LinkageGripperDocument
     from rgss.scenes.hands.linkage_fit import at_object
-    from rgss.scenes.hands.linkage_gripper import LinkageGripper
+    from rgss.scenes.hands.linkage_gripper import LinkageGripper, pad_limits
     from rgss.scenes.hands.linkage_shape import at_opening
     from rgss.scenes.hands.pad_search import find_pads
     from rgss.scenes.hands.parallel_gripper import ParallelGripperDocument
