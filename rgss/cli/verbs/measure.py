@@ -207,4 +207,10 @@ def _print_stale(measured: Sequence[VariantMeasures]) -> None:
         verdicts, verb = ("verdict is", "it was") if count == 1 else ("verdicts are", "they were")
         what = ", ".join(cause.value for cause in causes)
         print(f"{count} {verdicts} stale, for this changed since {verb} made: {what}")
-    print("'rgss sweep' makes the evidence again; 'rgss measure --record' gives verdicts by the stored evidence.")
+    # A verdict is recorded again only with present evidence, which a change of the requirement leaves as it is.
+    needing = {entry.outdated > 0 for entry in measured if entry.causes}
+    if True in needing:
+        print("'rgss sweep' makes the outdated trials again, and records the verdicts of their variants.")
+    if False in needing:
+        others = " the other" if True in needing else ""
+        print(f"'rgss measure --record' gives{others} verdicts by the stored evidence.")

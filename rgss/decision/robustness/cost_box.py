@@ -69,7 +69,9 @@ def cost_box(remeasuring: Remeasuring, preferences: Preferences, chosen: int) ->
     conditions = [condition for condition in preferences.conditions if condition.measure == column]
     if measures.measure(measure).from_trials or not is_affine(measures, measure, symbols):
         return f"{column} is not a sum of assumed costs"
-    if function is None or function.breakpoints is None:
+    if function is None:
+        return f"{column} has no value function, and decides by its limit alone"
+    if function.breakpoints is None:
         return f"the value of {column} is not piecewise linear"
     if not all(isinstance(condition, Threshold) for condition in conditions):
         return f"there are demands on replicates of {column}"

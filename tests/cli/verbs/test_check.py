@@ -242,6 +242,7 @@ def test_verdicts_are_recorded_and_then_stale(rgss, judged):
     told = rgss("measure", "--project", judged)
     assert "72 verdicts are stale, for this changed since they were made: requirement\n" in told.output
     assert told.output.endswith("'rgss measure --record' gives verdicts by the stored evidence.\n")
+    assert "'rgss sweep'" not in told.output
     told = rgss("check", "--evidence", "--project", judged)
     assert told.status == 1
     assert "'SYS-024' has stale evidence for any of the 72 variants: the requirement has changed since" in told.output
@@ -284,6 +285,9 @@ def test_a_verdict_of_one_variant_says_why_it_is_stale(rgss, judged):
     told = rgss("measure", "--variant", 7, "--project", judged)
 
     assert "4 verdicts are stale, for this changed since they were made: model, code, engines\n" in told.output
+    remedy = "'rgss sweep' makes the outdated trials again, and records the verdicts of their variants.\n"
+    assert told.output.endswith(remedy)
+    assert "--record" not in told.output
     told = rgss("measure", "--verdicts", "--variant", 7, "--project", judged)
     assert [line.split()[:4] for line in told.output.splitlines()[2:] if "SYS-024" in line] == [
         ["7", "SYS-024", "stale", "model,"]

@@ -20,7 +20,7 @@ from rgss.decision.what_if import measured_in, suppose
 from rgss.decision.what_if.numbers import assumed_numbers, model_numbers
 from rgss.motion import SOURCE_PLANNERS
 from rgss.reports.decision.json.robustness import robustness_to_json, scenario_to_json
-from rgss.tradeoff import Aim, Comparison, ElicitedInterval, Lexicographic
+from rgss.tradeoff import Aim, Comparison, ElicitedInterval, ExponentialValue, Lexicographic
 from rgss.tradeoff.problem.evidence_table import tabulated
 from rgss.tradeoff.robustness.pareto import Support
 from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
@@ -271,6 +271,23 @@ def test_costs_that_decide_through_two_measures(shipped, measured, decision):
     assert cost_box(remeasuring, without, row) == "assumed costs decide through no measure, not through one measure"
     free = {one.number.id: one for one in assumption_findings(remeasuring, without, row)}
     assert free["catalogue.ur10.cost"].range.always
+
+
+def test_costs_that_decide_by_their_limit_or_by_a_curved_value(shipped, measured, decision):
+    problem = trade_problem(shipped, measured)
+    remeasuring = Remeasuring.of(shipped, measured, tabulated(problem.alternatives))
+    row = remeasuring.table.row_of(decision.chosen)
+    weights = {"P_max": 0.5, "S": 0.5}
+    limited = replace(
+        problem,
+        weighting=replace(problem.weighting, weights=weights),
+        value_functions=tuple(one for one in problem.value_functions if one.measure in weights),
+    )
+    assert cost_box(remeasuring, limited, row) == "C_total has no value function, and decides by its limit alone"
+    curved = ExponentialValue(measure="C_total", worst=44000.0, best=38000.0, halfway=42000.0)
+    others = tuple(one for one in problem.value_functions if one.measure != "C_total")
+    bent = replace(problem, value_functions=(*others, curved))
+    assert cost_box(remeasuring, bent, row) == "the value of C_total is not piecewise linear"
 
 
 def test_remeasuring_is_measuring_the_changed_project(shipped, measured):
