@@ -93,7 +93,9 @@ class RuleReader:
         for name, values in written.items():
             parameter = self._names.parameter(name)
             named = self._names.values(name)
-            if parameter is not None:
+            # A factor may have the id of its parameter, and levels with names of their own.
+            is_of_levels = all(self._names.means_level(name, value) for value in values)
+            if parameter is not None and not is_of_levels:
                 if parameter.id in choices:
                     message = f"{name} refers to {parameter.id}, which is listed already"
                     self._report("named-twice", message, *place, name, hint="name it once", at_key=True)

@@ -52,6 +52,35 @@ def test_terms_choose_variants(project, terms, expected):
 
 
 @pytest.mark.parametrize(
+    ("old", "new", "terms", "expected"),
+    [
+        ("- id: mass\n", "- id: d1\n", ("d1=low",), [1, 2, 3, 4]),
+        ("- id: mass\n", "- id: d1\n", ("D1!=High",), [1, 2, 3, 4]),
+        ("- id: mass\n", "- id: d1\n", ("d1=200 g",), [5, 6, 7, 8]),
+        ("- id: fingers\n", "- id: d2\n", ("d2=three",), [3, 4, 7, 8]),
+        ("- id: fingers\n", "- id: d2\n", ("d2=3",), [3, 4, 7, 8]),
+        ("{id: prm, sets", "{id: roadmap, sets", ("planner=roadmap",), [2, 4, 6, 8]),
+        (
+            "- id: planner\n    name: Planner\n    levels",
+            "- id: d3\n    name: P\n    levels",
+            ("d3=PRM",),
+            [2, 4, 6, 8],
+        ),
+    ],
+)
+def test_a_factor_with_the_id_of_its_parameter_has_its_levels(project, old, new, terms, expected):
+    assert ids(project.change(old, new).load(), *terms) == expected
+
+
+def test_a_level_of_a_factor_with_the_id_of_a_named_parameter(project):
+    project.change("- id: planner\n    name: Planner\n    levels", "- id: d3\n    name: P\n    levels")
+    space = project.change("{id: prm, sets", "{id: roadmap, sets").load()
+    assert ids(space, "d3=roadmap") == ids(space, "d3=PRM") == [2, 4, 6, 8]
+    with pytest.raises(DefinitionError, match="d3 is never 'EST'"):
+        picked(space, ["d3=EST"])
+
+
+@pytest.mark.parametrize(
     ("terms", "message"),
     [
         (("x",), "--only: 'x' is not an id or a range (write ids such as 1,5,60-72)"),

@@ -200,3 +200,11 @@ def test_limits_hold_where_a_role_has_no_component(project):
     project.space_text += RULES + "    limit: {product_of: [design.d4], at_most: component.gripper.force}\n"
     (finding,) = project.findings()
     assert "no gripper in the catalogue matches" in finding
+
+
+@pytest.mark.parametrize("written", ["{d2: three}", "{d2: [Three]}", "{d2: 3}"])
+def test_a_rule_names_a_level_of_a_factor_with_the_id_of_its_parameter(project, written):
+    project.change("- id: fingers\n", "- id: d2\n")
+    project.space_text += f"{RULES}    exclude: {written}\n"
+    space = project.load()
+    assert {one.id for one in space.excluded()} == {3, 4, 7, 8}

@@ -12,7 +12,8 @@ from rgss.designs.compatibility import Alternative
 from rgss.designs.components import Catalogue
 from rgss.designs.design_values import COMPONENT_PREFIX, DESIGN_PREFIX, set_names
 from rgss.designs.factors import Factor
-from rgss.designs.parameters import DesignParameter, ParameterValue
+from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterValue
+from rgss.errors import QuantityError
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,6 +88,20 @@ class FilterNames:
                 own.setdefault(component.id, (Alternative(components={role: component.id}),))
             choosing = self._levels_that_choose(role)
         return NamedValues(own=own, choosing=choosing)
+
+    def means_level(self, name: str, value: ParameterValue) -> bool:
+        """True if a name is also that of a parameter, and a value is a level or a component but no value of it."""
+        parameter, named = self.parameter(name), self.values(name)
+        if parameter is None or named is None or not named.alternatives(str(value)):
+            return False
+        if parameter.kind is ParameterKind.NAME:
+            set_to = {str(one.values.get(parameter.id)) for factor in self.factors for one in factor.levels}
+            return respelt(str(value), set_to) not in set_to
+        try:
+            parameter.read(int(value) if isinstance(value, str) and value.isdecimal() else value)
+        except QuantityError:
+            return True
+        return False
 
     def known(self) -> set[str]:
         """All names, without prefixes."""

@@ -136,7 +136,7 @@ def _equals(space: DesignSpace, name: str, value: str, option: str) -> Filter | 
     """Filter on a name and its value; None if the name is unknown."""
     names = _names(space)
     parameter = names.parameter(name)
-    if parameter is not None:
+    if parameter is not None and not names.means_level(name, value):
         return _parameter_equals(space, parameter, name, value, option)
     values = names.values(name)
     if values is None:
