@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 
 import pytest
 
@@ -81,6 +82,19 @@ def test_joints_that_do_not_hold_the_arm_are_found(capsys, written):
     text = capsys.readouterr().out
     assert "joint joint_2 gives 2 N*m, and needs " in text
     assert "joint joint_1 gives" not in text  # its axis is vertical
+
+
+@pytest.mark.parametrize(("mass", "found"), [("0.01", True), ("0.04", True), ("0.2", False), ("1", False)])
+def test_masses_that_no_arm_of_this_length_has_are_found(capsys, written, mass, found):
+    """Seven links of 2 to 200 g over the sum of their offsets."""
+    length_m = sum(math.dist((0, 0, 0), link.xyz) for link in SEVEN)
+    total_kg = len(SEVEN) * float(mass)
+    assert (total_kg < 0.3 * length_m) is found
+    main(["robot", str(written(serial_urdf(SEVEN).replace('mass value="1"', f'mass value="{mass}"')))])
+    text = capsys.readouterr().out
+    message = f"weigh {total_kg:.3g} kg over a length of {length_m:.3g} m: are their masses placeholders?"
+    assert (message in text) is found
+    assert ("[robot.placeholder-mass]" in text) is found
 
 
 def test_moments_that_are_zero_are_those_of_the_shape(capsys, written):

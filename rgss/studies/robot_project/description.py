@@ -23,6 +23,7 @@ from rgss.studies.robot_project.urdf import LARGEST_HULL_RATIO
 
 _LARGEST_LENGTH_M, _LARGEST_MASS_KG = 10.0, 1000.0
 _LARGEST_ANGLE_RAD = 30.0
+_LEAST_MASS_KG_M = 0.3
 _LIMITS = (("joints.torque", "effort", "effort"), ("joints.speed", "velocity", "velocity"))
 _NOTES = frozenset({"robot.open-mesh", "robot.concave-mesh"})
 
@@ -150,7 +151,7 @@ def description_findings(
             root.remove(link)
     stated = tuple(_limits(root, robot, _subjects(assumed, kept=True)))
     lacking = (*_lengths(root), *_masses(root), *_limits(root, robot, _subjects(assumed, kept=False)))
-    lacking += tuple(_ranges(root, robot))
+    lacking += (*_ranges(root, robot), *_placeholder_masses(root, robot))
     for name, rule, message, hint in (*lacking, *stated, *_meshes(root, urdf)):
         at = next((number for number, line in enumerate(lines, start=1) if f'"{name}"' in line), 1)
         noted = rule in _NOTES or (name, rule, message, hint) in stated
@@ -190,6 +191,27 @@ def _masses(root: ET.Element) -> Iterator[tuple[str, str, str, str]]:
                 f"{name} has moments of inertia that no body has",
                 "no principal moment is negative, or greater than the sum of the two others",
             )
+
+
+def _placeholder_masses(root: ET.Element, robot: Robot) -> Iterator[tuple[str, str, str, str]]:
+    """A mass of all links together that no arm of this length has, such as 10 g for each."""
+    joints = {joint.find("child").get("link", ""): joint for joint in root.findall("joint")}  # type: ignore[union-attr]
+    length_m, link = 0.0, robot.flange
+    moved = []
+    while (joint := joints.get(link)) is not None:
+        moved.append(link)
+        origin, parent = joint.find("origin"), joint.find("parent")
+        words = "0" if origin is None else origin.get("xyz", "0")
+        length_m += math.hypot(*(float(word) for word in words.split()))
+        link = "" if parent is None else parent.get("link", "")
+    masses = {one.get("name", ""): one.find("inertial/mass") for one in root.findall("link")}
+    found = {name: float(mass.get("value", "0")) for name in moved if (mass := masses.get(name)) is not None}
+    mass_kg = math.fsum(found.values())
+    if 0.0 < mass_kg < _LEAST_MASS_KG_M * length_m:
+        weight = f"weigh {mass_kg:.3g} kg over a length of {length_m:.3g} m"
+        message = f"the moving links of {robot.id} {weight}: are their masses placeholders?"
+        hint = "state measured masses and inertias; efforts, energy and payload follow from them"
+        yield list(found)[-1], "robot.placeholder-mass", message, hint
 
 
 def _subjects(assumed: Collection[str], *, kept: bool) -> tuple[tuple[str, str], ...]:
