@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from rgss.documents import Document, read_document
@@ -11,14 +11,27 @@ from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
 from rgss.scenes import (
-    GRIPPER_BASE_LINK,
     GripperGeometry,
     at_object,
     half_extents_m,
     mesh_volume_findings,
     misfit,
 )
-from rgss.studies.checks import TooTall, objects_too_tall, seal_finding, step_findings, unsealed_objects
+from rgss.studies.checks import (
+    OF_ONE_GRIPPER,
+    TooTall,
+    closing_texts,
+    instability_texts,
+    is_at_the_palm,
+    is_of_fingers,
+    objects_too_tall,
+    objects_too_wide,
+    remedy,
+    seal_finding,
+    step_findings,
+    unsealed_objects,
+    width_finding,
+)
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
@@ -26,7 +39,7 @@ from rgss.studies.project import Project
 if TYPE_CHECKING:
     from rgss.trials import HandStepProblem, SceneProblem
 
-_OF_ONE_GRIPPER = "designs with this gripper fail there, and the others do not"
+_NOT_SEARCHED = "grasps are not searched before the objects of the scene neither overlap nor lack support"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,7 +48,7 @@ class SceneCheck:
 
     Attributes:
         findings: The findings.
-        skipped: Reason that the scene was not checked; empty if it was.
+        skipped: Reason that the scene, or the grasps in it, were not checked; empty if they were.
     """
 
     findings: tuple[Finding, ...]
@@ -49,31 +62,13 @@ def check_scene(project: Project) -> SceneCheck:
         project: The project.
     """
     try:
-        from rgss.trials import hand_step_problems, reach_problems, scene_problems
+        from rgss.trials import scene_problems
 
         of_bodies = scene_problems(project.scene)
-        of_reach: dict[SceneProblem, list[str]] = {}
-        of_steps: dict[HandStepProblem, list[str]] = {}
-        too_tall: dict[TooTall, list[str]] = {}
-        not_sealed: dict[tuple[str, str], list[str]] = {}
+        skipped = _NOT_SEARCHED if _refuses_search(project, of_bodies) else ""
+        of_hands = _HandProblems()
         for file in _gripper_files(project):
-            geometry = _mounting_that_holds(project, file)
-            tall = objects_too_tall(geometry, project)
-            for one in tall:
-                too_tall.setdefault(one, []).append(file)
-            for unsealed in unsealed_objects(geometry, project):
-                not_sealed.setdefault(unsealed, []).append(file)
-            clearance_m, task = project.study.planning.clearance_m, project.study.task
-            friction = _pad_friction(project, file)
-            for step in hand_step_problems(
-                project.scene, geometry, clearance_m=clearance_m, task=task, friction=friction
-            ):
-                of_steps.setdefault(step, []).append(file)
-            for problem in reach_problems(
-                project.scene, geometry, clearance_m=clearance_m, task=task, friction=friction
-            ):
-                if not any(_is_at_the_palm(problem, one.object) for one in tall):
-                    of_reach.setdefault(problem, []).append(file)
+            of_hands.add(project, file, is_searched=not skipped)
     except ImportError as error:
         missing = f"{error.name or error} is not installed"
         return SceneCheck(findings=(), skipped=f"the scene is not checked: {missing} ({INSTALL})")
@@ -84,16 +79,69 @@ def check_scene(project: Project) -> SceneCheck:
     places = _Places(project, document)
     found = [places.finding(problem, ()) for problem in of_bodies]
     every = len(_gripper_files(project))
-    found += [places.finding(problem, files if len(files) < every else ()) for problem, files in of_reach.items()]
-    found += step_findings(project, of_steps, grippers=every)
+    found += [places.finding(problem, files if len(files) < every else ()) for problem, files in of_hands.reach.items()]
+    found += step_findings(project, of_hands.steps, grippers=every)
     found += places.outgrown_regions()
     found += mesh_volume_findings(project.folder / label, label=label)
     found += [
-        seal_finding(document, (*places.at[name][:-1], "id"), reason, files, every=every)
-        for (name, reason), files in not_sealed.items()
+        finding(document, (*places.at[name][:-1], "id"), reason, files, serves=of_hands.serves(name, every))
+        for finding, unfit in ((seal_finding, of_hands.not_sealed), (width_finding, of_hands.too_wide))
+        for (name, reason), files in unfit.items()
     ]
-    found += [places.too_tall(tall, files, serves=len(files) < every) for tall, files in too_tall.items()]
-    return SceneCheck(findings=tuple(sorted(found)))
+    found += [places.too_tall(tall, files, serves=len(files) < every) for tall, files in of_hands.too_tall.items()]
+    return SceneCheck(findings=tuple(sorted(found)), skipped=skipped)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _HandProblems:
+    """Problems of the hands of the designs, each with the gripper files that have it."""
+
+    reach: dict[SceneProblem, list[str]] = field(default_factory=dict)
+    steps: dict[HandStepProblem, list[str]] = field(default_factory=dict)
+    too_tall: dict[TooTall, list[str]] = field(default_factory=dict)
+    too_wide: dict[tuple[str, str], list[str]] = field(default_factory=dict)
+    not_sealed: dict[tuple[str, str], list[str]] = field(default_factory=dict)
+
+    def serves(self, name: str, every: int) -> bool:
+        """True if a gripper of the designs is neither too narrow for an object nor a cup that does not seal on it."""
+        unfit = (files for (of, _), files in (*self.not_sealed.items(), *self.too_wide.items()) if of == name)
+        return len({file for files in unfit for file in files}) < every
+
+    def add(self, project: Project, file: str, *, is_searched: bool) -> None:
+        """Check one gripper file; where it is not searched, the sizes of hand and objects alone."""
+        from rgss.trials import hand_step_problems, reach_problems
+
+        scene, geometry = project.scene, _mounting_that_holds(project, file)
+        tall, wide = objects_too_tall(geometry, project), objects_too_wide(geometry, project)
+        for one in tall:
+            self.too_tall.setdefault(one, []).append(file)
+        for unfit in wide:
+            self.too_wide.setdefault(unfit, []).append(file)
+        for unsealed in unsealed_objects(geometry, project):
+            self.not_sealed.setdefault(unsealed, []).append(file)
+        if not is_searched:
+            return
+        clearance_m, task = project.study.planning.clearance_m, project.study.task
+        friction = _pad_friction(project, file)
+        for step in hand_step_problems(scene, geometry, clearance_m=clearance_m, task=task, friction=friction):
+            self.steps.setdefault(step, []).append(file)
+        for problem in reach_problems(scene, geometry, clearance_m=clearance_m, task=task, friction=friction):
+            at_palm = any(is_at_the_palm(problem, one.object) for one in tall)
+            if not at_palm and not any(is_of_fingers(problem, name) for name, _ in wide):
+                self.reach.setdefault(problem, []).append(file)
+
+
+def _refuses_search(project: Project, of_bodies: Sequence[SceneProblem]) -> bool:
+    """True if grasps would be searched, for minutes, among objects that cannot be where the scene has them."""
+    from rgss.trials import SceneProblemKind
+
+    refusing = (
+        SceneProblemKind.OBJECT_OVERLAP,
+        SceneProblemKind.PLACE_OVERLAP,
+        SceneProblemKind.OBJECT_UNSUPPORTED,
+        SceneProblemKind.PLACE_UNSUPPORTED,
+    )
+    return project.scene.task.candidates is not None and any(problem.kind in refusing for problem in of_bodies)
 
 
 def _gripper_files(project: Project) -> tuple[str, ...]:
@@ -116,12 +164,6 @@ def _mounting_that_holds(project: Project, file: str) -> GripperGeometry:
     gripper, scene = project.grippers[file], project.scene
     held = (geometry for geometry in gripper.mountings.values() if not misfit(geometry, scene))
     return at_object(next(held, gripper.geometry), scene)
-
-
-def _is_at_the_palm(problem: SceneProblem, name: str) -> bool:
-    """True if a problem is that of palm and object, which has a finding of its own where the object is too tall."""
-    pair = None if problem.reason is None else problem.reason.pair
-    return pair is not None and {*pair} == {GRIPPER_BASE_LINK, name}
 
 
 class _Places:
@@ -152,10 +194,10 @@ class _Places:
             other = f" [{', '.join(named)}]" if named else ""
             of = f" with {', '.join(grippers)}" if grippers else ""
             message = f"no configuration of the arm{of} serves {problem.waypoint}: {problem.reason}{other}"
-            hint = _remedy(problem)
+            hint = remedy(problem)
             if grippers and first in pair:
                 # The object does not fit between its fingers, but does between another's: a result, not a mistake.
-                severity, hint = Severity.INFO, _OF_ONE_GRIPPER
+                severity, hint = Severity.INFO, OF_ONE_GRIPPER
         elif problem.kind is SceneProblemKind.NO_GRASP:
             of = f" with {', '.join(grippers)}" if grippers else ""
             location = (*location[:-1], "id")
@@ -164,9 +206,9 @@ class _Places:
                 message += f"; the best one does not serve {problem.waypoint}: {problem.reason}"
             hint = "let the task try more approaches, turn or move the object, or take another gripper"
             if problem.reason is not None:
-                hint = f"{_remedy(problem)}; or {hint}"
+                hint = f"{remedy(problem)}; or {hint}"
         elif problem.kind is SceneProblemKind.CLOSING:
-            message, hint = _closing_texts(problem, grippers)
+            message, hint = closing_texts(problem, grippers)
             severity = Severity.INFO if grippers else Severity.ERROR
         elif problem.kind is SceneProblemKind.HOME_COLLISION:
             message = f"at its home the robot is in collision: {first} with {second}, {millimetres} deep"
@@ -185,7 +227,7 @@ class _Places:
             hint = "move 'at' over the body, or name another in 'stands_on'"
         elif problem.kind is SceneProblemKind.OBJECT_UNSTABLE:
             severity = Severity.WARNING
-            message, hint = _instability_texts(problem)
+            message, hint = instability_texts(problem)
         else:
             at_place = problem.kind is SceneProblemKind.PLACE_OVERLAP
             location = self._place_of(first) if at_place else self.at[first]
@@ -251,36 +293,3 @@ class _Places:
             return body
         found = self.document.finding("", "", self.at[body])
         return f"{body} ({found.file}:{found.line}:{found.column})"
-
-
-def _closing_texts(problem: SceneProblem, grippers: Sequence[str]) -> tuple[str, str]:
-    """Message and hint of a link that meets an object before the pads do."""
-    of = f" of {', '.join(grippers)}" if grippers else ""
-    millimetres = f"{abs(problem.distance_m) * 1e3:.3g} mm"
-    how = f"be {millimetres} in it" if problem.distance_m > 0.0 else f"come within {millimetres} of it"
-    hint = "hold it nearer to the ends of the pads ('grasp_from_tip' of the gripper), or choose among candidates"
-    message = f"while the hand{of} closes on {problem.first}, {problem.second} would {how}"
-    return message, _OF_ONE_GRIPPER if grippers else hint
-
-
-def _instability_texts(problem: SceneProblem) -> tuple[str, str]:
-    """Message and hint of an object that cannot stand by itself."""
-    foot = f"{'an' if problem.detail == 'edge' else 'a'} {problem.detail} of its shape"
-    where = f"{problem.distance_m * 1e3:.3g} mm outside of it" if problem.distance_m > 1e-6 else "above it"
-    hint = "turn the shape ('rests'), state its 'centre_of_mass', or let bodies beside it hold it"
-    message = f"{problem.first} cannot stand by itself on {problem.second}: it touches it with {foot}, "
-    return f"{message}and its centre of mass is {where}", hint
-
-
-def _remedy(problem: SceneProblem) -> str:
-    from rgss.trials import Obstacle
-
-    if problem.reason is None or problem.reason.obstacle in (Obstacle.OUT_OF_REACH, Obstacle.ORIENTATION):
-        return "move it nearer to the robot, or lower the task's heights"
-    if problem.reason.obstacle is Obstacle.JOINT_RANGE:
-        return "widen the joint's range in the robot's file, or turn the grasp or the place about the vertical"
-    if problem.reason.obstacle is Obstacle.TILT:
-        return "allow more tilt with 'largest_carry_tilt'"
-    if problem.reason.obstacle is Obstacle.CLEARANCE:
-        return "move one of them, or lower the study's clearance"
-    return "move one of them, or turn the grasp or the place about the vertical"

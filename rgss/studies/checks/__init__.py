@@ -10,11 +10,13 @@ if TYPE_CHECKING:
     from rgss.studies.checks.draw_check import draw_findings
     from rgss.studies.checks.impact_check import impact_findings
     from rgss.studies.checks.object_limit_check import object_limit_findings
+    from rgss.studies.checks.scene_texts import OF_ONE_GRIPPER, closing_texts, instability_texts, remedy
     from rgss.studies.checks.seal_check import seal_finding, unsealed_objects
     from rgss.studies.checks.step_check import step_findings
     from rgss.studies.checks.strict_check import strict_findings
     from rgss.studies.checks.task_time_check import task_time_findings
     from rgss.studies.checks.threshold_check import threshold_findings
-    from rgss.studies.checks.too_tall import TooTall, objects_too_tall
+    from rgss.studies.checks.too_tall import TooTall, is_at_the_palm, objects_too_tall
+    from rgss.studies.checks.width_check import is_of_fingers, objects_too_wide, width_finding
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

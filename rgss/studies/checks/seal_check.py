@@ -32,7 +32,7 @@ def unsealed_objects(geometry: GripperGeometry, project: Project) -> tuple[tuple
 
 
 def seal_finding(
-    document: Document, location: Location, reason: str, grippers: Sequence[str], *, every: int
+    document: Document, location: Location, reason: str, grippers: Sequence[str], *, serves: bool
 ) -> Finding:
     """Finding about an object on which a cup does not seal; a note if the designs have another gripper.
 
@@ -41,9 +41,8 @@ def seal_finding(
         location: The object's place there.
         reason: Reason why the cup does not seal.
         grippers: Files of the grippers with such a cup.
-        every: Number of gripper files of the designs.
+        serves: True if the designs have another gripper, for which the object is fit.
     """
-    serves = len(grippers) < every
     return document.finding(
         "scene.seal",
         f"{reason} ({', '.join(sorted(grippers))})",

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from rgss.scenes import GripperGeometry, at_object, initial_placements, palm_fit, scene_about
+from rgss.scenes import GRIPPER_BASE_LINK, GripperGeometry, at_object, initial_placements, palm_fit, scene_about
 from rgss.studies.project import Project
 from rgss.tasks import HandAction, stages_of
+
+if TYPE_CHECKING:
+    from rgss.trials import SceneProblem
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,3 +46,14 @@ def objects_too_tall(geometry: GripperGeometry, project: Project) -> tuple[TooTa
         if fit is not None and fit.top_m > most_m:
             found.append(TooTall(object=name, top_m=fit.top_m, most_m=most_m))
     return tuple(found)
+
+
+def is_at_the_palm(problem: SceneProblem, name: str) -> bool:
+    """True if a problem is that of palm and object, which has a finding of its own where the object is too tall.
+
+    Args:
+        problem: The problem of the arm with the hand.
+        name: The object.
+    """
+    pair = None if problem.reason is None else problem.reason.pair
+    return pair is not None and {*pair} == {GRIPPER_BASE_LINK, name}

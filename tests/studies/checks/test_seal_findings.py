@@ -72,7 +72,7 @@ def test_the_check_of_the_scene_notes_a_cup_that_is_too_large_for_the_cubes(tmp_
 
 def test_no_other_gripper_makes_it_an_error():
     document = read_document(REPOSITORY / "scenes/restaurant.yaml", label="scenes/restaurant.yaml")
-    finding = seal_finding(document, ("workpiece", "id"), "the cup is too large", [CUP], every=1)
+    finding = seal_finding(document, ("workpiece", "id"), "the cup is too large", [CUP], serves=False)
 
     assert (finding.rule, finding.severity) == ("scene.seal", Severity.ERROR)
     assert finding.hint == "take a smaller cup, or let the task choose the grasp with 'grasp: automatic'"

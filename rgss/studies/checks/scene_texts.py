@@ -1,0 +1,46 @@
+"""Messages and hints of findings about a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rgss.trials import SceneProblem
+
+OF_ONE_GRIPPER = "designs with this gripper fail there, and the others do not"
+"""Hint of a finding that some grippers of the designs do not have."""
+
+
+def closing_texts(problem: SceneProblem, grippers: Sequence[str]) -> tuple[str, str]:
+    """Message and hint of a link that meets an object before the pads do."""
+    of = f" of {', '.join(grippers)}" if grippers else ""
+    millimetres = f"{abs(problem.distance_m) * 1e3:.3g} mm"
+    how = f"be {millimetres} in it" if problem.distance_m > 0.0 else f"come within {millimetres} of it"
+    hint = "hold it nearer to the ends of the pads ('grasp_from_tip' of the gripper), or choose among candidates"
+    message = f"while the hand{of} closes on {problem.first}, {problem.second} would {how}"
+    return message, OF_ONE_GRIPPER if grippers else hint
+
+
+def instability_texts(problem: SceneProblem) -> tuple[str, str]:
+    """Message and hint of an object that cannot stand by itself."""
+    foot = f"{'an' if problem.detail == 'edge' else 'a'} {problem.detail} of its shape"
+    where = f"{problem.distance_m * 1e3:.3g} mm outside of it" if problem.distance_m > 1e-6 else "above it"
+    hint = "turn the shape ('rests'), state its 'centre_of_mass', or let bodies beside it hold it"
+    message = f"{problem.first} cannot stand by itself on {problem.second}: it touches it with {foot}, "
+    return f"{message}and its centre of mass is {where}", hint
+
+
+def remedy(problem: SceneProblem) -> str:
+    """Hint for a waypoint that the arm does not serve."""
+    from rgss.trials import Obstacle
+
+    if problem.reason is None or problem.reason.obstacle in (Obstacle.OUT_OF_REACH, Obstacle.ORIENTATION):
+        return "move it nearer to the robot, or lower the task's heights"
+    if problem.reason.obstacle is Obstacle.JOINT_RANGE:
+        return "widen the joint's range in the robot's file, or turn the grasp or the place about the vertical"
+    if problem.reason.obstacle is Obstacle.TILT:
+        return "allow more tilt with 'largest_carry_tilt'"
+    if problem.reason.obstacle is Obstacle.CLEARANCE:
+        return "move one of them, or lower the study's clearance"
+    return "move one of them, or turn the grasp or the place about the vertical"

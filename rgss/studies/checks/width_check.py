@@ -1,0 +1,68 @@
+"""Findings about objects that are too wide for the fingers of a hand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from rgss.documents import Document
+from rgss.findings import Finding, Severity
+from rgss.scenes import GripperGeometry, initial_placements, scene_about, too_wide
+from rgss.studies.project import Project
+from rgss.tasks import HandAction, stages_of
+
+if TYPE_CHECKING:
+    from rgss.trials import SceneProblem
+
+Location = tuple[str | int, ...]
+
+
+def objects_too_wide(geometry: GripperGeometry, project: Project) -> tuple[tuple[str, str], ...]:
+    """Gripped objects that the open fingers cannot enclose with the stated grasp, each with the reason.
+
+    Args:
+        geometry: The gripper's shape; a cup has none.
+        project: The project; where its task chooses among candidates, these have findings of their own.
+    """
+    scene = project.scene
+    if scene.task.candidates is not None:
+        return ()
+    placements, stages = initial_placements(scene), stages_of(project.study.task, scene.workpiece.id)
+    gripped = dict.fromkeys(stage.object for stage in stages if stage.step.hand is HandAction.CLOSES)
+    reasons = (
+        (name, too_wide(geometry, scene_about(scene, name, place="", placements=placements))) for name in gripped
+    )
+    return tuple((name, reason) for name, reason in reasons if reason)
+
+
+def width_finding(
+    document: Document, location: Location, reason: str, grippers: Sequence[str], *, serves: bool
+) -> Finding:
+    """Finding about an object that is too wide; a note if the designs have another gripper.
+
+    Args:
+        document: The scene's file.
+        location: The object's place there.
+        reason: Reason why the fingers do not enclose it, with both sizes.
+        grippers: Files of the grippers for which it is too wide.
+        serves: True if the designs have another gripper, for which the object is fit.
+    """
+    return document.finding(
+        "scene.too-wide",
+        f"{reason} ({', '.join(sorted(grippers))})",
+        location,
+        hint="designs with this gripper fail at the grasp, and the others do not"
+        if serves
+        else "take a narrower object or a wider gripper, or turn the grasp about the vertical",
+        severity=Severity.INFO if serves else Severity.ERROR,
+    )
+
+
+def is_of_fingers(problem: SceneProblem, name: str) -> bool:
+    """True if a problem is that of the hand and an object, which has a finding of its own if it is too wide.
+
+    Args:
+        problem: The problem of the arm with the hand.
+        name: The object.
+    """
+    return problem.reason is not None and problem.reason.pair is not None and name in problem.reason.pair

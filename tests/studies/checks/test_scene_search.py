@@ -1,0 +1,53 @@
+"""Grasps are searched only in a scene whose objects can be where it has them."""
+
+from __future__ import annotations
+
+import pytest
+
+import rgss.trials
+from rgss.studies.project import load_project
+from rgss.studies.scene_findings import check_scene
+
+SCENE = "scenes/restaurant.yaml"
+
+
+@pytest.fixture
+def searched(monkeypatch):
+    """Names of the searches that a check makes."""
+    called = []
+    for name in ("hand_step_problems", "reach_problems"):
+        monkeypatch.setattr(rgss.trials, name, lambda *_, name=name, **__: called.append(name) or ())
+    return called
+
+
+@pytest.fixture
+def at(folder, edit):
+    """The scene with its cup at another place, and with chosen grasps where asked for."""
+
+    def place(x, *, automatic):
+        if automatic:
+            edit(SCENE, "\ntask:\n", "\ntask:\n  grasp: automatic\n")
+        edit(SCENE, "  at: [", f"  at: [{x} m, 0 m] # [")
+        return check_scene(load_project(folder))
+
+    return place
+
+
+def test_objects_that_overlap_or_hang_are_found_without_a_search(at, searched):
+    found = at(50, automatic=True)
+    assert "scene.object-unsupported" in {one.rule for one in found.findings}
+    assert searched == []
+    assert found.skipped == "grasps are not searched before the objects of the scene neither overlap nor lack support"
+
+
+def test_a_stated_grasp_is_checked_all_the_same(at, searched):
+    found = at(50, automatic=False)
+    assert "scene.object-unsupported" in {one.rule for one in found.findings}
+    assert set(searched) == {"hand_step_problems", "reach_problems"}
+    assert found.skipped == ""
+
+
+def test_grasps_are_searched_in_a_sound_scene(folder, edit, searched):
+    edit(SCENE, "\ntask:\n", "\ntask:\n  grasp: automatic\n")
+    assert check_scene(load_project(folder)).skipped == ""
+    assert set(searched) == {"hand_step_problems", "reach_problems"}

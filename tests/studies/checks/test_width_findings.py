@@ -1,0 +1,63 @@
+"""Objects that do not go between the fingers are named so, and not as a collision of a finger."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from rgss.documents import read_document
+from rgss.findings import Severity
+from rgss.scenes import Cylinder
+from rgss.scenes.grasps import GraspCandidates
+from rgss.studies.checks import objects_too_wide, width_finding
+from rgss.studies.scene_findings import check_scene
+
+SCENE = "scenes/restaurant.yaml"
+
+
+def with_radius(project, radius_m):
+    """The project with a cup of another radius."""
+    workpiece = project.scene.workpiece
+    shape = Cylinder(radius_m=radius_m, height_m=workpiece.shape.height_m)
+    return replace(project, scene=replace(project.scene, workpiece=replace(workpiece, shape=shape)))
+
+
+def geometry_of(project):
+    return next(iter(project.grippers.values())).geometry
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.99, 0), (1.01, 1)])
+def test_an_object_wider_than_the_open_fingers(shipped, share, found):
+    geometry = geometry_of(shipped)
+    project = with_radius(shipped, share * geometry.largest_opening_m)
+    reasons = objects_too_wide(geometry, project)
+    assert len(reasons) == found
+    for name, reason in reasons:
+        assert name == project.scene.workpiece.id
+        assert f"of {2e3 * share * geometry.largest_opening_m:.4g} mm is too wide to enter gripper" in reason
+
+
+def test_chosen_grasps_have_findings_of_their_own(shipped):
+    project = with_radius(shipped, 1.01 * geometry_of(shipped).largest_opening_m)
+    task = replace(project.scene.task, candidates=GraspCandidates())
+    chosen = replace(project, scene=replace(project.scene, task=task))
+    assert objects_too_wide(geometry_of(shipped), chosen) == ()
+
+
+def test_the_check_names_the_sizes_and_no_collision_of_a_finger(shipped):
+    widest_m = max(file.geometry.largest_opening_m for file in shipped.grippers.values())
+    found = check_scene(with_radius(shipped, 1.05 * widest_m)).findings
+
+    assert {one.severity for one in found if one.rule == "scene.too-wide"} == {Severity.ERROR}
+    assert not [one for one in found if one.rule == "scene.unserved" and "finger" in one.message]
+
+
+def test_another_gripper_makes_it_a_result(shipped):
+    document = read_document(shipped.folder / SCENE, label=SCENE)
+    found = [
+        width_finding(document, ("workpiece", "id"), "it is too wide", ["a.yaml"], serves=serves)
+        for serves in (False, True)
+    ]
+    assert [one.severity for one in found] == [Severity.ERROR, Severity.INFO]
+    assert found[1].hint == "designs with this gripper fail at the grasp, and the others do not"
