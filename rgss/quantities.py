@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     import pint
 
 _LONGEST_TEXT = 60
+_MINUS_LIKE = "\u2212\u2010\u2011\u2012\u2013\u2014\ufe63\uff0d"
+"""Signs that look like the minus of numbers, such as a true minus or a dash."""
 # A unit may begin with a reciprocal, "90 1/h" or "90 /h"; its 1 is separated from the number.
 _QUANTITY = re.compile(
     r"\s*(?P<number>[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)\s*"
@@ -63,6 +65,9 @@ def parse_quantity(text: str, unit: str) -> float:
     if match is None:
         if other := _OTHER_CURRENCY.search(text[:_LONGEST_TEXT]):
             raise _other_currency(other[0])
+        if (bare := text.lstrip()) and bare[0] in _MINUS_LIKE:
+            plain = f"-{bare[1:].lstrip()}"
+            raise QuantityError(f"{shown(text)} begins with another sign than the minus", hint=f'write "{plain}"')
         example = "a number, such as 0.5" if unit == "1" else f'a number and a unit, such as "1 {unit}"'
         raise QuantityError(f"{shown(text)} is not a quantity", hint=f"write {example}")
     number, written = match["number"], _written_unit(match)

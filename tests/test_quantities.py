@@ -97,6 +97,8 @@ def test_torques_are_read_as_data_sheets_write_them(text, torque_nm):
         ("90 2/h", "1/h", "'90 2/h' is not a quantity (write a number and a unit, such as \"1 1/h\")"),
         ("90", "1/h", "'90' has no unit (write \"90 1/h\")"),
         ("90 1/h", "1", "'90 1/h' has a unit where a pure number is expected (write 90)"),
+        ("\u221210 mm", "m", "'\u221210 mm' begins with another sign than the minus (write \"-10 mm\")"),
+        (" \u2013 0.5", "1", "' \u2013 0.5' begins with another sign than the minus (write \"-0.5\")"),
         ("5", "m", "'5' has no unit (write \"5 m\")"),
         ("5 mm", "1", "'5 mm' has a unit where a pure number is expected (write 5)"),
         ("5 rad", "1", "'5 rad' has a unit where a pure number is expected (write 5)"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import json
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +23,9 @@ from rgss.documents.reader import Document, read_document
 from rgss.documents.refusals import MOST_PROBLEMS, cut_short
 from rgss.errors import DocumentError
 from rgss.findings import Finding, shown
+
+# What follows a comma of a number within braces, such as 000 USD of {threshold: 43,000 USD}.
+_AFTER_COMMA = re.compile(r"[0-9]+(?:\.[0-9]+)?(?:\s*[^\W\d_].*|\s*[%$°€£].*)?")
 
 Model = TypeVar("Model", bound=DocumentModel)
 Entry = TypeVar("Entry")
@@ -110,7 +114,7 @@ def _finding(document: Document, model: type[BaseModel], problem: Mapping[str, A
     kind = problem["type"]
     context = problem.get("ctx", {})
     if kind in _UNKNOWN_KEY:
-        return _unknown_key(document, model, location)
+        return _unknown_key(document, model, location, is_bare=problem.get("input") is None)
     if kind == "union_tag_not_found":
         kind, location = "missing", (*location, context["discriminator"].strip("'"))
     if kind == "missing" and isinstance(location[-1], str):
@@ -125,8 +129,14 @@ def _finding(document: Document, model: type[BaseModel], problem: Mapping[str, A
     )
 
 
-def _unknown_key(document: Document, model: type[BaseModel], location: tuple[str | int, ...]) -> Finding:
+def _unknown_key(
+    document: Document, model: type[BaseModel], location: tuple[str | int, ...], *, is_bare: bool
+) -> Finding:
     key = str(location[-1])
+    if is_bare and _AFTER_COMMA.fullmatch(key):
+        message = f"a comma ends a value within braces, so that {shown(key)} is read as a key"
+        hint = "write numbers without commas, such as 43000 USD or 0.5 kg"
+        return document.finding("document.unknown-key", message, location, hint=hint, at_key=True)
     names = _siblings(location, model)
     near = _near_keys(location, model)
     hint = f"did you mean {near[0]!r}?" if near else f"known keys: {', '.join(names)}" if names else ""

@@ -7,6 +7,7 @@ import difflib
 import math
 import re
 
+from rgss.errors import QuantityError
 from rgss.measures.expressions import (
     DEEPEST_NESTING,
     LARGEST_EXPONENT,
@@ -22,11 +23,13 @@ from rgss.measures.expressions import (
     Power,
 )
 from rgss.measures.functions import FUNCTIONS, Shape
+from rgss.quantities import dimension
 
 _RULE = "measures.expression"
 _REFUSED_CHARACTER = re.compile(r"[^A-Za-z0-9_ .,+\-*/()]")
 _NUMBER_LIKE = re.compile(r"(?<![\w.])\.?[0-9](?:[\w.]|(?<=[eE])[+-](?=[0-9]))*")
 _NUMBER = re.compile(r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+_NUMBER_AND_NAME = re.compile(rf"(?<![\w.]){_NUMBER.pattern}\s+(?P<name>[A-Za-z]+)(?!\w)")
 _ALLOWED = f"numbers, symbols, + - * / **, parentheses, and calls of {', '.join(FUNCTIONS)}"
 _TOO_DEEP = f"nested more than {DEEPEST_NESTING} deep"
 _SPLIT = "split it into several measures"
@@ -65,6 +68,9 @@ def parse_expression(text: str) -> Expression | tuple[ExpressionProblem, ...]:
     try:
         tree = ast.parse(text, mode="eval")
     except SyntaxError as error:
+        quantity = _quantity_in(text)
+        if quantity is not None:
+            return (quantity,)
         offset = min(max((error.offset or 1) - 1, 0), len(text))
         return (_problem(offset, f"not an expression: {error.msg}"),)
     except (RecursionError, MemoryError):
@@ -90,6 +96,18 @@ def _unreadable(text: str) -> ExpressionProblem | None:
     for number in _NUMBER_LIKE.finditer(text):
         if not _NUMBER.fullmatch(number.group()):
             return _problem(number.start(), f"{number.group()!r} is not a number", "write it like 12, 0.5 or 1e-3")
+    return None
+
+
+def _quantity_in(text: str) -> ExpressionProblem | None:
+    """Problem of a number with a unit, such as ``600 USD``, which Python's parser refuses without a reason."""
+    for match in _NUMBER_AND_NAME.finditer(text):
+        try:
+            dimension(match["name"])
+        except QuantityError:
+            continue
+        hint = f"state it under 'constants', with 'unit: {match['name']}', and write its id"
+        return _problem(match.start(), f"{match.group()!r} is a quantity, and numbers here have no unit", hint)
     return None
 
 

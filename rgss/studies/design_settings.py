@@ -51,6 +51,7 @@ def design_findings(
     yield from _planner_findings(designs, document, planning)
     yield from _planner_parameter_findings(designs, document, planning)
     yield from _component_findings(designs, grippers)
+    yield from _finger_findings(designs, document, grippers)
     yield from _mounting_findings(designs, document, grippers)
     yield from _linkage_findings(designs, document, grippers)
 
@@ -153,6 +154,30 @@ def _component_findings(designs: DesignSpace, grippers: Mapping[str, GripperFile
                 message = f"{component.id!r} is for {name} = {listed}, its shape has {file.geometry.fingers} fingers"
                 hint = "name the file of another shape"
                 yield document.finding("design.geometry", message, ("components", index, "geometry"), hint=hint)
+
+
+def _finger_findings(
+    designs: DesignSpace, document: Document, grippers: Mapping[str, GripperFile]
+) -> Iterator[Finding]:
+    """Numbers of fingers that the gripper of a design does not have, where no component is matched by the number."""
+    ids = {parameter.id for parameter in designs.parameters if parameter.sets == _FINGERS}
+    found: dict[tuple[str, float], int] = {}
+    for variant in designs.expand() if ids else ():
+        component = variant.components.get(GRIPPER)
+        if component is None or component.geometry not in grippers or ids & set(designs.selectors[component.id]):
+            continue
+        count = values_of(variant, {}).get(_FINGERS)
+        if isinstance(count, (int, float)) and count != grippers[component.geometry].geometry.fingers:
+            found.setdefault((component.geometry, count), variant.id)
+    for (geometry, count), number in found.items():
+        fingers = grippers[geometry].geometry.fingers
+        places = (place for place, own, written in written_values(designs) if own in ids and written == count)
+        yield document.finding(
+            "design.fingers",
+            f"variant {number}: {_FINGERS} is {count:g}, but {geometry} has {fingers} fingers",
+            next(places, ("parameters",)),
+            hint=f"set it to {fingers}, or take a gripper of {count:g} fingers",
+        )
 
 
 def _mounting_findings(

@@ -83,6 +83,9 @@ def test_a_good_file(write):
     assert loaded.document.values[("parts", 0, "mass")] == (7, 11)
 
 
+NO_COMMAS = "(write numbers without commas, such as 43000 USD or 0.5 kg) [document.unknown-key]"
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
@@ -104,6 +107,18 @@ def test_a_good_file(write):
             "2:50: error: unknown key 'raduis' (did you mean 'radius'?) [document.unknown-key]",
         ),
         ("title: a\nsteps: [1]", "2:1: error: unknown key 'steps' (did you mean 'step-list'?) [document.unknown-key]"),
+        (
+            "title: a\nlimits: {low: 43,000 USD, high: 2}",
+            f"2:18: error: a comma ends a value within braces, so that '000 USD' is read as a key {NO_COMMAS}",
+        ),
+        (
+            "title: a\nlimits: {high: 2, low: 0,5}",
+            f"2:26: error: a comma ends a value within braces, so that '5' is read as a key {NO_COMMAS}",
+        ),
+        (
+            "title: a\nlimits: {high: 2, low: 0, 5: 3}",
+            "2:27: error: unknown key '5' (known keys: high, low) [document.unknown-key]",
+        ),
         ("count: 1", "1:1: error: key 'title' is missing (add 'title') [document.missing-key]"),
         (
             "title: a\nparts:\n  - id: a\n  - mass: 1 kg",

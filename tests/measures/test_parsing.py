@@ -112,6 +112,22 @@ def test_bad_syntax_is_one_problem_within_the_text(text: str) -> None:
     assert 0 <= problem.offset <= len(text)
 
 
+@pytest.mark.parametrize(
+    ("text", "offset", "quantity", "unit"),
+    [("options * 600 USD", 10, "600 USD", "USD"), ("2 * (a + 1.5e3 mm) / b", 9, "1.5e3 mm", "mm")],
+)
+def test_a_quantity_in_an_expression_is_named_as_one(text: str, offset: int, quantity: str, unit: str) -> None:
+    (problem,) = problems_of(text)
+    assert (problem.rule, problem.offset) == ("measures.expression", offset)
+    assert problem.message == f"'{quantity}' is a quantity, and numbers here have no unit"
+    assert problem.hint == f"state it under 'constants', with 'unit: {unit}', and write its id"
+
+
+def test_a_number_before_a_name_that_is_no_unit_is_bad_syntax() -> None:
+    (problem,) = problems_of("2 grippers")
+    assert problem.message.startswith("not an expression: ")
+
+
 @pytest.mark.parametrize("error", [RecursionError, MemoryError])
 def test_a_parser_that_runs_out_of_stack_is_a_problem(
     monkeypatch: pytest.MonkeyPatch, error: type[BaseException]

@@ -171,3 +171,19 @@ def test_more_than_the_joint_of_a_linkage_gives(folder, cranks, edit, problems, 
     assert problem.startswith(f"{place_of(SPACE, f'{1.01 * most:.4g} {unit}')}: error: variant ")
     assert f": {quantity} is {1.01 * most:.4g} {unit}, but the driven joint of scenes/grippers/kg-2.yaml" in problem
     assert f"gives each pad {most:.4g} {unit} at most (lower it" in problem
+
+
+def test_a_number_of_fingers_that_no_gripper_file_has(folder, edit, problems, place_of):
+    """Components that are not matched by the number, as in a project with one gripper."""
+    text = (folder / CATALOGUE).read_text(encoding="utf-8")
+    blocks = text.split("\n  - id: ")
+    text = "\n  - id: ".join(block for block in blocks if not block.startswith("kg-2"))
+    (folder / CATALOGUE).write_text(text.replace("matches: {d1: 3, ", "matches: {"), encoding="utf-8")
+
+    (problem,) = problems()
+    assert re.fullmatch(
+        re.escape(f"{place_of(SPACE, '2}')}: error: variant ")
+        + r"\d+: gripper\.fingers is 2, but scenes/grippers/kg-3\.yaml has 3 fingers "
+        r"\(set it to 3, or take a gripper of 2 fingers\) \[design\.fingers\]",
+        problem,
+    )
