@@ -104,10 +104,15 @@ def _run(arguments: Sequence[str] | None) -> int:
         _print_error(f"rgss: the output has the character {character}, which {error.encoding} lacks ({hint})")
         return RUN_FAILED
     except OSError as error:
+        from rgss.documents import is_disk_failure, unwritable
+
         _discard_output()
         # An error of a file has its name; an error of standard output has none.
         printed = error.filename is None and error.errno in _UNWRITABLE
-        _print_error(f"rgss: the output cannot be written: {error.strerror}" if printed else f"rgss: {error}")
+        if error.filename is not None and is_disk_failure(error):
+            _print_error(f"rgss: {unwritable(Path(os.fsdecode(error.filename)), error)}")
+        else:
+            _print_error(f"rgss: the output cannot be written: {error.strerror}" if printed else f"rgss: {error}")
         return RUN_FAILED
 
 

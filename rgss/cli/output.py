@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from rgss.cli.safe_output import typeset
 from rgss.documents import is_standard_output
 from rgss.findings import printable
 
@@ -29,9 +30,10 @@ def print_lines(lines: Iterable[str]) -> None:
     from rgss.reports import TableLine
 
     page = sys.stdout if isinstance(sys.stdout, TerminalPage) else None
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
     for line in lines:
         if page is None or not isinstance(line, TableLine):
-            print(line)
+            print(typeset(line, encoding))
         elif line.is_first:
             page.show_table(line.table)
 
@@ -67,5 +69,19 @@ def shown_path(path: Path) -> str:
     """A path relative to the current folder where it lies below it."""
     try:
         return str(path.resolve().relative_to(Path.cwd()))
-    except ValueError:
+    # A folder that was removed is no current folder.
+    except (ValueError, FileNotFoundError):
         return str(path)
+
+
+def path_in_project(path: Path, folder: Path) -> str:
+    """A path relative to a project's folder where it lies below it: the same wherever a command runs.
+
+    Args:
+        path: The path.
+        folder: The project's folder.
+    """
+    try:
+        return path.resolve().relative_to(folder.resolve()).as_posix()
+    except ValueError:
+        return path.name

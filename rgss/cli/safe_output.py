@@ -13,6 +13,27 @@ from typing import Any, TextIO, cast
 
 from rgss.documents import escaped_for_json, has_control_characters
 
+_ASCII = str.maketrans(
+    {
+        "─": "-",
+        "–": "-",
+        "—": "-",
+        "−": "-",
+        "…": "...",
+        "“": '"',
+        "”": '"',
+        "‘": "'",
+        "’": "'",
+        "×": "x",
+        "·": ".",
+        "→": "->",
+        "≤": "<=",
+        "≥": ">=",
+        "±": "+/-",
+        "µ": "u",
+    }
+)
+
 
 class SafeStream:
     """Stream wrapper that escapes terminal control characters; other attributes are those of the stream."""
@@ -45,6 +66,21 @@ def _expressed(character: str, encoding: str) -> str:
     except UnicodeEncodeError:
         return json.dumps(character)[1:-1]  # an escape of JSON, so that printed JSON keeps its meaning
     return character
+
+
+def typeset(line: str, encoding: str) -> str:
+    """A line of a page for people, with signs of ASCII for the rules and marks that an encoding lacks.
+
+    Args:
+        line: The line.
+        encoding: The encoding of the stream.
+    """
+    try:
+        line.encode(encoding)
+    except UnicodeEncodeError:
+        known = line.encode(encoding, "ignore").decode(encoding)
+        return line.translate({place: text for place, text in _ASCII.items() if chr(place) not in known})
+    return line
 
 
 @contextmanager

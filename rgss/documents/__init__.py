@@ -32,6 +32,7 @@ from rgss.documents.fields import (
 )
 from rgss.documents.model import STRICT, DocumentModel
 from rgss.documents.output_files import (
+    is_disk_failure,
     is_standard_output,
     replaced_file,
     require_no_source,

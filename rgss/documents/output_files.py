@@ -100,8 +100,14 @@ def write_output(path: Path, content: bytes, *, replace_source: bool = False) ->
 
 def unwritable(path: Path, error: OSError) -> RgssError:
     """Error of rgss for an output file that cannot be written."""
-    kind = StorageError if error.errno in _DISK_FAILURES else DefinitionError
-    return kind(f"{path} cannot be written: {error.strerror or error}", hint="check the folder")
+    if is_disk_failure(error):
+        return StorageError(f"{path} cannot be written: {error.strerror}", hint="free some space, or check the disk")
+    return DefinitionError(f"{path} cannot be written: {error.strerror or error}", hint="check the folder")
+
+
+def is_disk_failure(error: OSError) -> bool:
+    """True if the disk is full or fails, which is no mistake of the command."""
+    return error.errno in _DISK_FAILURES
 
 
 def require_no_source(path: Path) -> None:

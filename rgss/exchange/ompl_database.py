@@ -13,8 +13,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
-from rgss.documents import replaced_file
-from rgss.errors import EvidenceError
+from rgss.documents import is_disk_failure, replaced_file
+from rgss.errors import EvidenceError, StorageError
 from rgss.evidence import PlanOutcome
 from rgss.evidence.records import PlanningRun
 
@@ -81,6 +81,7 @@ def write_ompl_database(
 
     Raises:
         EvidenceError: There are no runs, or the file cannot be written.
+        StorageError: The disk is full or fails.
     """
     if not runs:
         raise EvidenceError("there are no planning runs to export", hint="run 'rgss sweep' first")
@@ -89,6 +90,8 @@ def write_ompl_database(
             _fill(part, runs, name=name, seed=seed, version=version, setup=setup)
     except (OSError, sqlite3.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
+        if (isinstance(error, OSError) and is_disk_failure(error)) or "disk is full" in reason:
+            raise StorageError(f"{path} cannot be written: {reason}", hint="free some space") from error
         raise EvidenceError(f"{path} cannot be written: {reason}", hint="choose a file that can be written") from error
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from importlib import resources
 from pathlib import Path
 
@@ -28,25 +29,58 @@ def write_scaffold(folder: Path) -> tuple[str, ...]:
         The names of the files that were written, relative to the folder.
 
     Raises:
-        DefinitionError: A file of that name is there already (then nothing is written), or the folder
-            cannot be written to.
+        DefinitionError: A file of that name is there already, or the folder cannot be written to; then nothing is
+            written.
+        StorageError: The disk is full or fails; then nothing is written.
     """
     texts = scaffold_texts()
+    write_new_files(folder, {name: text.encode("utf-8") for name, text in texts.items()})
+    return tuple(texts)
+
+
+def write_new_files(folder: Path, contents: Mapping[str, bytes]) -> None:
+    """Write new files into a folder: all of them, or none.
+
+    Args:
+        folder: The folder, which is made if it is not there.
+        contents: The content of each file by its name relative to the folder.
+
+    Raises:
+        DefinitionError: A file of that name is there already, or the folder cannot be written to.
+        StorageError: The disk is full or fails.
+    """
+    made: list[Path] = []
     try:
-        there = [name for name in texts if (folder / name).exists() or (folder / name).is_symlink()]
+        there = [name for name in contents if (folder / name).exists() or (folder / name).is_symlink()]
         if there:
             also = f" and {len(there) - 1} more are" if len(there) > 1 else " is"
             raise DefinitionError(
                 f"{folder / there[0]}{also} there already, and nothing is overwritten", hint="name a new folder"
             )
-        for name, text in texts.items():
-            path = folder / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            with path.open("x", encoding="utf-8", newline="\n") as file:
-                file.write(text)
+        try:
+            for name, content in contents.items():
+                path = folder / name
+                for parent in reversed([one for one in path.parents if not one.exists()]):
+                    parent.mkdir(exist_ok=True)
+                    made.append(parent)
+                with path.open("xb") as file:
+                    made.append(path)
+                    file.write(content)
+        except BaseException:
+            _remove(made)
+            raise
     except (OSError, ValueError) as error:  # ValueError: a name with a null character in it
         raise cannot_write(folder, error) from error
-    return tuple(texts)
+
+
+def _remove(made: Sequence[Path]) -> None:
+    """Remove files and folders that were made, the last first; a folder with other files stays."""
+    for path in reversed(made):
+        with suppress(OSError):
+            if path.is_dir():
+                path.rmdir()
+            else:
+                path.unlink()
 
 
 def _packaged() -> Iterator[tuple[str, str]]:

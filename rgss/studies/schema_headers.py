@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from rgss.documents import read_document, replaced_file
-from rgss.errors import DefinitionError, DocumentError
+from rgss.documents import is_disk_failure, read_document, replaced_file, unwritable
+from rgss.errors import DefinitionError, DocumentError, RgssError
 from rgss.findings import Finding
 from rgss.studies.document_kinds import DOCUMENT_KINDS, DocumentKind, kind_of
 from rgss.studies.project_folders import FOLDERS
@@ -90,8 +90,10 @@ def write_headers(project: Path, schemas: Path) -> tuple[Path, ...]:
     return tuple(changed)
 
 
-def cannot_write(path: Path, error: OSError | ValueError) -> DefinitionError:
+def cannot_write(path: Path, error: OSError | ValueError) -> RgssError:
     """Error for a file or folder that cannot be written."""
+    if isinstance(error, OSError) and is_disk_failure(error):
+        return unwritable(path, error)
     reason = getattr(error, "strerror", None) or str(error)
     return DefinitionError(f"cannot write {str(path)!r}: {reason}", hint="choose another place")
 

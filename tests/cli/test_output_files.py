@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 
 import pytest
+
+from rgss.cli.output import shown_path
 
 WRITING = {
     "export csv": ("export", "csv", "-o", "{}/requirements/system/2-gripper.yaml"),
@@ -86,3 +89,32 @@ def test_an_export_to_standard_output_is_alone_there(rgss_process, untouched, tm
     assert told.returncode == 0
     assert told.stdout.splitlines() == (tmp_path / "a.csv").read_text(encoding="utf-8").splitlines()
     assert told.stderr.endswith("written to /dev/stdout\n")
+
+
+def test_a_file_on_a_full_disk_is_a_failure_of_the_run(rgss, folder):
+    told = rgss("export", "csv", "-o", "/dev/full", "--project", folder)
+    assert told.status == 3
+    assert "cannot be written: No space left on device (free some space, or check the disk)" in told.complaint
+
+
+def test_so_it_is_where_no_verb_expects_it(rgss, folder, monkeypatch):
+    def fills(_):
+        raise OSError(errno.ENOSPC, "No space left on device", "page.html")
+
+    monkeypatch.setattr("rgss.cli.verbs.variants.run", fills)
+    monkeypatch.setattr("rgss.cli.main._discard_output", lambda: None)
+    told = rgss("variants", "--project", folder)
+    assert told.status == 3
+    assert told.complaint == (
+        "rgss: page.html cannot be written: No space left on device (free some space, or check the disk)"
+    )
+
+
+def test_a_current_folder_that_was_removed_does_not_matter_to_a_project_that_is_named(rgss, folder, monkeypatch):
+    def gone():
+        raise FileNotFoundError(2, "No such file or directory")
+
+    monkeypatch.setattr("pathlib.Path.cwd", gone)
+    told = rgss("variants", "--project", folder)
+    assert (told.status, told.errors) == (0, "")
+    assert shown_path(folder / "studies") == str(folder / "studies")

@@ -12,7 +12,8 @@ import pytest
 
 from rgss.cli import main as main_module
 from rgss.cli.main import main
-from rgss.cli.safe_output import data_stream, own_stream, safe_output
+from rgss.cli.output import print_lines
+from rgss.cli.safe_output import data_stream, own_stream, safe_output, typeset
 from rgss.documents.steering import has_control_characters
 from rgss.errors import DefinitionError, SimulationError
 
@@ -109,6 +110,16 @@ def test_help_is_printed_in_ascii(words, in_ascii):
     status, output = in_ascii(ask)
     assert status == 0
     assert "usage: rgss" in output
+
+
+def test_rules_and_marks_of_a_page_have_signs_of_ascii(verb, in_ascii):
+    def handler(options):
+        print_lines(["── a–b ≤ 3 × 2 …", "ä"])
+        return 0
+
+    assert in_ascii(lambda: verb(handler)) == (0, "-- a-b <= 3 x 2 ...\n\\u00e4\n")
+    assert typeset("3 × 2 ── ä", "latin-1") == "3 × 2 -- ä"
+    assert typeset("3 × 2 ── ä", "utf-8") == "3 × 2 ── ä"
 
 
 def test_the_content_of_a_file_is_not_changed_for_an_encoding(verb, in_ascii, capsys):

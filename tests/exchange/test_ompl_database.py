@@ -6,7 +6,7 @@ import sqlite3
 
 import pytest
 
-from rgss.errors import EvidenceError
+from rgss.errors import EvidenceError, StorageError
 from rgss.evidence import PlanOutcome
 from rgss.evidence.records.planning_runs import PlanningRun
 from rgss.exchange.ompl_database import STATUSES, write_ompl_database
@@ -129,3 +129,13 @@ def test_the_statuses_are_those_of_ompl():
     # OMPL has no words for its last two, only their names.
     assert [status.StatusType(8), status.StatusType(9)] == [status.ABORT, status.INFEASIBLE]
     assert status.StatusType(len(STATUSES)) == status.TYPE_COUNT
+
+
+def test_a_full_disk_is_a_failure_of_the_run(tmp_path, monkeypatch):
+    def fills(*_, **__):
+        raise sqlite3.OperationalError("database or disk is full")
+
+    monkeypatch.setattr("rgss.exchange.ompl_database._fill", fills)
+    with pytest.raises(StorageError, match=r"planning\.db cannot be written: database or disk is full"):
+        write(tmp_path / "planning.db")
+    assert list(tmp_path.iterdir()) == []

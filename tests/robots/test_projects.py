@@ -103,7 +103,7 @@ def test_init_names_what_was_written(tmp_path, capsys):
     assert "scenes/robots/xarm6.urdf" in files
     assert all((tmp_path / "new" / name).is_file() for name in files)
     assert main(["init", "--robot", str(urdf_of("six")), str(tmp_path / "new")]) == 2
-    assert "is there already, and nothing is overwritten" in capsys.readouterr().err
+    assert "are there already, and nothing is overwritten" in capsys.readouterr().err
 
 
 TWO_ARMS = (

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import errno
+import itertools
 from importlib import resources
 from pathlib import Path
 
 import pytest
 
 from rgss.documents import read_document
+from rgss.errors import StorageError
 from rgss.studies.document_kinds import kind_of
 from rgss.studies.project import load_project
 from rgss.studies.scaffolding import scaffold_texts, write_scaffold
@@ -84,3 +87,25 @@ def test_header_lines():
     assert with_header(with_header("a: 1\n", "old.json"), "s.json") == with_header("a: 1\n", "s.json")
     assert with_header("", "s.json") == "# yaml-language-server: $schema=s.json\n"
     assert with_header("# yaml-language-server: $schema=old.json", "s.json") == with_header("", "s.json")
+
+
+def test_a_disk_that_fills_leaves_nothing_of_a_new_project(tmp_path, monkeypatch):
+    kept = tmp_path / "there" / "mine.txt"
+    kept.parent.mkdir()
+    kept.write_text("mine")
+    opened, at_once = Path.open, itertools.count()
+
+    def fills(self, mode="r", *more, **named):
+        if "x" in mode and next(at_once) == 5:
+            raise OSError(errno.ENOSPC, "No space left on device", str(self))
+        return opened(self, mode, *more, **named)
+
+    monkeypatch.setattr(Path, "open", fills)
+    for folder in (tmp_path / "there", tmp_path / "new" / "project"):
+        at_once = itertools.count()
+        with pytest.raises(StorageError, match="cannot be written: No space left on device"):
+            write_scaffold(folder)
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == [kept]
+    assert not (tmp_path / "new").exists()
+    at_once = itertools.count(6)
+    assert write_scaffold(tmp_path / "new" / "project")

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 from rgss.cli.output import shown_path
 from rgss.cli.pictures.progress import film_progress
 from rgss.cli.pictures.replays import add_replay, check_replay, write_replay
+from rgss.documents import is_disk_failure
 from rgss.engines import require_engines
-from rgss.errors import DefinitionError
+from rgss.errors import DefinitionError, StorageError
 from rgss.reports.replay import REPLAY_SUFFIXES, require_viewer_package
 
 if TYPE_CHECKING:
@@ -149,6 +150,7 @@ def made_pictures(
 
     Raises:
         DefinitionError: A file cannot be written.
+        StorageError: The disk is full or fails.
         SimulationError: The engine cannot draw the scene.
     """
     if seen.trace is None:
@@ -159,7 +161,10 @@ def made_pictures(
             write_replay(order.files["replay"], seen, spec, beside)
     except OSError as error:
         reason = error.strerror or str(error)
-        raise DefinitionError(f"cannot write the pictures: {reason}", hint="choose another place") from error
+        what = "the replay" if set(order.files) == {"replay"} else "the pictures"
+        if is_disk_failure(error):
+            raise StorageError(f"cannot write {what}: {reason}", hint="free some space, or check the disk") from error
+        raise DefinitionError(f"cannot write {what}: {reason}", hint="choose another place") from error
     return tuple(f"{kind}: {shown_path(path)}" for kind, path in order.files.items())
 
 

@@ -68,7 +68,7 @@ def run(options: argparse.Namespace) -> int:
     """Write the page; 1 if no variant meets every requirement, or if a choice is not proven best."""
     from rgss.assessment import evidence_state, read_record, require_complete
     from rgss.cli.main import CLEAN, FINDINGS
-    from rgss.cli.output import shown_path
+    from rgss.cli.output import path_in_project, shown_path
     from rgss.cli.pictures import ordered_look, trial_pictures
     from rgss.cli.served_studies import served_studies
     from rgss.decision import choose_portfolio, measure_survivors
@@ -99,7 +99,7 @@ def run(options: argparse.Namespace) -> int:
         made = decide_study(
             project,
             measured,
-            evidence=label,
+            evidence=path_in_project(project.evidence, project.folder),
             screened=screened,
             portfolio=choose_portfolio(project, served) if served else None,
             assumptions=assumption_outcomes(project, measured, store),

@@ -81,7 +81,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.assessment import read_record
     from rgss.cli.assumption_trials import known_assumptions, scenario_measures
     from rgss.cli.main import CLEAN, FINDINGS
-    from rgss.cli.output import shown_path
+    from rgss.cli.output import path_in_project, shown_path
     from rgss.cli.served_studies import served_studies
     from rgss.decision import choose_portfolio, measure_survivors
     from rgss.decision.study_decision import decide_study
@@ -120,7 +120,7 @@ def run(options: argparse.Namespace) -> int:
     made = decide_study(
         project,
         measured,
-        evidence=label,
+        evidence=path_in_project(project.evidence, project.folder),
         analysed=analysed,
         independent=independent,
         portfolio=portfolio,

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 import re
-import shutil
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -29,8 +28,7 @@ from rgss.studies.robot_project.reach import SAMPLES, greatest_travel_m
 from rgss.studies.robot_project.robot_text import robot_text
 from rgss.studies.robot_project.unfit_shapes import UnfitShapesError, is_any_mesh_concave
 from rgss.studies.robot_project.urdf import INSTALL, NO_ARGUMENTS, Note, can_decompose
-from rgss.studies.scaffolding import scaffold_texts
-from rgss.studies.schema_headers import cannot_write
+from rgss.studies.scaffolding import scaffold_texts, write_new_files
 
 _MOST_AXES, _MOST_CELLS = 3, 4
 # Greatest angle from the vertical, in a sampled configuration, of an axis that an arm may turn down.
@@ -109,17 +107,7 @@ def write_robot_project(
             except UnfitShapesError:
                 raise error from None
         names = tuple(sorted(path.relative_to(project).as_posix() for path in project.rglob("*") if path.is_file()))
-        try:
-            for name in names:
-                if (folder / name).exists() or (folder / name).is_symlink():
-                    raise DefinitionError(
-                        f"{folder / name} is there already, and nothing is overwritten", hint="name a new folder"
-                    )
-            for name in names:
-                (folder / name).parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(project / name, folder / name)
-        except (OSError, ValueError) as error:
-            raise cannot_write(folder, error) from error
+        write_new_files(folder, {name: (project / name).read_bytes() for name in names})
     return RobotProject(files=names, notes=notes)
 
 

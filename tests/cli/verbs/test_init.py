@@ -100,7 +100,12 @@ def test_a_link_that_leads_nowhere_is_something(rgss, tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "reason"),
-    [("file/project", "Not a directory"), ("file", "exists"), ("x" * 300, "File name too long"), ("a\0b", "null")],
+    [
+        ("file/project", "Not a directory"),
+        ("file", "Not a directory"),
+        ("x" * 300, "File name too long"),
+        ("a\0b", "null"),
+    ],
 )
 def test_a_folder_that_cannot_be(rgss, tmp_path, name, reason):
     (tmp_path / "file").write_text("")

@@ -350,11 +350,21 @@ def test_a_notable_trial_is_run_again_and_filmed(side):
 
 
 def test_a_folder_whose_name_is_no_utf_8(with_evidence, tmp_path, monkeypatch):
-    """From a subfolder the page names the evidence with the folder."""
     folder = tmp_path / os.fsdecode(b"caf\xe9")
     shutil.copytree(with_evidence, folder)
     monkeypatch.chdir(folder / "studies")
     with redirect_stdout(StringIO()):
         assert main(["report", "--out", str(tmp_path / "report.html"), "--no-film"]) == 0
+    assert "pick_place" in (tmp_path / "report.html").read_text(encoding="utf-8")
 
-    assert "caf\\udce9" in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+def test_a_page_is_the_same_from_any_folder(with_evidence, tmp_path, monkeypatch):
+    pages = []
+    for place in (with_evidence, with_evidence / "studies", tmp_path):
+        monkeypatch.chdir(place)
+        named = ["--project", str(with_evidence)] if place == tmp_path else []
+        with redirect_stdout(StringIO()):
+            main(["report", *named, "--out", str(tmp_path / "page.html"), "--no-film"])
+        pages.append((tmp_path / "page.html").read_bytes())
+    assert pages[0] == pages[1] == pages[2]
+    assert str(with_evidence).encode() not in pages[0]
