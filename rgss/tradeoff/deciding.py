@@ -106,7 +106,7 @@ def decide(
         deciding_requirements=deciding_requirements,
         chosen_contributions=contributions(problem, enumeration, chosen),
         runner_up_contributions=contributions(problem, enumeration, runner_up),
-        conflicts=_explained(problem, enumeration, seed, resamples),
+        conflicts=_explained(problem, enumeration, seed, resamples, last_of_equals=last_of_equals),
         flat_measures=flat_measures(problem, enumeration),
         demands=problem.demands,
         counts=Counts(
@@ -261,14 +261,16 @@ def _noted(certificate: Certificate, error: TradeoffError) -> Certificate:
     return replace(certificate, checks=(*certificate.checks, check))
 
 
-def _explained(problem: TradeProblem, enumeration: Enumeration, seed: int, resamples: int | None) -> Conflicts | None:
+def _explained(
+    problem: TradeProblem, enumeration: Enumeration, seed: int, resamples: int | None, *, last_of_equals: bool
+) -> Conflicts | None:
     """Explanation of infeasibility, with repairs and its stability under noise; None if something is feasible."""
     conflicts = find_conflicts(enumeration)
     if conflicts is None:
         return None
     from rgss.tradeoff.infeasibility import RESAMPLES, conflict_survival, with_repairs
 
-    conflicts = with_repairs(problem, enumeration, conflicts)
+    conflicts = with_repairs(problem, enumeration, conflicts, last_of_equals=last_of_equals)
     if resamples is None:
         resamples = max(100, min(RESAMPLES, MOST_DRAWN // len(enumeration.table)))
     if resamples == 0:

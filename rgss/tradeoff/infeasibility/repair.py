@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rgss.tradeoff.infeasibility.conflicts import Conflicts, JointRepair, LimitChange, Repair
-from rgss.tradeoff.problem import ChanceBound, Comparison
+from rgss.tradeoff.problem import ChanceBound, Comparison, chosen_of_equals
 from rgss.tradeoff.programs import condition_column, keeps, ordering_of
 
 if TYPE_CHECKING:
@@ -19,24 +19,31 @@ if TYPE_CHECKING:
     from rgss.tradeoff.programs import Enumeration, Preferences
 
 
-def with_repairs(preferences: Preferences, enumeration: Enumeration, conflicts: Conflicts) -> Conflicts:
+def with_repairs(
+    preferences: Preferences, enumeration: Enumeration, conflicts: Conflicts, *, last_of_equals: bool = False
+) -> Conflicts:
     """Conflicts with their repairs, and with the evidence that no alternative has.
 
     Args:
         preferences: Preferences that the alternatives are compared by.
         enumeration: Every alternative evaluated.
         conflicts: The conflicts, from `find_conflicts`.
+        last_of_equals: Whether the largest id of equals is chosen; the smallest otherwise.
     """
     return replace(
         conflicts,
-        repairs=find_repairs(preferences, enumeration),
-        joint_repairs=find_joint_repairs(preferences, enumeration, conflicts.corrections),
+        repairs=find_repairs(preferences, enumeration, last_of_equals=last_of_equals),
+        joint_repairs=find_joint_repairs(
+            preferences, enumeration, conflicts.corrections, last_of_equals=last_of_equals
+        ),
         unmeasured=unmeasured_requirements(preferences, enumeration.table),
         unvalued=unvalued_measures(preferences, enumeration.table),
     )
 
 
-def find_repairs(preferences: Preferences, enumeration: Enumeration) -> tuple[Repair, ...]:
+def find_repairs(
+    preferences: Preferences, enumeration: Enumeration, *, last_of_equals: bool = False
+) -> tuple[Repair, ...]:
     """The cheapest repair of each requirement of an infeasible trade-off.
 
     Of a requirement with one limit, the new limit is the statistic that comes nearest to the present
@@ -47,19 +54,24 @@ def find_repairs(preferences: Preferences, enumeration: Enumeration) -> tuple[Re
     Args:
         preferences: Preferences that the alternatives are compared by.
         enumeration: Every alternative evaluated.
+        last_of_equals: As for `with_repairs`.
 
     Returns:
         A repair for each requirement, in their order.
     """
     found = []
     for requirement in enumeration.requirements:
-        changes, unlocked, winner = _mended(preferences, enumeration, (requirement,))
+        changes, unlocked, winner = _mended(preferences, enumeration, (requirement,), last_of_equals=last_of_equals)
         found.append(Repair(requirement=requirement, changes=changes, unlocked=unlocked, winner=winner))
     return tuple(found)
 
 
 def find_joint_repairs(
-    preferences: Preferences, enumeration: Enumeration, corrections: Sequence[tuple[str, ...]]
+    preferences: Preferences,
+    enumeration: Enumeration,
+    corrections: Sequence[tuple[str, ...]],
+    *,
+    last_of_equals: bool = False,
 ) -> tuple[JointRepair, ...]:
     """The cheapest repair of each correction of an infeasible trade-off.
 
@@ -70,13 +82,14 @@ def find_joint_repairs(
         preferences: Preferences that the alternatives are compared by.
         enumeration: Every alternative evaluated.
         corrections: The smallest sets of requirements without which something is feasible.
+        last_of_equals: As for `with_repairs`.
 
     Returns:
         A repair for each correction, in their order.
     """
     found = []
     for requirements in corrections:
-        changes, unlocked, winner = _mended(preferences, enumeration, requirements)
+        changes, unlocked, winner = _mended(preferences, enumeration, requirements, last_of_equals=last_of_equals)
         found.append(JointRepair(requirements=requirements, changes=changes, unlocked=unlocked, winner=winner))
     return tuple(found)
 
@@ -107,7 +120,7 @@ def unvalued_measures(preferences: Preferences, table: EvidenceTable) -> tuple[s
 
 
 def _mended(
-    preferences: Preferences, enumeration: Enumeration, requirements: Sequence[str]
+    preferences: Preferences, enumeration: Enumeration, requirements: Sequence[str], *, last_of_equals: bool
 ) -> tuple[tuple[LimitChange, ...], int, int | None]:
     """The changes of the limits of some requirements; how many are then feasible, and which is chosen."""
     none: tuple[tuple[LimitChange, ...], int, int | None] = ((), 0, None)
@@ -144,7 +157,7 @@ def _mended(
         feasible &= keeps(condition.sense, column, limit)
     # Regret is relative to what is feasible, which the repair changes.
     tied = np.flatnonzero(ordering_of(preferences.program, preferences, table, feasible).best(feasible))
-    winner = int(table.variants[tied[0]]) if tied.size else None
+    winner = chosen_of_equals(table, preferences.deciding_functions, tied, last_of_equals=last_of_equals)
     return tuple(changes), int(feasible.sum()), winner
 
 

@@ -12,8 +12,28 @@ from rgss.tradeoff.problem.dominance import nondominated
 from rgss.tradeoff.problem.evidence_table import EvidenceTable
 from rgss.tradeoff.problem.values import ValueFunction
 
-_SAME = 1e-11
-"""Share of the largest quantity by which quantities differ that are equal on paper."""
+_SAME = 1e-6
+"""Relative difference of quantities that are practically equal."""
+
+_NONE = 1e-9
+"""The same as a share of the largest quantity: the tolerance of a tie, and more than binary rounding about 0."""
+
+
+def chosen_of_equals(
+    table: EvidenceTable, value_functions: Sequence[ValueFunction], rows: NDArray[np.intp], *, last_of_equals: bool
+) -> int | None:
+    """The alternative that is chosen of those of the same value; None if there is none.
+
+    Args:
+        table: The alternatives.
+        value_functions: The value functions of the measures that decide.
+        rows: Rows of the alternatives of the same value, in rising order of their ids, shape (k,).
+        last_of_equals: Whether the largest id of those that no other surpasses is chosen; the smallest otherwise.
+    """
+    if not len(rows):
+        return None
+    kept = rows[~surpassed_equals(table, value_functions, rows)]
+    return int(table.variants[kept[-1 if last_of_equals else 0]])
 
 
 def surpassed_equals(
@@ -51,7 +71,9 @@ def surpassed_equals(
 def _places(quantities: Array) -> Array:
     """Place of each quantity among those that differ, from the least; shape (k,)."""
     order = np.argsort(quantities, kind="stable")
-    steps = np.diff(quantities[order]) > _SAME
+    rising = quantities[order]
+    larger = np.maximum(np.abs(rising[1:]), np.abs(rising[:-1]))
+    steps = np.diff(rising) > np.maximum(_SAME * larger, _NONE)
     places = np.empty(len(quantities))
     places[order] = np.concatenate([[0.0], np.cumsum(steps)])
     return places

@@ -209,3 +209,22 @@ def test_each_repair_is_the_smallest_and_its_winner_wins(seeded, build_problem, 
         towards = math.nextafter(change.needed, threshold.value) + (threshold.value - change.needed) * 1e-6
         less = dataclasses.replace(repair, changes=(dataclasses.replace(change, needed=towards),))
         assert decide(relaxed(problem, less)).chosen is None
+
+
+@pytest.mark.parametrize("last", [False, True])
+def test_of_equals_the_repair_names_the_one_that_is_then_chosen(build_problem, last):
+    """All four are worth 1; the first is surpassed in a, beyond the best end."""
+    problem = build_problem(
+        {
+            1: {"a": 1.2, "b": 0.4, "c": 0.6},
+            2: {"a": 1.5, "b": 0.4, "c": 0.6},
+            3: {"a": 1.5, "b": 0.4, "c": 0.6},
+            4: {"a": 1.2, "b": 0.4, "c": 0.6},
+        },
+        thresholds=[("R-b", "b", ">=", 0.5), ("R-c", "c", ">=", 0.5)],
+    )
+    conflicts = decide(problem, last_of_equals=last).conflicts
+    (joint,) = conflicts.joint_repairs
+    for repair in (conflicts.repairs[0], joint):
+        then = decide(relaxed(problem, repair), last_of_equals=last)
+        assert repair.winner == then.chosen == (3 if last else 2)
