@@ -12,7 +12,7 @@ from rgss.assessment.stored_replicates import read_specs
 from rgss.designs import DesignVariant, sources
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, TrialRecord
-from rgss.measures import Estimate, StaleCause, Verdict, evaluate, judge
+from rgss.measures import Estimate, MeasureKind, StaleCause, Verdict, evaluate, judge
 from rgss.requirements import Criterion, Requirement
 from rgss.studies import Project
 from rgss.trials.code import assume_engines
@@ -151,6 +151,17 @@ def require_complete(measured: Sequence[VariantMeasures]) -> None:
 def requirements_with_criteria(project: Project) -> tuple[Requirement, ...]:
     """The system requirements with a criterion."""
     return tuple(requirement for requirement, _ in _criteria(project))
+
+
+def judged_measures(project: Project) -> frozenset[str]:
+    """Ids of the measures of effectiveness, and of those that a requirement's criterion bounds.
+
+    Args:
+        project: The project.
+    """
+    effectiveness = {measure.id for measure in project.measures.of_kind(MeasureKind.EFFECTIVENESS)}
+    bounded = {criterion.measure for _, criterion in _criteria(project)}
+    return frozenset(effectiveness | bounded)
 
 
 def _criteria(project: Project) -> tuple[tuple[Requirement, Criterion], ...]:

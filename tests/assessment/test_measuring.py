@@ -7,7 +7,7 @@ from statistics import mean
 import pytest
 from scipy.stats import binom
 
-from rgss.assessment.measuring import measure_variants, require_complete, requirements_with_criteria
+from rgss.assessment.measuring import judged_measures, measure_variants, require_complete, requirements_with_criteria
 from rgss.errors import EvidenceError
 from rgss.measures import Verdict
 from rgss.studies.expansion import trial_specs
@@ -133,3 +133,9 @@ def test_evidence_of_another_project_is_not_used(shipped, filled, record_of):
     other = shipped.with_replicates(4)
 
     assert {entry.missing for entry in measure_variants(other, store)} == {1}
+
+
+def test_a_choice_is_judged_by_its_measures_of_effectiveness_and_those_of_criteria(shipped):
+    bounded = {one.criterion.measure for one in requirements_with_criteria(shipped)}
+    assert judged_measures(shipped) == bounded | {"P_max", "C_total", "t_e", "t_p", "S"}
+    assert "t_gc" in bounded

@@ -165,12 +165,13 @@ def _print_variant(project: Project, entry: VariantMeasures) -> None:
 
 
 def _print_all(project: Project, measured: Sequence[VariantMeasures]) -> None:
+    from rgss.assessment import judged_measures
     from rgss.cli.measured_tables import print_measures, print_verdict_counts
     from rgss.measures import MeasureKind
 
     shown = project.measures.of_kind(MeasureKind.EFFECTIVENESS)
     print_verdict_counts(project, measured)
-    gaps = _gap_lines(project, measured, [measure.id for measure in shown])
+    gaps = _gap_lines(project, measured, judged_measures(project))
     if gaps:
         print(*gaps, "", sep="\n")
     print_measures(shown, measured)

@@ -87,7 +87,7 @@ class Standings:
         return standing
 
     def with_threshold(self, requirement: str) -> Callable[[float], Standing]:
-        """Another threshold of one requirement; values and conditions that are anchored on it follow."""
+        """Another threshold of one requirement, as it is required; the tolerance and what is anchored on it follow."""
 
         def standing(threshold: float) -> Standing:
             preferences = self._preferences(requirement, threshold)
@@ -114,11 +114,14 @@ class Standings:
     def _preferences(self, requirement: str, threshold: float) -> TradeProblem:
         project = with_threshold(self.project, requirement, threshold)
         functions = tuple(value_function_of(project, valued) for valued in project.study.trade_off.valued)
+        tolerance = project.study.trade_off.tolerance
         return replace(
             self.problem,
             alternatives=self.table,
             thresholds=tuple(
-                replace(one, value=threshold) if one.requirement == requirement else one
+                replace(one, value=threshold, required=None).tolerated(0.0 if one.required is None else tolerance)
+                if one.requirement == requirement
+                else one
                 for one in self.problem.thresholds
             ),
             value_functions=functions,

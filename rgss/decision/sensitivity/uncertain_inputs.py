@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from rgss.decision.robustness import Robustness
 from rgss.decision.sensitivity.inputs import Flip, FlipSearch, InputKind, RangeBasis, UncertainInput
 from rgss.decision.sensitivity.ranges import RangeBook
 from rgss.decision.sensitivity.standings import Standings, anchor_quantity, anchored_on_requirements
 from rgss.decision.what_if import ALL, SHAPE, assumed_numbers
-from rgss.tradeoff.robustness import AssumptionRange, admitted_weights
+from rgss.errors import DefinitionError, TradeoffError
+from rgss.tradeoff.robustness import AssumptionRange, Standing, admitted_weights
 from rgss.tradeoff.weights import Polytope
+
+_HALVINGS = 20
 
 
 def uncertain_inputs(standings: Standings, found: Robustness, book: RangeBook) -> Iterator[UncertainInput]:
@@ -152,21 +155,43 @@ def _thresholds(standings: Standings, book: RangeBook) -> Iterator[UncertainInpu
             continue
         seen.add(threshold.requirement)
         name = f"{threshold.requirement}.threshold"
-        spread = book.choice.thresholds * abs(threshold.value)
-        low, high, basis = book.range_of(name, threshold.unit, threshold.value, spread)
+        # As it is required: the tolerance of the choice moves with it.
+        base = threshold.value if threshold.required is None else threshold.required
+        spread = book.choice.thresholds * abs(base)
+        low, high, basis = book.range_of(name, threshold.unit, base, spread)
+        standing = standings.with_threshold(threshold.requirement)
+        if moved_along and basis is RangeBasis.SHARE:
+            low, high = (_nearest_defined(standing, base, end) for end in (low, high))
         yield UncertainInput(
             id=name,
             kind=InputKind.THRESHOLD,
             unit=threshold.unit,
-            base=threshold.value,
+            base=base,
             low=low,
             high=high,
             basis=basis,
-            standing=standings.with_threshold(threshold.requirement),
+            standing=standing,
             # If no value function is anchored on it, designs feasible at one limit are feasible at every looser one.
             search=FlipSearch.SCANNED if moved_along else FlipSearch.NESTED,
             exact=not moved_along,
         )
+
+
+def _nearest_defined(standing: Callable[[float], Standing], base: float, end: float) -> float:
+    """An end of a range, or a part of the way to it at which the values that are anchored on the input are defined.
+
+    Beyond it the worst end of a value function would be better than its best.
+    """
+    ends = (base + (end - base) / 2.0**step for step in range(_HALVINGS))
+    return next((one for one in ends if _is_defined(standing, one)), base)
+
+
+def _is_defined(standing: Callable[[float], Standing], value: float) -> bool:
+    try:
+        standing(value)
+    except (DefinitionError, TradeoffError):
+        return False
+    return True
 
 
 def _assumptions(standings: Standings, found: Robustness, book: RangeBook) -> Iterator[UncertainInput]:

@@ -11,6 +11,7 @@ from rgss.assessment import (
     SeedGroup,
     VariantMeasures,
     drivers_of_failures,
+    judged_measures,
     sequential_seeds,
     success_by_case,
 )
@@ -27,7 +28,7 @@ from rgss.decision.study_decision.readings import ReadingOutcome, reading_outcom
 from rgss.decision.study_decision.reasons import ClosestLimit, Gain, closest_limits, gains_over_runner_up
 from rgss.decision.study_decision.suppositions import WhatIf, decision_side
 from rgss.decision.what_if import Scenario, measured_in
-from rgss.measures import MeasureKind, ModelGap, model_gaps
+from rgss.measures import ModelGap, model_gaps
 from rgss.studies import Project
 from rgss.tradeoff import Decision, DecisionStatus, Overlap, PortfolioDecision, SharedPart, SolverRun, TradeProblem
 from rgss.tradeoff.elicitation import ElicitedWeights
@@ -263,8 +264,8 @@ def _drivers(project: Project, measured: Sequence[VariantMeasures]) -> DriversOf
 
 
 def _gaps(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> tuple[ModelGap, ...]:
-    """Notable differences between equation and simulation in the choice's measures of effectiveness."""
-    shown = {measure.id for measure in project.measures.of_kind(MeasureKind.EFFECTIVENESS)}
+    """Notable differences between equation and simulation in the measures by which the choice is judged."""
+    shown = judged_measures(project)
     chosen = next((entry for entry in measured if entry.variant.id == decision.chosen), None)
     found = () if chosen is None else model_gaps(project.measures, chosen.estimates)
     return tuple(gap for gap in found if gap.measure in shown and gap.is_notable)

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from rgss.tradeoff.problem import Condition, EvidenceTable
     from rgss.tradeoff.programs import Enumeration, Preferences
 
+_SAME_EFFORT = 1e-9
+
 
 def with_repairs(
     preferences: Preferences, enumeration: Enumeration, conflicts: Conflicts, *, last_of_equals: bool = False
@@ -137,8 +139,8 @@ def _mended(
     movable = np.all([_reachable(*pair) for pair in zip(conditions, columns, strict=True)], axis=0)
     if not movable.any():
         return none
-    efforts = np.max([_effort(*pair) for pair in zip(conditions, columns, strict=True)], axis=0)
-    row = int(np.flatnonzero(movable)[efforts[movable].argmin()])
+    each = np.array([_effort(*pair) for pair in zip(conditions, columns, strict=True)])
+    row = _least_effort(each, np.flatnonzero(movable))
     feasible = np.ones(len(table), dtype=np.bool_)
     changes = []
     for condition, column in zip(conditions, columns, strict=True):
@@ -159,6 +161,14 @@ def _mended(
     tied = np.flatnonzero(ordering_of(preferences.program, preferences, table, feasible).best(feasible))
     winner = chosen_of_equals(table, preferences.deciding_functions, tied, last_of_equals=last_of_equals)
     return tuple(changes), int(feasible.sum()), winner
+
+
+def _least_effort(each: NDArray[np.float64], movable: NDArray[np.intp]) -> int:
+    """The alternative whose largest relative change of a limit is the smallest; of equals the least in total."""
+    largest = each[:, movable].max(axis=0)
+    least = largest.min()
+    equals = movable[largest <= least + _SAME_EFFORT * max(1.0, abs(least))] if np.isfinite(least) else movable
+    return int(equals[each[:, equals].sum(axis=0).argmin()])
 
 
 def _reachable(condition: Condition, column: NDArray[np.float64]) -> NDArray[np.bool_]:

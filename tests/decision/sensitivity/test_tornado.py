@@ -112,6 +112,43 @@ def test_each_end_is_the_decision_under_that_supposition(wide, measured):
     assert looked_at > 40
 
 
+@pytest.mark.parametrize("anchored", [False, True])
+def test_with_a_tolerance_thresholds_are_those_that_are_required(analysed, measured, anchored):
+    """The tolerance of the choice moves with the limit: each end is a what-if, and a stated range holds the limit."""
+    choice = CHOICE if anchored else [line.replace("{requirement: SYS-005}", "25 s") for line in CHOICE]
+    project, decision, found = analysed(
+        "tolerance: 10 %",
+        "sensitivity: {ranges: [{input: SYS-024.threshold, low: 0.85, high: 0.95}]}",
+        choice=[*choice],
+    )
+    required = {one.id: one.criterion.threshold for one in project.requirements.system if one.criterion is not None}
+    bars = [bar for bar in found.tornado.bars if bar.id.endswith(".threshold")]
+    assert len(bars) > 4
+    for bar in bars:
+        assert bar.base == pytest.approx(required[bar.id.removesuffix(".threshold")]), bar.id
+        for end in (bar.low, bar.high):
+            anew = decided_anew(project, measured, f"{bar.id}={end.value!r} {'' if bar.unit == '1' else bar.unit}")
+            assert end.winners == anew.ties, bar.id
+            lead = lead_of(anew, decision.chosen, decision.ties)
+            assert (end.lead is None) == (lead is None), bar.id
+            if lead is not None:
+                assert end.lead == pytest.approx(lead, abs=1e-9), bar.id
+
+
+def test_an_end_beyond_which_no_value_is_defined_is_taken_nearer(analysed):
+    """A tenth less than 43,000 USD is below the best of 39,000 USD: more cost would be worth more there."""
+    _, _, found = analysed(
+        choice=[
+            "values:",
+            "  - {measure: P_max, weight: 0.4, worst: 0.8 kg, best: 1.4 kg}",
+            "  - {measure: C_total, weight: 0.6, worst: {requirement: SYS-004}, best: 39000 USD}",
+        ]
+    )
+    (bar,) = [bar for bar in found.tornado.bars if bar.id == "SYS-004.threshold"]
+    assert (bar.base, bar.high.value) == (43000.0, pytest.approx(47300.0))
+    assert 39000.0 < bar.low.value < 43000.0
+
+
 def test_no_time_is_negative(analysed):
     """A tenth of 20 s, from the best to the worst, is more than the best of half a second."""
     other = [line.replace("best: 5 s", "best: 0.5 s") for line in CHOICE]

@@ -228,3 +228,14 @@ def test_of_equals_the_repair_names_the_one_that_is_then_chosen(build_problem, l
     for repair in (conflicts.repairs[0], joint):
         then = decide(relaxed(problem, repair), last_of_equals=last)
         assert repair.winner == then.chosen == (3 if last else 2)
+
+
+def test_of_equal_largest_changes_the_least_in_total_is_taken(build_problem):
+    """Both lack a fifth of a; the second lacks less of b."""
+    problem = build_problem(
+        {1: {"a": 0.4, "b": 0.42}, 2: {"a": 0.4, "b": 0.48}},
+        thresholds=[("R-a", "a", ">=", 0.5), ("R-b", "b", ">=", 0.5)],
+    )
+    (joint,) = decide(problem).conflicts.joint_repairs
+    assert [change.needed for change in joint.changes] == [0.4, 0.48]
+    assert (joint.unlocked, joint.winner) == (1, 2)

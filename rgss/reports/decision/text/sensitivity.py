@@ -33,7 +33,8 @@ def sensitivity_lines(found: Sensitivity) -> Iterator[str]:
         yield range_sentence(found.tornado)
     if found.kept is not None:
         yield ""
-        yield f"Designs worth keeping (within {found.keep_margin:g} of the best for some {_weights(found)}weights)"
+        within = f"within {found.keep_margin:g} of the best for some {_weights(found)}weights"
+        yield f"Designs worth keeping ({within}, none as good at all)"
         yield from _kept(kept_groups(found))
         yield from beaten_sentences(found)
     if found.agreement is not None:
