@@ -48,7 +48,7 @@ class LimitChange:
     Attributes:
         requirement: The id of the requirement whose limit it is.
         demand: The present demand, such as ``P_max >= 0.8 kg``.
-        limit: The limit now.
+        limit: The limit now, as it is required; a tolerance of the choice moves with it.
         needed: The value that it would need.
         unit: The unit of both.
     """

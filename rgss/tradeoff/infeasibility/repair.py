@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rgss.tradeoff.infeasibility.conflicts import Conflicts, JointRepair, LimitChange, Repair
-from rgss.tradeoff.problem import ChanceBound, Comparison, chosen_of_equals
+from rgss.tradeoff.problem import ChanceBound, Comparison, Threshold, chosen_of_equals
 from rgss.tradeoff.programs import condition_column, keeps, ordering_of
 
 if TYPE_CHECKING:
@@ -151,8 +151,8 @@ def _mended(
                 LimitChange(
                     requirement=condition.requirement,
                     demand=condition.demand,
-                    limit=condition.limit,
-                    needed=limit,
+                    limit=condition.limit * _required_share(condition),
+                    needed=limit * _required_share(condition),
                     unit=condition.limit_unit,
                 )
             )
@@ -161,6 +161,12 @@ def _mended(
     tied = np.flatnonzero(ordering_of(preferences.program, preferences, table, feasible).best(feasible))
     winner = chosen_of_equals(table, preferences.deciding_functions, tied, last_of_equals=last_of_equals)
     return tuple(changes), int(feasible.sum()), winner
+
+
+def _required_share(condition: Condition) -> float:
+    """The required limit over the one that holds with the tolerance of the choice; a repair changes the former."""
+    required = condition.required if isinstance(condition, Threshold) else None
+    return 1.0 if required is None or condition.limit == 0.0 else required / condition.limit
 
 
 def _least_effort(each: NDArray[np.float64], movable: NDArray[np.intp]) -> int:

@@ -239,3 +239,29 @@ def test_of_equal_largest_changes_the_least_in_total_is_taken(build_problem):
     (joint,) = decide(problem).conflicts.joint_repairs
     assert [change.needed for change in joint.changes] == [0.4, 0.48]
     assert (joint.unlocked, joint.winner) == (1, 2)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_with_a_tolerance_the_required_limit_is_what_changes(seeded, build_problem, seed):
+    """Each repair is put in as a requirement, and the tolerance applies to it anew."""
+    generator = seeded(seed)
+    measures = {number: {"a": generator.uniform(0.1, 0.4), "b": generator.uniform(6.0, 9.0)} for number in range(1, 9)}
+    strict = build_problem(measures, thresholds=[("R-a", "a", ">=", 0.8), ("R-b", "b", "<=", 4.0)])
+
+    def with_tolerance(limits):
+        return dataclasses.replace(
+            strict,
+            thresholds=tuple(
+                dataclasses.replace(one, value=limits.get(one.requirement, one.value)).tolerated(0.1)
+                for one in strict.thresholds
+            ),
+        )
+
+    conflicts = decide(with_tolerance({})).conflicts
+    assert conflicts.joint_repairs
+    for repair in conflicts.joint_repairs:
+        assert [change.limit for change in repair.changes] == pytest.approx([0.8, 4.0][: len(repair.changes)])
+        # Away from the present limit by less than any two quantities differ, so that rounding decides nothing.
+        away = {"R-a": 1.0 - 1e-9, "R-b": 1.0 + 1e-9}
+        then = decide(with_tolerance({one.requirement: one.needed * away[one.requirement] for one in repair.changes}))
+        assert (then.counts.feasible, then.chosen) == (repair.unlocked, repair.winner)
