@@ -15,6 +15,7 @@ from rgss.tradeoff.infeasibility import (
     JointRepair,
     LimitChange,
     NearestAlternative,
+    Repair,
     RequirementCount,
 )
 from rgss.tradeoff.levels import LevelProblem, LevelTable, decide_levels, smallest_table

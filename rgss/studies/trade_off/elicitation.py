@@ -88,6 +88,12 @@ class AnswerReader:
             key, least, most = "ratio", entry.ratio, entry.ratio
         elif entry.between is not None:
             key, (least, most) = "between", entry.between
+            if least == most:
+                message = f"a range of ratios needs two different numbers, got {least:g} twice"
+                self._places.report(
+                    "elicitation", message, (*at, key), hint=f"write 'ratio: {least:g}' for a judgement"
+                )
+                return None
         try:
             return PairwiseAnswer(swing_of=entry.swing_of, over=entry.over, least=least, most=most)
         except TradeoffError as error:

@@ -189,22 +189,23 @@ def _saaty_ratio(names: Sequence[str], ratios: Sequence[PairwiseAnswer]) -> floa
 
 
 def _worst_triad(names: Sequence[str], ratios: Sequence[PairwiseAnswer]) -> Triad | None:
-    first: dict[frozenset[str], PairwiseAnswer] = {}
-    for one in ratios:
-        first.setdefault(frozenset((one.swing_of, one.over)), one)
+    # A pair may be answered twice.
+    given: dict[frozenset[str], list[PairwiseAnswer]] = {}
+    for answer in ratios:
+        given.setdefault(frozenset((answer.swing_of, answer.over)), []).append(answer)
     worst: Triad | None = None
     for three in itertools.combinations(names, 3):
         pairs = [frozenset(pair) for pair in itertools.combinations(three, 2)]
-        if not all(pair in first for pair in pairs):
-            continue
-        one, across, other = (first[pair] for pair in pairs)
-        # Around the circle first → second → third → first.
-        around = _log(one, three[0]) + _log(other, three[1]) - _log(across, three[0])
-        if worst is None or math.exp(abs(around)) > worst.factor * (1.0 + 1e-12):
-            turns = (_turn(one, three[0]), -_turn(across, three[0]), _turn(other, three[1]))
-            answers = (one, across, other)
-            mends = tuple(answer.ratio * math.exp(-around * turn) for answer, turn in zip(answers, turns, strict=True))
-            worst = Triad(answers=answers, factor=math.exp(abs(around)), mends=(mends[0], mends[1], mends[2]))
+        for one, across, other in itertools.product(*(given.get(pair, ()) for pair in pairs)):
+            # Around the circle first → second → third → first.
+            around = _log(one, three[0]) + _log(other, three[1]) - _log(across, three[0])
+            if worst is None or math.exp(abs(around)) > worst.factor * (1.0 + 1e-12):
+                turns = (_turn(one, three[0]), -_turn(across, three[0]), _turn(other, three[1]))
+                answers = (one, across, other)
+                mends = tuple(
+                    answer.ratio * math.exp(-around * turn) for answer, turn in zip(answers, turns, strict=True)
+                )
+                worst = Triad(answers=answers, factor=math.exp(abs(around)), mends=(mends[0], mends[1], mends[2]))
     return worst
 
 

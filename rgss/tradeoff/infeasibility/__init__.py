@@ -11,6 +11,7 @@ if TYPE_CHECKING:
         JointRepair,
         LimitChange,
         NearestAlternative,
+        Repair,
         RequirementCount,
         excluded_counts,
         find_conflicts,

@@ -88,6 +88,10 @@ FINDINGS = [
         "7:55: error: an answer is a ratio or a range of ratios (keep 'ratio' or 'between')",
     ),
     (
+        (*PLAIN, *answers("{swing_of: P_max, over: t_e, between: [2, 2]}")),
+        "7:45: error: a range of ratios needs two different numbers, got 2 twice (write 'ratio: 2' for a judgement)",
+    ),
+    (
         (*PLAIN, *answers("{swing_of: P_max, over: t_e, ratio: 0}")),
         "7:43: error: the ratio of 'P_max' and 't_e' cannot lie between 0 and 0",
     ),

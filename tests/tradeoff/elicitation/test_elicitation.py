@@ -131,6 +131,13 @@ def test_the_worst_triad_is_the_worst_of_all_and_each_of_its_mends_mends_it(seed
         assert consistency_of(named, mended).worst_triad.factor == pytest.approx(1.0)
 
 
+def test_an_answer_that_is_given_twice_is_part_of_triads_twice():
+    answers = [ratio("a", "b", 2), ratio("a", "b", 8), ratio("b", "c", 2), ratio("a", "c", 4)]
+    found = consistency_of(("a", "b", "c"), answers).worst_triad
+    assert found.factor == pytest.approx(4.0)
+    assert answers[1] in found.answers
+
+
 def test_the_worst_answer_is_the_one_that_was_wrong():
     logs = dict(zip(NAMES, (0.0, -0.3, -0.7, -1.2, -1.5), strict=True))
     answers = [ratio(i, j, math.exp(logs[i] - logs[j])) for i, j in itertools.combinations(NAMES, 2)]
