@@ -177,6 +177,7 @@ class _Evidence:
         self._variants = variants
         self._records: dict[int, tuple[tuple[str, TrialRecord], ...]] = {variant.id: () for variant in variants}
         self._measured: dict[int, VariantMeasures] = {}
+        self._ranges: dict[int, Mapping[str, Range]] = {}
 
     def missing(self, wanted: Mapping[int, int]) -> tuple[TrialSpec, ...]:
         """Required trials that were not read yet."""
@@ -207,6 +208,7 @@ class _Evidence:
                 )
             self._records[spec.variant] = (*self._records[spec.variant], (key, found[key]))
             self._measured.pop(spec.variant, None)
+            self._ranges.pop(spec.variant, None)
 
     def measured(self) -> tuple[VariantMeasures, ...]:
         """Every variant with the estimates of its measures."""
@@ -217,15 +219,15 @@ class _Evidence:
 
     def ranges(self) -> dict[int, Mapping[str, Range]]:
         """Possible values of a trial, by variant and measure."""
-        return {
-            entry.variant.id: replicate_ranges(
-                self._project.measures,
-                fixed=sources(entry.variant),
-                estimates=entry.estimates,
-                variant=entry.variant.id,
-            )
-            for entry in self.measured()
-        }
+        for entry in self.measured():
+            if entry.variant.id not in self._ranges:
+                self._ranges[entry.variant.id] = replicate_ranges(
+                    self._project.measures,
+                    fixed=sources(entry.variant),
+                    estimates=entry.estimates,
+                    variant=entry.variant.id,
+                )
+        return dict(self._ranges)
 
     def _measure(self, variant: DesignVariant) -> VariantMeasures:
         rows = self._records[variant.id]

@@ -134,13 +134,12 @@ def _short(text: str, longest: int = _LONGEST) -> str:
 
 
 def _ranked_in_words(ranked: int, shown: int) -> str:
-    if ranked <= shown:
-        return (
-            ("No variant is ranked.", "One variant is ranked.")[ranked]
-            if ranked < 2
-            else f"All {ranked} ranked variants are shown."
-        )
-    return f"{ranked} variants are ranked; the first {shown} are shown."
+    if ranked == 0:
+        return "No variant is ranked."
+    if ranked == 1:
+        return "One variant is ranked."
+    shown_words = f"the first {shown}" if ranked > shown else "all"
+    return f"{ranked} variants are ranked; {shown_words} are shown."
 
 
 def _columns_left(document: Mapping[str, Any]) -> tuple[str, str]:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rgss.documents import Document
-from rgss.findings import Finding, Severity
-from rgss.scenes import GripperGeometry, initial_placements, scene_about, unsealed
+from rgss.findings import Finding
+from rgss.scenes import GripperGeometry, unsealed
+from rgss.studies.checks.gripped_objects import unfit_finding, unfit_objects
 from rgss.studies.project import Project
-from rgss.tasks import HandAction, stages_of
 
 Location = tuple[str | int, ...]
 
@@ -20,15 +20,9 @@ def unsealed_objects(geometry: GripperGeometry, project: Project) -> tuple[tuple
         geometry: The gripper's shape; one with fingers has none.
         project: The project; where its task chooses among candidates, these have findings of their own.
     """
-    scene = project.scene
-    if geometry.cup is None or scene.task.candidates is not None:
+    if geometry.cup is None:
         return ()
-    placements, stages = initial_placements(scene), stages_of(project.study.task, scene.workpiece.id)
-    gripped = dict.fromkeys(stage.object for stage in stages if stage.step.hand is HandAction.CLOSES)
-    reasons = (
-        (name, unsealed(geometry, scene_about(scene, name, place="", placements=placements))) for name in gripped
-    )
-    return tuple((name, reason) for name, reason in reasons if reason)
+    return unfit_objects(project, lambda view: unsealed(geometry, view))
 
 
 def seal_finding(
@@ -43,12 +37,5 @@ def seal_finding(
         grippers: Files of the grippers with such a cup.
         serves: True if the designs have another gripper, for which the object is fit.
     """
-    return document.finding(
-        "scene.seal",
-        f"{reason} ({', '.join(sorted(grippers))})",
-        location,
-        hint="designs with this gripper fail at the grasp, and the others do not"
-        if serves
-        else "take a smaller cup, or let the task choose the grasp with 'grasp: automatic'",
-        severity=Severity.INFO if serves else Severity.ERROR,
-    )
+    hint = "take a smaller cup, or let the task choose the grasp with 'grasp: automatic'"
+    return unfit_finding(document, location, "scene.seal", reason, grippers, serves=serves, hint=hint)

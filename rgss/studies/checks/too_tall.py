@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rgss.scenes import GRIPPER_BASE_LINK, GripperGeometry, at_object, initial_placements, palm_fit, scene_about
+from rgss.scenes import GRIPPER_BASE_LINK, GripperGeometry, at_object, palm_fit
+from rgss.studies.checks.gripped_objects import gripped_views
 from rgss.studies.project import Project
-from rgss.tasks import HandAction, stages_of
 
 if TYPE_CHECKING:
     from rgss.trials import SceneProblem
@@ -35,12 +35,8 @@ def objects_too_tall(geometry: GripperGeometry, project: Project) -> tuple[TooTa
         geometry: The gripper's shape.
         project: The project.
     """
-    scene, task = project.scene, project.study.task
-    placements = initial_placements(scene)
-    stages = stages_of(task, scene.workpiece.id)
     found = []
-    for name in dict.fromkeys(stage.object for stage in stages if stage.step.hand is HandAction.CLOSES):
-        view = scene_about(scene, name, place="", placements=placements)
+    for name, view in gripped_views(project):
         fit = palm_fit(at_object(geometry, view), view)
         most_m = 0.0 if fit is None else fit.palm_m - project.study.planning.clearance_m
         if fit is not None and fit.top_m > most_m:

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from rgss.documents import Document
-from rgss.findings import Finding, Severity
-from rgss.scenes import GripperGeometry, initial_placements, scene_about, too_wide
+from rgss.findings import Finding
+from rgss.scenes import GripperGeometry, too_wide
+from rgss.studies.checks.gripped_objects import unfit_finding, unfit_objects
 from rgss.studies.project import Project
-from rgss.tasks import HandAction, stages_of
 
 if TYPE_CHECKING:
     from rgss.trials import SceneProblem
@@ -24,15 +24,7 @@ def objects_too_wide(geometry: GripperGeometry, project: Project) -> tuple[tuple
         geometry: The gripper's shape; a cup has none.
         project: The project; where its task chooses among candidates, these have findings of their own.
     """
-    scene = project.scene
-    if scene.task.candidates is not None:
-        return ()
-    placements, stages = initial_placements(scene), stages_of(project.study.task, scene.workpiece.id)
-    gripped = dict.fromkeys(stage.object for stage in stages if stage.step.hand is HandAction.CLOSES)
-    reasons = (
-        (name, too_wide(geometry, scene_about(scene, name, place="", placements=placements))) for name in gripped
-    )
-    return tuple((name, reason) for name, reason in reasons if reason)
+    return unfit_objects(project, lambda view: too_wide(geometry, view))
 
 
 def width_finding(
@@ -47,15 +39,8 @@ def width_finding(
         grippers: Files of the grippers for which it is too wide.
         serves: True if the designs have another gripper, for which the object is fit.
     """
-    return document.finding(
-        "scene.too-wide",
-        f"{reason} ({', '.join(sorted(grippers))})",
-        location,
-        hint="designs with this gripper fail at the grasp, and the others do not"
-        if serves
-        else "take a narrower object or a wider gripper, or turn the grasp about the vertical",
-        severity=Severity.INFO if serves else Severity.ERROR,
-    )
+    hint = "take a narrower object or a wider gripper, or turn the grasp about the vertical"
+    return unfit_finding(document, location, "scene.too-wide", reason, grippers, serves=serves, hint=hint)
 
 
 def is_of_fingers(problem: SceneProblem, name: str) -> bool:

@@ -97,18 +97,23 @@ def lead_of(anew, chosen, tied):
     return values[chosen] - max(rivals) if rivals else None
 
 
+def assert_is_what_if(bar, end, project, decision, measured):
+    """An end of a bar is the decision under the supposition of its value."""
+    anew = decided_anew(project, measured, f"{bar.id}={end.value!r} {'' if bar.unit == '1' else bar.unit}")
+    assert end.winners == anew.ties, bar.id
+    lead = lead_of(anew, decision.chosen, decision.ties)
+    assert (end.lead is None) == (lead is None), bar.id
+    if lead is not None:
+        assert end.lead == pytest.approx(lead, abs=1e-9), bar.id
+
+
 def test_each_end_is_the_decision_under_that_supposition(wide, measured):
     project, decision, found = wide
     assert found.tornado.chosen == decision.chosen
     looked_at = 0
     for bar in found.tornado.bars:
         for end in (bar.low, bar.high):
-            anew = decided_anew(project, measured, f"{bar.id}={end.value!r} {'' if bar.unit == '1' else bar.unit}")
-            assert end.winners == anew.ties, bar.id
-            lead = lead_of(anew, decision.chosen, decision.ties)
-            assert (end.lead is None) == (lead is None), bar.id
-            if lead is not None:
-                assert end.lead == pytest.approx(lead, abs=1e-9), bar.id
+            assert_is_what_if(bar, end, project, decision, measured)
             looked_at += 1
     assert looked_at > 40
 
@@ -128,12 +133,7 @@ def test_with_a_tolerance_thresholds_are_those_that_are_required(analysed, measu
     for bar in bars:
         assert bar.base == pytest.approx(required[bar.id.removesuffix(".threshold")]), bar.id
         for end in (bar.low, bar.high):
-            anew = decided_anew(project, measured, f"{bar.id}={end.value!r} {'' if bar.unit == '1' else bar.unit}")
-            assert end.winners == anew.ties, bar.id
-            lead = lead_of(anew, decision.chosen, decision.ties)
-            assert (end.lead is None) == (lead is None), bar.id
-            if lead is not None:
-                assert end.lead == pytest.approx(lead, abs=1e-9), bar.id
+            assert_is_what_if(bar, end, project, decision, measured)
 
 
 def test_an_end_beyond_which_no_value_is_defined_is_taken_nearer(analysed):
