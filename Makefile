@@ -36,7 +36,7 @@ format: setup ## format the code and mend what the linter can mend
 	@.venv/bin/ruff check --quiet --fix .
 
 fast: setup ## run the tests that need no engine and take no time, in half a minute
-	@.venv/bin/python -m tests.in_shares --quiet -m "not engine and not browser and not slow"
+	@.venv/bin/python -m tests.in_shares --quiet --durations=10 --durations-min=0.3 -m "not engine and not browser and not slow"
 
 test: setup ## run the whole test suite, on every core
 	@.venv/bin/pytest --quiet --numprocesses=auto --dist=loadfile --junitxml=.rgss/junit.xml
