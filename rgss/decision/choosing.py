@@ -7,17 +7,15 @@ from dataclasses import replace
 
 from rgss.assessment import VariantMeasures, replicates_of, require_complete, requirements_with_criteria
 from rgss.decision.level_structure import level_structure
-from rgss.decision.preference_model import anchored_measures, program_of, risks_of, threshold_of, value_function_of
+from rgss.decision.moved_thresholds import with_moved_winners
+from rgss.decision.preference_model import program_of, risks_of, threshold_of, value_function_of
 from rgss.measures import Estimate, Estimator
 from rgss.requirements import Criterion, Statistic
 from rgss.studies import Project
 from rgss.tradeoff import (
     Alternative,
-    Conflicts,
     Decision,
-    JointRepair,
     Overlap,
-    Repair,
     SharedPart,
     SolverRun,
     TradeProblem,
@@ -119,21 +117,7 @@ def choose(
     )
     if decision.conflicts is None:
         return decision
-    return replace(decision, conflicts=_without_moved_winners(project, decision.conflicts))
-
-
-def _without_moved_winners(project: Project, conflicts: Conflicts) -> Conflicts:
-    """Conflicts whose repairs name no choice where they move a limit on which a value is anchored: it moves too."""
-    anchored = anchored_measures(project)
-
-    def moves_values(repair: Repair | JointRepair) -> bool:
-        return any(change.requirement in anchored for change in repair.changes)
-
-    return replace(
-        conflicts,
-        repairs=tuple(replace(one, winner=None) if moves_values(one) else one for one in conflicts.repairs),
-        joint_repairs=tuple(replace(one, winner=None) if moves_values(one) else one for one in conflicts.joint_repairs),
-    )
+    return replace(decision, conflicts=with_moved_winners(project, posed, decision.conflicts))
 
 
 def proportion_measures(project: Project) -> frozenset[str]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.decision.preference_model import program_of, quantity_of, risks_of, value_function_of
+from rgss.decision.moved_thresholds import problem_with_thresholds
+from rgss.decision.preference_model import quantity_of, value_function_of
 from rgss.decision.robustness import Remeasuring, allowed_variants
 from rgss.decision.what_if import ModelNumber
 from rgss.errors import DefinitionError
@@ -90,8 +91,8 @@ class Standings:
         """Another threshold of one requirement, as it is required; the tolerance and what is anchored on it follow."""
 
         def standing(threshold: float) -> Standing:
-            preferences = self._preferences(requirement, threshold)
-            return _decided(preferences, self.table)
+            moved = problem_with_thresholds(self.project, self.problem, self.table, {requirement: threshold})
+            return _decided(moved, self.table)
 
         return standing
 
@@ -110,25 +111,6 @@ class Standings:
             return Standing(totals=found.totals, feasible=found.feasible & mask)
 
         return standing
-
-    def _preferences(self, requirement: str, threshold: float) -> TradeProblem:
-        project = with_threshold(self.project, requirement, threshold)
-        functions = tuple(value_function_of(project, valued) for valued in project.study.trade_off.valued)
-        tolerance = project.study.trade_off.tolerance
-        return replace(
-            self.problem,
-            alternatives=self.table,
-            thresholds=tuple(
-                replace(one, value=threshold, required=None).tolerated(0.0 if one.required is None else tolerance)
-                if one.requirement == requirement
-                else one
-                for one in self.problem.thresholds
-            ),
-            value_functions=functions,
-            risks=risks_of(project),
-            program=program_of(project, functions),
-            levels=None,
-        )
 
     def _with_column(self, place: int, column: Array) -> Standing:
         values = self.values.copy()
@@ -156,22 +138,6 @@ def standings_of(remeasuring: Remeasuring, problem: TradeProblem) -> Standings:
         feasible=_feasible(problem, table),
         remeasuring=remeasuring,
     )
-
-
-def with_threshold(project: Project, requirement: str, threshold: float) -> Project:
-    """The project with another threshold of one requirement, in the unit of its measure."""
-    system = tuple(
-        replace(
-            one,
-            criterion=replace(
-                one.criterion, threshold=threshold, unit=project.measures.measure(one.criterion.measure).unit
-            ),
-        )
-        if one.id == requirement and one.criterion is not None
-        else one
-        for one in project.requirements.system
-    )
-    return replace(project, requirements=replace(project.requirements, system=system))
 
 
 def anchored_on_requirements(project: Project) -> bool:

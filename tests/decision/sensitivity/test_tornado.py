@@ -12,7 +12,6 @@ from rgss.assessment.measuring import measure_variants
 from rgss.decision.choosing import choose, trade_problem
 from rgss.decision.robustness import robustness
 from rgss.decision.sensitivity import RangeBasis, analyse_sensitivity
-from rgss.decision.sensitivity.standings import with_threshold
 from rgss.decision.what_if import measured_in, suppose
 from rgss.errors import DocumentError
 from rgss.tradeoff import ExponentialValue, Weighting
@@ -148,16 +147,6 @@ def test_an_end_beyond_which_no_value_is_defined_is_taken_nearer(analysed):
     (bar,) = [bar for bar in found.tornado.bars if bar.id == "SYS-004.threshold"]
     assert (bar.base, bar.high.value) == (43000.0, pytest.approx(47300.0))
     assert 39000.0 < bar.low.value < 43000.0
-
-
-def test_a_repair_of_a_limit_on_which_a_value_is_anchored_names_no_choice(shipped, measured, read_trade_off_of):
-    """The value moves with the limit, so that who is chosen then is not known from the present values."""
-    lines = [line.replace("worst: 44000 USD", "worst: {requirement: SYS-004}") for line in CHOICE]
-    for choice, named in ((CHOICE, True), (lines, False)):
-        project = with_threshold(replace(shipped, study=read_trade_off_of(*choice)), "SYS-004", 38500.0)
-        (repair,) = [one for one in choose(project, measured).conflicts.repairs if one.requirement == "SYS-004"]
-        assert repair.unlocked > 0
-        assert (repair.winner is not None) is named
 
 
 def test_no_time_is_negative(analysed):
