@@ -22,7 +22,7 @@ from tests.fixtures.stored_inputs import put_inputs
 
 REQUIREMENT, MEASURE, MODEL = StaleCause.REQUIREMENT, StaleCause.MEASURE, StaleCause.MODEL
 CODE_CHANGED, ENGINES = StaleCause.CODE, StaleCause.ENGINES
-OF_TRIALS = {"SYS-005", "SYS-024", "SYS-033", "SYS-040"}
+OF_TRIALS = {"SYS-005", "SYS-009", "SYS-024", "SYS-033", "SYS-040"}
 """Requirements whose measure is observed in trials; the others follow from the design alone."""
 
 
@@ -173,8 +173,9 @@ def test_what_was_recorded_is_not_stale(shipped, evidence, recorded):
         ("6-script", "threshold: 0.9", "threshold: 0.8", {"SYS-024": (REQUIREMENT,)}),
         ("6-script", "statistic: value, comparison", "statistic: low, comparison", {"SYS-024": (REQUIREMENT,)}),
         ("1-manipulator", "execute the task within", "finish the task within", {"SYS-005": (REQUIREMENT,)}),
-        ("measures", "value: 48 mm", "value: 49 mm", {"SYS-009": (MEASURE,)}),
-        ("measures", "Travel of a finger in one", "Travel of one", {"SYS-009": (MEASURE,)}),
+        ("measures", "value: 145 mm", "value: 146 mm", {"SYS-012": (MEASURE,)}),
+        ("measures", "Distance along the tool axis", "Distance", {"SYS-012": (MEASURE,)}),
+        ("measures", "definition: Time of closing on", "definition: Time of gripping", {"SYS-009": (MEASURE,)}),
         ("1-manipulator", "owner: systems engineer", "owner: owner", {}),
         (
             "measures",

@@ -104,6 +104,7 @@ def made_record(spec) -> TrialRecord:
         "planning_time_s": (time_s,) * planned + (None,) * (5 - planned),
         "path_length_m": (0.6,) * planned + (None,) * (5 - planned),
         "motion_time_s": 9.0 + 0.1 * spec.seed,
+        "grasp_cycle_time_s": 1.9 if success else None,
         "task_time_s": 9.0 + 0.1 * spec.seed + 5 * time_s if success else None,
     }
     return TrialRecord(

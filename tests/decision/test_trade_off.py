@@ -172,7 +172,7 @@ def test_too_few_replicates_for_a_chance(problem_of):
 def test_the_replicates_are_what_the_estimates_stand_on(problem_of, measured):
     problem = problem_of(*BOTH, "tail: [{measure: S, at_least: 0.5, worst_share: 0.5}]")
     for entry, alternative in zip(measured, problem.alternatives, strict=True):
-        assert set(alternative.samples) == {"t_e", "t_e_simulated", "t_p", "S", "S_mean"}
+        assert set(alternative.samples) == {"t_e", "t_e_simulated", "t_gc_simulated", "t_p", "S", "S_mean"}
         for measure, row in alternative.samples.items():
             known = [quantity for quantity in row if quantity is not None]
             assert len(row) == 3

@@ -99,7 +99,7 @@ def test_what_a_study_names_is_read_even_if_the_study_is_wrong(edit, problems, p
             "requirements/system/2-gripper.yaml",
             'threshold: "3 s"',
             'threshold: "3 kg"',
-            "error: criterion of 'SYS-009' has the unit 'kg', but 't_gc' is measured in 's' (give the threshold in s",
+            "error: criterion of 'SYS-009' has the unit 'kg', but 't_gc_simulated' is measured in 's' (give the",
         ),
     ],
 )

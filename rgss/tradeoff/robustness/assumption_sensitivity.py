@@ -111,9 +111,10 @@ def _walk(
     for near, far in _segments(start, kinks, end):
         if chosen not in evaluate(near).best():
             return near, evaluate(near).best()
-        if near == far:
-            continue
         points = _inner_points(near, far)
+        if points[0] == points[1]:
+            # Between equal numbers, or kinks that rounding alone tells apart, nothing lies that could be looked at.
+            continue
         first, second = (evaluate(point) for point in points)
         rivals = np.flatnonzero(first.feasible)
         slope = (second.totals[rivals] - first.totals[rivals]) / (points[1] - points[0])

@@ -73,10 +73,11 @@ def test_the_trials_that_decide_are_those_that_the_estimate_counts(rgss, with_ev
 def test_a_trial_is_told_by_the_key_that_the_store_knows_it_by(rgss, with_evidence):
     chain = rgss("trace", "--project", with_evidence, "SYS-005", "--json").document
     told = [step for step in chain["down"] if step["kind"] == "trial"]
+    # Two measures decide it and what is derived from it, by the same trials.
     with EvidenceStore.open(load_project(with_evidence).evidence, create=False) as store:
         stored = {trial.key: trial.record for trial in store.all()}
 
-    assert [(stored[step["id"]].variant, stored[step["id"]].seed) for step in told] == [(10, 1), (10, 2), (10, 3)]
+    assert [(stored[step["id"]].variant, stored[step["id"]].seed) for step in told] == [(10, 1), (10, 2), (10, 3)] * 2
     assert f"; rgss replay {told[0]['id'][:12]}; " in told[0]["note"]
     assert "t_e_simulated = 11.11 s; " in told[0]["note"]
     assert told[0]["note"].endswith("task_time_s = 11.11")

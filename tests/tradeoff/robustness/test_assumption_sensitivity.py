@@ -22,6 +22,18 @@ def test_by_hand():
     assert (found.exact, found.always) == (True, False)
 
 
+@pytest.mark.parametrize("apart", [1, 2, 3])
+def test_kinks_that_rounding_tells_apart(apart):
+    """One quantity computed in two ways gives two kinks between which there is no number, or hardly one."""
+    kinks = [20.0]
+    for _ in range(apart):
+        kinks.append(math.nextafter(kinks[-1], math.inf))
+
+    found = linear_range(two_offers, 0, 10.0, kinks=np.array([kinks[0], kinks[-1]]), lowest=0.0, highest=math.inf)
+
+    assert (found.high, found.above) == (pytest.approx(40.0), (1,))
+
+
 def test_a_threshold_may_end_it_first():
     def stand(price):
         return Standing(totals=np.array([1.0 - price / 1000.0, 0.6]), feasible=np.array([price <= 80.0, True]))
