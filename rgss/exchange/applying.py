@@ -50,7 +50,12 @@ class FileChange:
 
 
 def planned(
-    folder: Path, requirements: RequirementSet, changes: Sequence[ElementChange], *, remove: bool
+    folder: Path,
+    requirements: RequirementSet,
+    changes: Sequence[ElementChange],
+    *,
+    remove: bool,
+    contents: Mapping[str, bytes] | None = None,
 ) -> tuple[FileChange, ...]:
     """Files after the changes; nothing is written.
 
@@ -61,9 +66,11 @@ def planned(
         requirements: Its present requirements.
         changes: The changes.
         remove: True to apply removals too.
+        contents: The content of each file before the requirements were read from it, by its name, from `contents_of`;
+            None stands for the present one.
 
     Raises:
-        DefinitionError: There is no file for a new element.
+        DefinitionError: There is no file for a new element, or a file has changed since the requirements were read.
         DocumentError: A file can no longer be read.
     """
     edits: dict[str, list[Edit]] = {}
@@ -81,13 +88,12 @@ def planned(
             *around, index = place.location
             here.append(RemoveEntry(location=tuple(around), index=int(index)))
     emptied = _emptied(requirements, edits)
-    return tuple(
-        FileChange(name=name, old=read_bytes(folder / name), new=None)
-        if name in emptied
-        else _file_change(folder, name, each)
-        for name, each in sorted(edits.items())
-        if each
-    )
+    found = []
+    for name, each in sorted(edits.items()):
+        if each:
+            old = _unchanged(folder, name, None if contents is None else contents.get(name))
+            found.append(FileChange(name=name, old=old, new=None if name in emptied else _edited(old, each)))
+    return tuple(found)
 
 
 def rehearsed(
@@ -116,7 +122,7 @@ def rehearsed(
 
 
 def written(folder: Path, files: Sequence[FileChange]) -> None:
-    """Write the changes; if one file cannot be written, those before it are restored.
+    """Write the changes, within `importing`; if one file cannot be written, those before it are restored.
 
     What is written when the process is killed is undone by `undone`.
 
@@ -128,23 +134,23 @@ def written(folder: Path, files: Sequence[FileChange]) -> None:
         DefinitionError: A file cannot be written, or has changed in the meantime.
     """
     for file in files:
-        if read_bytes(folder / file.name) != file.old:
-            raise DefinitionError(f"{file.name} has changed in the meantime", hint="import again")
+        _unchanged(folder, file.name, file.old)
     if not files:
         return
-    done: list[FileChange] = []
     with journal_of(folder, {file.name: (file.old, file.new) for file in files}):
-        try:
-            for file in files:
-                if file.new is None:
-                    _removed(folder / file.name)
-                else:
-                    write_output(folder / file.name, file.new, replace_source=True)
-                done.append(file)
-        except BaseException:
-            for file in done:
-                write_output(folder / file.name, file.old, replace_source=True)
-            raise
+        for file in files:
+            if file.new is None:
+                _removed(folder / file.name)
+            else:
+                write_output(folder / file.name, file.new, replace_source=True)
+
+
+def _unchanged(folder: Path, name: str, content: bytes | None) -> bytes:
+    """The content of a file, which is still what it was; None stands for whatever it is."""
+    present = read_bytes(folder / name)
+    if content is not None and present != content:
+        raise DefinitionError(f"{name} has changed in the meantime", hint="import again")
+    return present
 
 
 def _removed(path: Path) -> None:
@@ -175,11 +181,9 @@ def _folder_of(name: str) -> str:
     return "/".join(folders[: 2 if folders[1] in REQUIREMENT_PARTS else 3])
 
 
-def _file_change(folder: Path, name: str, edits: Sequence[Edit]) -> FileChange:
-    old = read_bytes(folder / name)
+def _edited(old: bytes, edits: Sequence[Edit]) -> bytes:
     mark = codecs.BOM_UTF8 if old.startswith(codecs.BOM_UTF8) else b""
-    text = old.removeprefix(mark).decode("utf-8")
-    return FileChange(name=name, old=old, new=mark + edited(text, edits).encode("utf-8"))
+    return mark + edited(old.removeprefix(mark).decode("utf-8"), edits).encode("utf-8")
 
 
 def _key_edits(requirements: RequirementSet, change: ElementChange) -> Iterator[Edit]:

@@ -10,24 +10,46 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path, PurePosixPath
-from typing import BinaryIO
 
 from rgss.documents import unwritable, write_output
 from rgss.errors import DefinitionError
+from rgss.exchange.files import LARGEST_FILE_BYTES
 
 _JOURNAL = Path(".rgss") / "import.json"
 
 
 @contextmanager
+def importing(folder: Path) -> Iterator[None]:
+    """A project that one import, and no other, reads and changes.
+
+    The folder of the requirements is locked, from before they are read until they are written; the lock ends with the
+    process.
+
+    Args:
+        folder: The project.
+
+    Raises:
+        DefinitionError: Another import is under way.
+    """
+    held = _locked(folder)
+    try:
+        yield
+    finally:
+        if held is not None:
+            os.close(held)
+
+
+@contextmanager
 def journal_of(folder: Path, files: Mapping[str, tuple[bytes, bytes | None]]) -> Iterator[None]:
-    """The journal of files while they are replaced; it is removed at the end, also after an error.
+    """The journal of files while they are replaced within `importing`; after an error they have their old content.
 
     Args:
         folder: The project.
         files: The old and the new content of each file by its name; the new one is None if it is to be removed.
 
     Raises:
-        DefinitionError: The journal cannot be written, or another import is under way.
+        DefinitionError: The journal cannot be written, or an import was interrupted that is not undone.
+        StorageError: The disk is full.
     """
     path = folder / _JOURNAL
     is_new = not path.parent.exists()
@@ -39,28 +61,57 @@ def journal_of(folder: Path, files: Mapping[str, tuple[bytes, bytes | None]]) ->
         raise _under_way() from None
     except OSError as error:
         raise unwritable(path, error) from error
-    with journal:
-        try:
-            # Held as long as the process lives, so that nobody undoes an import that is under way.
-            _is_locked(journal)
+    try:
+        with journal:
             journal.write(json.dumps(entries).encode("ascii"))
             journal.flush()
             os.fsync(journal.fileno())
-            yield
-        finally:
-            path.unlink()
-            if is_new:
-                with suppress(OSError):
-                    path.parent.rmdir()
+    except OSError as error:
+        _removed(path, with_folder=is_new)
+        raise unwritable(path, error) from error
+    try:
+        yield
+    except BaseException:
+        # Not only what is known to be written: an interruption may come before it is noted.
+        _restored(folder, files)
+        _removed(path, with_folder=is_new)
+        raise
+    _removed(path, with_folder=is_new)
 
 
-def was_interrupted(folder: Path) -> bool:
-    """True if an import into a project has not ended."""
+def contents_of(folder: Path) -> dict[str, bytes]:
+    """The content of each file of requirements by its name, relative to the project.
+
+    Args:
+        folder: The project.
+    """
+    found = {}
+    for path in sorted((folder / "requirements").rglob("*.y*ml")):
+        # What cannot be read is reported by whoever reads the project.
+        with suppress(OSError):
+            if path.is_file() and path.stat().st_size <= LARGEST_FILE_BYTES:
+                found[path.relative_to(folder).as_posix()] = path.read_bytes()
+    return found
+
+
+def has_journal(folder: Path) -> bool:
+    """True if an import into a project has not ended: it was interrupted, or is under way."""
     return (folder / _JOURNAL).is_file()
 
 
+def was_interrupted(folder: Path) -> bool:
+    """True if an import into a project has not ended, and none is under way."""
+    if not has_journal(folder):
+        return False
+    try:
+        with importing(folder):
+            return has_journal(folder)
+    except DefinitionError:
+        return False
+
+
 def undone(folder: Path) -> tuple[str, ...]:
-    """Undo an import that was killed while it wrote.
+    """Undo an import that was killed while it wrote; to be called within `importing`.
 
     Args:
         folder: The project.
@@ -69,21 +120,31 @@ def undone(folder: Path) -> tuple[str, ...]:
         The names of the files that have their old content again; a file that was changed since keeps its content.
 
     Raises:
-        DefinitionError: Another import is under way, or a file cannot be written.
+        DefinitionError: A file cannot be written.
     """
     path = folder / _JOURNAL
-    if not path.is_file():
+    if not has_journal(folder):
         return ()
-    with path.open("rb") as journal:
-        if not _is_locked(journal):
-            raise _under_way()
-        restored = []
-        for name, (old, new) in _entries(journal.read()).items():
-            if old is not None and _content(folder / name) == new != old:
-                write_output(folder / name, old, replace_source=True)
-                restored.append(name)
-        path.unlink(missing_ok=True)
+    restored = _restored(folder, _entries(path.read_bytes()))
+    path.unlink(missing_ok=True)
+    return restored
+
+
+def _restored(folder: Path, files: Mapping[str, tuple[bytes | None, bytes | None]]) -> tuple[str, ...]:
+    """Give the files that have their new content the old one again."""
+    restored = []
+    for name, (old, new) in files.items():
+        if old is not None and _content(folder / name) == new != old:
+            write_output(folder / name, old, replace_source=True)
+            restored.append(name)
     return tuple(restored)
+
+
+def _removed(journal: Path, *, with_folder: bool) -> None:
+    journal.unlink(missing_ok=True)
+    if with_folder:
+        with suppress(OSError):
+            journal.parent.rmdir()
 
 
 def _entries(text: bytes) -> dict[str, tuple[bytes | None, bytes | None]]:
@@ -99,17 +160,28 @@ def _is_of_requirements(name: PurePosixPath) -> bool:
     return name.parts[:1] == ("requirements",) and ".." not in name.parts
 
 
-def _is_locked(file: BinaryIO) -> bool:
-    """Lock a file for this process; false if another one holds it, true also where nothing can be locked."""
+def _locked(folder: Path) -> int | None:
+    """Descriptor of the folder of the requirements, locked for this process; None where nothing can be locked.
+
+    Raises:
+        DefinitionError: Another process holds it.
+    """
     if sys.platform == "win32":
-        return True
+        return None
     import fcntl
 
     try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        descriptor = os.open(folder / "requirements", os.O_RDONLY | os.O_CLOEXEC)
+    except OSError:
+        # There is nothing to change either, which whoever reads the project reports.
+        return None
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
-        return error.errno not in (errno.EWOULDBLOCK, errno.EACCES)
-    return True
+        if error.errno in (errno.EWOULDBLOCK, errno.EACCES):
+            os.close(descriptor)
+            raise _under_way() from error
+    return descriptor
 
 
 def _under_way() -> DefinitionError:

@@ -148,8 +148,9 @@ class Project:
     def compare(self, foreign: Content, **assumed):
         return compare(self.content, foreign, ImportDefaults(**{"part": None, "defaults": {}, **assumed}))
 
-    def plan(self, foreign: Content, *, remove: bool = True, **assumed):
-        return planned(self.folder, self.requirements, self.compare(foreign, **assumed), remove=remove)
+    def plan(self, foreign: Content, *, remove: bool = True, contents=None, **assumed):
+        changes = self.compare(foreign, **assumed)
+        return planned(self.folder, self.requirements, changes, remove=remove, contents=contents)
 
     def apply(self, foreign: Content, *, remove: bool = True, **assumed) -> None:
         written(self.folder, self.plan(foreign, remove=remove, **assumed))

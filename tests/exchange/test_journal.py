@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -10,9 +12,11 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.errors import DefinitionError
+from rgss.documents import write_output
+from rgss.errors import DefinitionError, StorageError
+from rgss.exchange import applying, journal
 from rgss.exchange.applying import written
-from rgss.exchange.journal import journal_of, undone, was_interrupted
+from rgss.exchange.journal import contents_of, has_journal, importing, journal_of, undone, was_interrupted
 from rgss.exchange.tables import csv_text
 
 KILLED = """
@@ -78,16 +82,79 @@ def test_an_import_that_ends_leaves_no_journal(project):
     assert not (project.folder / ".rgss").exists()
 
 
-def test_an_import_that_is_under_way_is_not_undone(project):
-    with journal_of(project.folder, {"requirements/system.yaml": (b"a", b"b")}):
-        with pytest.raises(DefinitionError, match="another import writes into this project"):
-            undone(project.folder)
-        with (
-            pytest.raises(DefinitionError, match="another import writes into this project"),
-            journal_of(project.folder, {}),
-        ):
+def test_one_import_at_a_time(project):
+    with importing(project.folder):
+        with pytest.raises(DefinitionError, match="another import writes into this project"), importing(project.folder):
             pass
-    assert not was_interrupted(project.folder)
+        with journal_of(project.folder, {"requirements/system.yaml": (b"a", b"b")}):
+            assert has_journal(project.folder)
+            # It is under way.
+            assert not was_interrupted(project.folder)
+    assert not has_journal(project.folder)
+    with importing(project.folder):
+        pass
+
+
+def test_an_error_after_a_file_is_replaced_leaves_nothing_of_the_import(project, monkeypatch):
+    """An interruption comes after the new file has its name, and before that is noted."""
+    rows = tuple(replace(row, cells={**row.cells, "owner": "somebody"}) for row in project.content.rows)
+    files = project.plan(replace(project.content, rows=rows))
+    before = {path: path.read_bytes() for path in sorted(project.folder.rglob("*.yaml"))}
+
+    def interrupted(path, content, **options):
+        write_output(path, content, **options)
+        if content in {file.new for file in files}:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(applying, "write_output", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        written(project.folder, files)
+
+    assert {path: path.read_bytes() for path in before} == before
+    assert not has_journal(project.folder)
+
+
+def test_what_cannot_be_restored_stays_in_the_journal(project, monkeypatch):
+    rows = tuple(replace(row, cells={**row.cells, "owner": "somebody"}) for row in project.content.rows)
+    files = project.plan(replace(project.content, rows=rows))
+    before = {path: path.read_bytes() for path in sorted(project.folder.rglob("*.yaml"))}
+    full = StorageError("no space", hint="free some")
+
+    def fails(path, content, **options):
+        if path.name == "system.yaml":
+            raise full
+        write_output(path, content, **options)
+
+    monkeypatch.setattr(applying, "write_output", fails)
+    monkeypatch.setattr(journal, "write_output", lambda *_, **__: (_ for _ in ()).throw(full))
+    with pytest.raises(StorageError):
+        written(project.folder, files)
+    assert was_interrupted(project.folder)
+
+    monkeypatch.undo()
+    assert undone(project.folder) == ("requirements/stakeholder.yaml",)
+    assert {path: path.read_bytes() for path in before} == before
+
+
+@pytest.mark.parametrize(("number", "error"), [(errno.ENOSPC, StorageError), (errno.EACCES, DefinitionError)])
+def test_a_journal_that_cannot_be_written_is_told_with_its_name(project, monkeypatch, number, error):
+    def fails(_descriptor):
+        raise OSError(number, os.strerror(number))
+
+    monkeypatch.setattr(os, "fsync", fails)
+    with pytest.raises(error, match=r"import\.json cannot be written"), journal_of(project.folder, {}):
+        pass
+    assert not (project.folder / ".rgss").exists()
+
+
+def test_a_file_that_was_changed_after_it_was_read_is_not_written(project):
+    rows = tuple(replace(row, cells={**row.cells, "owner": "somebody"}) for row in project.content.rows)
+    contents = contents_of(project.folder)
+    path = project.folder / "requirements" / "stakeholder.yaml"
+    path.write_bytes(path.read_bytes() + b"# mine\n")
+
+    with pytest.raises(DefinitionError, match=r"stakeholder\.yaml has changed in the meantime"):
+        project.plan(replace(project.content, rows=rows), contents=contents)
 
 
 @pytest.mark.parametrize(

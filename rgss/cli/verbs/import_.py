@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -42,19 +43,31 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Report and, on request, apply; 1 if the project then differs from the file, or content of it is lost."""
-    from rgss.cli.import_report import print_report, report_as_json
-    from rgss.cli.main import CLEAN, FINDINGS
-    from rgss.cli.output import print_json
-    from rgss.errors import DefinitionError, DocumentError
-    from rgss.exchange import compare, content_of, planned, rehearsed, undone, with_absent_links, written
-    from rgss.studies import FOLDERS, find_project, load_project
+    from rgss.errors import DefinitionError
+    from rgss.exchange import has_journal, importing, undone
+    from rgss.studies import find_project
 
     if options.remove and not options.apply:
         raise DefinitionError("--remove goes with --apply", hint="without --apply nothing is written")
     folder = find_project(options.project)
-    restored = undone(folder)
-    if restored:
-        print(f"an import that was interrupted is undone in {', '.join(restored)}", file=sys.stderr)
+    # Who only looks is in nobody's way, unless there is something to undo.
+    changes_files = options.apply or has_journal(folder)
+    with importing(folder) if changes_files else nullcontext():
+        restored = undone(folder) if changes_files else ()
+        if restored:
+            print(f"an import that was interrupted is undone in {', '.join(restored)}", file=sys.stderr)
+        return _imported(folder, options)
+
+
+def _imported(folder: Path, options: argparse.Namespace) -> int:
+    from rgss.cli.import_report import print_report, report_as_json
+    from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.output import print_json
+    from rgss.errors import DocumentError
+    from rgss.exchange import compare, content_of, contents_of, planned, rehearsed, with_absent_links, written
+    from rgss.studies import FOLDERS, load_project
+
+    contents = contents_of(folder)
     project = load_project(folder, options.study)
     assumed = _import_defaults(options)
     foreign = _read(project, options, assumed.part)
@@ -62,7 +75,9 @@ def run(options: argparse.Namespace) -> int:
     if options.format == "reqif":
         foreign = with_absent_links(own, foreign, remove=options.remove)
     changes = compare(own, foreign, assumed)
-    files: Sequence[FileChange] = planned(folder, project.requirements, changes, remove=options.remove)
+    files: Sequence[FileChange] = planned(
+        folder, project.requirements, changes, remove=options.remove, contents=contents
+    )
     try:
         rehearsed(folder, files, lambda copy: _check(copy, options, changes, own), folders=FOLDERS)
     except DocumentError as error:

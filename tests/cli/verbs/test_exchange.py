@@ -14,6 +14,7 @@ import pytest
 import yaml
 
 from rgss.cli.main import main
+from rgss.exchange import importing
 from rgss.requirements import load_requirements
 
 DEFAULTS = ("--default", "source=The supplier", "--default", "priority=low", "--default", "owner=gripper engineer")
@@ -291,6 +292,16 @@ def test_the_status_says_whether_the_project_states_what_the_file_states(rgss, f
     assert (first.status, second.status) == (1, 1)
     assert "1 removed, 1 changed; written into" in first.output
     assert "1 removed, 0 changed; nothing to write" in second.output
+
+
+def test_while_one_import_writes_no_other_does(rgss, folder, table):
+    """Each would write what it has read, and the later one undo the earlier."""
+    with importing(folder):
+        told = rgss("import", "csv", table(), "--project", folder, "--apply")
+        looked = rgss("import", "csv", table(), "--project", folder)
+    assert (told.status, told.output) == (2, "")
+    assert told.errors == "rgss: another import writes into this project (wait until it has ended)\n"
+    assert (looked.status, looked.output) == (0, "No changes.\n")
 
 
 def test_an_interrupted_import_is_named_and_undone(rgss, folder, table):
