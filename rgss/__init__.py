@@ -41,8 +41,6 @@ def load_study(
         DefinitionError: There is no project, or an argument is invalid.
     """
     from importlib import import_module
-    from os import fspath
-    from pathlib import Path
 
     # By name, since this package is above all others and yet imported with each: an import statement would make every
     # module a dependency of every other, both for code digests and for layers.
@@ -52,8 +50,8 @@ def load_study(
         filmstrip=import_module("rgss.reports.trials.filmstrip").filmstrip,
     )
     found: Study = analysis.load(
-        None if folder is None else Path(folder),
-        None if study is None else fspath(study),
+        analysis.path_argument("folder", folder),
+        analysis.path_argument("study", study),
         fidelity=fidelity,
         replicates=replicates,
         drawing=drawing,

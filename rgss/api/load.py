@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from os import PathLike
 from pathlib import Path
 
 from rgss.api.argument_terms import ErrorsNameArguments, whole_argument
@@ -14,9 +15,27 @@ STUDY_SUFFIXES = (".yaml", ".yml")
 """Suffixes of a study file, which distinguish it from a project's folder."""
 
 
+def path_argument(name: str, path: object) -> str | None:
+    """The text of an argument that is a path; None if it is omitted.
+
+    Args:
+        name: Its name.
+        path: Its value.
+
+    Raises:
+        DefinitionError: It is no path, or empty.
+    """
+    if path is None:
+        return None
+    text = path if isinstance(path, str) else path.__fspath__() if isinstance(path, PathLike) else None
+    if not isinstance(text, str) or not text.strip():
+        raise DefinitionError(f"{name} must be a path, got {path!r}", hint="give a text or a pathlib.Path, or omit it")
+    return text
+
+
 @ErrorsNameArguments()
 def load(
-    folder: Path | None, study: str | None, *, fidelity: str | None, replicates: int | None, drawing: Drawing
+    folder: str | None, study: str | None, *, fidelity: str | None, replicates: int | None, drawing: Drawing
 ) -> Study:
     """Read a project and one of its studies; see `rgss.load_study`.
 
@@ -32,13 +51,14 @@ def load(
         DocumentError: Files are wrong; with every problem in all of them.
         DefinitionError: There is no project, or an argument is impossible.
     """
-    if folder is not None and folder.suffix in STUDY_SUFFIXES:
+    place = None if folder is None else Path(folder)
+    if place is not None and place.suffix in STUDY_SUFFIXES:
         if study is not None:
             raise DefinitionError(
-                f"{str(folder)!r} and {study!r} are both studies", hint="give a folder and a study, or one study alone"
+                f"{str(place)!r} and {study!r} are both studies", hint="give a folder and a study, or one study alone"
             )
-        folder, study = project_of_study(folder)
-    project = load_project(find_project(folder), study)
+        place, study = project_of_study(place)
+    project = load_project(find_project(place), study)
     if replicates is not None:
         replicates = whole_argument("replicates", replicates, hint="omit it for the study's number")
         if not 1 <= replicates <= MOST_REPLICATES:

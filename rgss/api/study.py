@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rgss.api.argument_terms import ErrorsNameArguments, text_argument
+from rgss.api.argument_terms import ErrorsNameArguments, text_argument, whole_argument
 from rgss.api.assumptions import assumptions_frame, scenario_measures
 from rgss.api.column import Column, Kind
 from rgss.api.columns import FRAMES
@@ -211,6 +211,8 @@ class Study:
             TradeoffError: Weights contradict each other.
         """
         texts = suppositions_of(what_if)
+        if jobs is not None:
+            jobs = whole_argument("jobs", jobs, hint="omit it for one process for each core")
         if not texts:
             return self._trade
         scenario = suppose(self.project, texts)

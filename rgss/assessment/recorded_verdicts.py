@@ -17,7 +17,7 @@ from types import MappingProxyType
 from typing import Any
 
 from rgss.documents import canonical_json, replaced_file
-from rgss.errors import EvidenceError
+from rgss.errors import EvidenceError, StorageError
 from rgss.evidence.records import is_digest
 from rgss.evidence.store import error_of
 from rgss.measures import Verdict
@@ -132,7 +132,9 @@ def write_record(folder: Path, record: VerdictRecord) -> Path:
         with replaced_file(path, replace_source=True) as part:
             part.write_text(canonical_json(data) + "\n", encoding="ascii")
     except OSError as error:
-        raise error_of(error)(f"{FILE} cannot be written: {error.strerror}", hint="check the folder") from error
+        kind = error_of(error)
+        hint = "free some space, or check the disk" if kind is StorageError else "check the folder"
+        raise kind(f"{FILE} cannot be written: {error.strerror}", hint=hint) from error
     return path
 
 

@@ -15,18 +15,22 @@ class SeedGroup:
 
     Attributes:
         first: The first seed.
-        last: The last seed; all between are read too.
+        last: The last seed.
         variants: Ids of the variants, ascending.
+        absent: The seeds between that have no trial, ascending.
+        added: Number of seeds beyond the study's replicates.
     """
 
     first: int
     last: int
     variants: tuple[int, ...]
+    absent: tuple[int, ...] = ()
+    added: int = 0
 
     @property
     def replicates(self) -> int:
         """Number of seeds."""
-        return self.last - self.first + 1
+        return self.last - self.first + 1 - len(self.absent)
 
 
 def sequential_seeds(project: Project, measured: Sequence[VariantMeasures]) -> tuple[SeedGroup, ...]:
@@ -41,11 +45,17 @@ def sequential_seeds(project: Project, measured: Sequence[VariantMeasures]) -> t
     """
     if not project.study.is_sequential:
         return ()
-    groups: dict[tuple[int, int], list[int]] = {}
+    groups: dict[tuple[int, ...], list[int]] = {}
     for entry in measured:
         if entry.records:
-            groups.setdefault((entry.records[0].seed, entry.records[-1].seed), []).append(entry.variant.id)
+            groups.setdefault(tuple(record.seed for record in entry.records), []).append(entry.variant.id)
     return tuple(
-        SeedGroup(first=first, last=last, variants=tuple(sorted(ids)))
-        for (first, last), ids in sorted(groups.items(), key=lambda item: (item[0][1] - item[0][0], item[0]))
+        SeedGroup(
+            first=seeds[0],
+            last=seeds[-1],
+            variants=tuple(sorted(ids)),
+            absent=tuple(sorted(set(range(seeds[0], seeds[-1] + 1)) - set(seeds))),
+            added=max(0, len(seeds) - project.study.replicates),
+        )
+        for seeds, ids in sorted(groups.items(), key=lambda item: (item[0][-1] - item[0][0], item[0]))
     )

@@ -15,6 +15,7 @@ from pathlib import Path
 from types import ModuleType
 
 from rgss.cli.command_parser import BAD_INPUT, CommandParser
+from rgss.cli.options import with_sweep_options
 from rgss.cli.safe_output import safe_output
 from rgss.errors import DocumentError, DriverError, MotionError, RgssError, SimulationError, StorageError
 from rgss.findings import printable
@@ -87,6 +88,8 @@ def _run(arguments: Sequence[str] | None) -> int:
         _print_error(f"rgss: {error}")
         return RUN_FAILED
     except RgssError as error:
+        if options is not None and error.hint:
+            error.hint = with_sweep_options(error.hint, options)
         _print_error(f"rgss: {error}")
         return BAD_INPUT
     except KeyboardInterrupt:
@@ -109,6 +112,10 @@ def _run(arguments: Sequence[str] | None) -> int:
         _discard_output()
         # An error of a file has its name; an error of standard output has none.
         printed = error.filename is None and error.errno in _UNWRITABLE
+        if isinstance(error, PermissionError) and error.filename is not None:
+            path = os.fsdecode(error.filename)
+            _print_error(f"rgss: {path} may not be read or written (change its permissions)")
+            return BAD_INPUT
         if error.filename is not None and is_disk_failure(error):
             _print_error(f"rgss: {unwritable(Path(os.fsdecode(error.filename)), error)}")
         else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -103,6 +104,23 @@ def add_evidence_choice(parser: argparse.ArgumentParser) -> None:
     add_replicates(parser)
     add_fidelity(parser)
     add_nominal(parser)
+
+
+def with_sweep_options(hint: str, options: argparse.Namespace) -> str:
+    """A hint that names ``rgss sweep`` with the options that select the trials of a command.
+
+    Args:
+        hint: The hint.
+        options: The command's options.
+    """
+    words = ["rgss", "sweep", *([options.study] if getattr(options, "study", None) else [])]
+    for name in ("fidelity", "replicates"):
+        value = getattr(options, name, None)
+        if value is not None:
+            words += [f"--{name}", str(value)]
+    if getattr(options, "nominal", False):
+        words.append("--nominal")
+    return hint.replace("'rgss sweep'", f"'{shlex.join(words)}'")
 
 
 def chosen_project(options: argparse.Namespace) -> Project:

@@ -104,6 +104,11 @@ def own_stream(stream: TextIO) -> TextIO:
     return stream.own if isinstance(stream, SafeStream) else stream
 
 
+def errors_are_seen() -> bool:
+    """True if standard error is a terminal; it may be closed."""
+    return sys.stderr is not None and sys.stderr.isatty()
+
+
 def data_stream() -> TextIO:
     """Stream for the content of a file on standard output: unchanged, except on a terminal.
 

@@ -324,6 +324,11 @@ def test_what_cannot_be_loaded(empty, tmp_path):
         with pytest.raises(DefinitionError, match=f"replicates must be a whole number, got {number!r}"):
             rgss.load_study(empty, replicates=number)
     assert rgss.load_study(empty, Path("studies/pick_place.yaml")).project.study.label == "studies/pick_place.yaml"
+    for number in (5, b"x", [], "", " "):
+        with pytest.raises(DefinitionError, match="folder must be a path, got"):
+            rgss.load_study(number)
+        with pytest.raises(DefinitionError, match="study must be a path, got"):
+            rgss.load_study(empty, number)
     with pytest.raises(DefinitionError, match="unknown fidelity 'real'"):
         rgss.load_study(empty, fidelity="real")
     with pytest.raises(DocumentError):

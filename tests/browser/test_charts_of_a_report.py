@@ -54,8 +54,8 @@ def test_a_curve_of_planning_times_never_turns_back(reader, study, tmp_path):
 
 def test_an_interval_beyond_the_chart_ends_in_an_arrow_and_no_label_covers_one(reader, study, tmp_path):
     document = copy.deepcopy(study.document)
-    limited = next(one for one in document["requirements"] if one["measure"] == "t_p")
-    measure = next(one for one in document["measures"] if one["id"] == "t_p")
+    limited = next(one for one in document["requirements"] if one["measure"] == "t_e_simulated")
+    measure = next(one for one in document["measures"] if one["id"] == "t_e_simulated")
     measure["high"] = 100 * limited["threshold"]
     file = tmp_path / "report.html"
     file.write_text(study_report_to_html(document, study.trace), encoding="utf-8")
@@ -76,7 +76,7 @@ def test_an_interval_beyond_the_chart_ends_in_an_arrow_and_no_label_covers_one(r
     assert arrows == sum(sum(one["beyond"]) for one in glance["bullets"])
 
     reader.script(
-        "const choice = document.getElementById('measure-choice'); choice.value = 't_p';"
+        "const choice = document.getElementById('measure-choice'); choice.value = 't_e_simulated';"
         "choice.dispatchEvent(new Event('change'))"
     )
     _drawn(reader, "measures")

@@ -110,6 +110,17 @@ def test_so_it_is_where_no_verb_expects_it(rgss, folder, monkeypatch):
     )
 
 
+def test_a_folder_without_permission_is_bad_input(rgss, folder, monkeypatch):
+    def refused(_):
+        raise PermissionError(errno.EACCES, "Permission denied", "/p/requirements")
+
+    monkeypatch.setattr("rgss.cli.verbs.variants.run", refused)
+    monkeypatch.setattr("rgss.cli.main._discard_output", lambda: None)
+    told = rgss("variants", "--project", folder)
+    assert told.status == 2
+    assert told.complaint == "rgss: /p/requirements may not be read or written (change its permissions)"
+
+
 def test_a_current_folder_that_was_removed_does_not_matter_to_a_project_that_is_named(rgss, folder, monkeypatch):
     def gone():
         raise FileNotFoundError(2, "No such file or directory")

@@ -173,10 +173,26 @@ def test_a_tie_by_feasibility_names_no_number_of_replicates(made):
     rival = Rival(row=row, probability=0.25, within_margin=False, replicates=None, measure="t_e", by_feasibility=True)
     tie = list(uncertainty_sentences(with_rivals(made, rival)))[1]
     assert tie.endswith(
-        "it is ahead only where the choice misses a requirement: replicates that settle the open verdicts break the "
-        "tie, and no difference of value does."
+        "by value alone it would not be tied, being as good with the choice feasible in less than 5 %: replicates that "
+        "settle the open verdicts break the tie."
     )
     assert "would separate them" not in tie
+
+
+def test_probabilities_from_few_trials_have_a_caution(made):
+    weighting = made.robustness.analysis.weighting
+    uncertainty = dataclasses.replace(weighting.uncertainty, scarce=("SYS-024",))
+    analysis = dataclasses.replace(
+        made.robustness.analysis, weighting=dataclasses.replace(weighting, uncertainty=uncertainty)
+    )
+    few = dataclasses.replace(made, trials=6, robustness=dataclasses.replace(made.robustness, analysis=analysis))
+    caution = (
+        "At the threshold of SYS-024, 6 trials would have fewer than 10 failures: so few that these probabilities "
+        "follow the assumed population of designs. In emulated studies of this kind they were up to 0.3 too high."
+    )
+    assert caution in list(uncertainty_sentences(few))
+    assert trade_document(few)["conclusion"]["uncertainty"]["scarce"] == ["SYS-024"]
+    assert not any("At the threshold of" in one for one in uncertainty_sentences(made))
 
 
 def test_a_choice_without_ties_says_so(made):
@@ -200,9 +216,9 @@ def test_a_study_may_ask_that_feasibility_is_shown(shipped, measured):
 def test_every_page_states_the_rule_of_the_choice(made):
     ruled = dataclasses.replace(made, tolerance=0.05, last_of_equals=True)
     sentence = (
-        "Rule: of the variants whose estimates miss no threshold by more than 5 % of it, the one of the highest value "
-        "is chosen; of equals one that no other surpasses in the quantities of the valued measures, then the largest "
-        "id."
+        "Rule: of the variants whose estimates miss no threshold on what trials observe by more than 5 % of it, and no "
+        "other threshold, the one of the highest value is chosen; of equals one that no other surpasses in the "
+        "quantities of the valued measures, then the largest id."
     )
     assert sentence in list(decision_lines(ruled))
     assert sentence in decision_section(ruled)

@@ -73,7 +73,7 @@ def test_bars_are_drawn_to_scale_within_eighty_columns(tornado):
     # Both ends on one side: the longer one reaches beyond the shorter one.
     assert re.search(r"█+▒+│", drawn["weight.b"])
     assert "weight.c" not in drawn
-    assert "1 more inputs move nothing within their ranges (--json names them)." in lines
+    assert "1 more input moves nothing within its range (--json names them)." in lines
     assert any("catalogue.free.cost" in line for line in lines)
     assert any(re.match(r"weight\.<a>\s+below 0\.42\s+variants 2, 3", line) for line in lines)
 

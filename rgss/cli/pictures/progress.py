@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from rgss.cli.safe_output import own_stream
+from rgss.cli.safe_output import errors_are_seen, own_stream
 from rgss.cli.terminal import colour_system
 
 
@@ -28,7 +28,7 @@ def film_progress(total: int, label: str = "Frames") -> Iterator[Callable[[], No
     with Progress(
         *columns,
         console=Console(file=own_stream(sys.stderr), color_system=colour_system()),
-        disable=not sys.stderr.isatty(),
+        disable=not errors_are_seen(),
     ) as bar:
         task = bar.add_task(label, total=total)
         yield lambda: bar.advance(task)

@@ -7,7 +7,7 @@ from collections import Counter
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
-from rgss.cli.safe_output import own_stream
+from rgss.cli.safe_output import errors_are_seen, own_stream
 from rgss.cli.terminal import colour_system
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ class SweepProgress:
         self._task: Any = None
 
     def __enter__(self) -> SweepProgress:
-        if not sys.stderr.isatty():
+        if not errors_are_seen():
             return self
         from rich.console import Console
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn

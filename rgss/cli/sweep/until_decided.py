@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
+from rgss.cli.safe_output import errors_are_seen
+
 if TYPE_CHECKING:
     from rgss.decision import UntilDecided
     from rgss.studies import Project
@@ -127,7 +129,7 @@ def _refuse_contradictions(options: argparse.Namespace, project: Project) -> Non
 
 
 def _report_look(look: int, trials: int) -> None:
-    if sys.stderr.isatty():
+    if errors_are_seen():
         print(f"look {look}: {trials} trials", file=sys.stderr)
 
 

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from rgss.cli.safe_output import own_stream
+from rgss.cli.safe_output import errors_are_seen, own_stream
 from rgss.cli.terminal.styles import colour_system
 
 
@@ -31,6 +31,6 @@ def stage_progress(label: str) -> Iterator[Callable[[str], None]]:
         TextColumn("{task.description}", table_column=Column(no_wrap=True, ratio=1)),
     )
     console = Console(file=own_stream(sys.stderr), color_system=colour_system())
-    with Progress(*columns, console=console, transient=True, expand=True, disable=not sys.stderr.isatty()) as progress:
+    with Progress(*columns, console=console, transient=True, expand=True, disable=not errors_are_seen()) as progress:
         task = progress.add_task(escape(label))
         yield lambda stage: progress.update(task, description=escape(f"{label}: {stage}"))

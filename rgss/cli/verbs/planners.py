@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from rgss.cli.options import add_study, chosen_project
+from rgss.cli.safe_output import errors_are_seen
 
 if TYPE_CHECKING:
     from rgss.sweep import ComparedPlanner
@@ -58,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _report(done: int, total: int) -> None:
     """Progress on standard error, where that is a terminal."""
-    if sys.stderr.isatty():
+    if errors_are_seen():
         print(f"\rplanned {done} of {total}", end="\n" if done == total else "", file=sys.stderr, flush=True)
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rgss.cli.options import add_study, chosen_project
+from rgss.cli.safe_output import errors_are_seen
 
 if TYPE_CHECKING:
     from rgss.evidence import EvidenceStore
@@ -205,7 +206,7 @@ def _report_lost(lost: Sequence[LostTrials]) -> None:
 
 
 def _report_look(look: int, undecided: int) -> None:
-    if look > 1 and sys.stderr.isatty():
+    if look > 1 and errors_are_seen():
         print(f"look {look}: {undecided} metrics are inconclusive", file=sys.stderr)
 
 

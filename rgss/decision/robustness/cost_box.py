@@ -61,8 +61,9 @@ def cost_box(remeasuring: Remeasuring, preferences: Preferences, chosen: int) ->
         if column in decisive and symbols & measures.used[remeasuring.measure_of(column)]
     ]
     if len(columns) != 1:
-        named = ", ".join(columns) or "no measure"
-        return f"assumed costs decide through {named}, not through one measure"
+        if not columns:
+            return "assumed costs decide through no measure"
+        return f"assumed costs decide through {', '.join(columns)}, not through one measure"
     (column,) = columns
     measure = remeasuring.measure_of(column)
     function = next((one for one in preferences.value_functions if one.measure == column), None)

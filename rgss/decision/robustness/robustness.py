@@ -55,7 +55,6 @@ ITERATIONS = 20_000
 DRAWN_RESAMPLES = 1_000
 """Number of resamples of the replicates if not all can be enumerated."""
 
-
 _NO_EFFECTS = StudyEffects(factors=(), constants=(), measures=())
 
 
@@ -70,6 +69,7 @@ class _Posed:
         weights: The weights, shape (m,).
         margin: The practical margin.
         replicates: Replicates of each alternative, shape (n,).
+        proportions: The measures that are shares of trials.
     """
 
     problem: TradeProblem
@@ -78,6 +78,7 @@ class _Posed:
     weights: NDArray[np.float64]
     margin: float
     replicates: NDArray[np.int64]
+    proportions: frozenset[str]
 
     def uncertainty(self, posterior: PosteriorOutcomes, chosen: int) -> ChoiceUncertainty:
         """The uncertainty of a choice."""
@@ -88,6 +89,7 @@ class _Posed:
             replicates=self.replicates,
             estimated=self.feasible,
             single=self.values,
+            proportions=self.proportions,
         )
 
 
@@ -101,10 +103,7 @@ def analyse_robustness(
     *,
     problem: TradeProblem | None = None,
 ) -> Robustness:
-    """Analyse the robustness of a decision.
-
-    Nothing is simulated; randomness comes from the study's seed alone, so that the same evidence
-    gives the same answers.
+    """Analyse the robustness of a decision; nothing is simulated, and randomness comes from the study's seed alone.
 
     Args:
         project: The project with its study.
@@ -140,6 +139,7 @@ def analyse_robustness(
             weights=weights,
             margin=project.study.trade_off.practical_margin,
             replicates=np.array([len(entry.records) for entry in measured]),
+            proportions=proportion_measures(project),
         )
         weighting = _weighting(posed, chosen, posterior, generator, parts)
         draws = 0 if posterior is None else posterior.outcomes.shape[0]

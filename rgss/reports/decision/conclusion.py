@@ -7,9 +7,9 @@ from dataclasses import replace
 
 from rgss.assessment import SeedGroup
 from rgss.decision.study_decision import Feasibility, RobustnessFindings, StudyDecision
-from rgss.reports.decision.words import basis_text, ids_text, variants_text
+from rgss.reports.decision.words import basis_text, count_text, variants_text
 from rgss.trace.views import share_in_words
-from rgss.tradeoff.robustness import ChoiceUncertainty, Rival
+from rgss.tradeoff.robustness import FEWEST_AT_THRESHOLD, TIE_PROBABILITY, ChoiceUncertainty, Rival
 
 MOST_TIES = 4
 """Most groups of tied variants that are named."""
@@ -48,7 +48,8 @@ def rule_sentence(made: StudyDecision) -> str:
     """
     within = "meet every requirement"
     if made.tolerance:
-        within = f"miss no threshold by more than {share_text(made.tolerance)} of it"
+        share = share_text(made.tolerance)
+        within = f"miss no threshold on what trials observe by more than {share} of it, and no other threshold"
     value = "of the highest value" if made.decision.program == "additive" else f"that {made.decision.program} prefers"
     end = "largest" if made.last_of_equals else "smallest"
     which = f"that are shown to {within}" if made.shown_feasible else f"whose estimates {within}"
@@ -87,22 +88,23 @@ def seeds_sentences(groups: Sequence[SeedGroup]) -> Iterator[str]:
     """
     if not groups:
         return
-    read = "; ".join(
-        f"{one.first} to {one.last} of {variants_text(one.variants)}"
-        if one.first < one.last
-        else f"{one.first} of {variants_text(one.variants)}"
-        for one in groups
-    )
-    yield f"Seeds read: {read}."
-    if len(groups) > 1:
+    yield f"Seeds read: {'; '.join(f'{_seeds_text(one)} of {variants_text(one.variants)}' for one in groups)}."
+    if len(groups) > 1 and not any(one.absent for one in groups):
         yield (
             f"Effects of levels are of the {groups[0].replicates} seeds that all variants have; '--replicates "
             f"{groups[0].replicates}' reads these alone."
         )
+    if not any(one.added for one in groups):
+        return
     yield (
         "Replicates were added where the decision was open: intervals and verdicts are those of a number fixed "
         "beforehand, and may err more often than they state; 'rgss sweep --json' gives verdicts that allow for it."
     )
+
+
+def _seeds_text(group: SeedGroup) -> str:
+    text = f"{group.first} to {group.last}" if group.first < group.last else f"{group.first}"
+    return f"{text} without {', '.join(map(str, group.absent))}" if group.absent else text
 
 
 def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
@@ -130,6 +132,12 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
             f"{share_text(made.tolerance)} of it, the tolerance of the choice; verdicts have none. Probability that "
             f"variant {made.decision.chosen} meets every requirement without it: {share_in_words(one.as_required)}."
         )
+    if one.scarce:
+        yield (
+            f"At the threshold of {', '.join(one.scarce)}, {count_text(made.trials, 'trial')} would have fewer than "
+            f"{FEWEST_AT_THRESHOLD:g} failures: so few that these probabilities follow the assumed population of "
+            "designs. In emulated studies of this kind they were up to 0.3 too high."
+        )
     yield from _ties(found, one)
     gains = "; ".join(f"{count} more: {gain:.4f}" for count, gain in one.gains)
     yield (
@@ -154,7 +162,7 @@ def _ties(found: RobustnessFindings, one: ChoiceUncertainty) -> Iterator[str]:
         yield _tie(found, members)
     rest = [rival.row for members in list(groups.values())[MOST_TIES:] for rival in members]
     if rest:
-        yield f"Tied with less probability: variants {ids_text(found.variants(tuple(rest)))}."
+        yield f"Tied with less probability: {variants_text(found.variants(tuple(rest)))}."
 
 
 def _tie(found: RobustnessFindings, members: list[Rival]) -> str:
@@ -166,8 +174,8 @@ def _tie(found: RobustnessFindings, members: list[Rival]) -> str:
         return f"{tied}; not feasible by the estimates, which more replicates could change."
     if rival.by_feasibility:
         return (
-            f"{tied}; it is ahead only where the choice misses a requirement: replicates that settle the open verdicts "
-            "break the tie, and no difference of value does."
+            f"{tied}; by value alone it would not be tied, being as good with the choice feasible in less than "
+            f"{share_text(TIE_PROBABILITY)}: replicates that settle the open verdicts break the tie."
         )
     if rival.measure is None:
         if rival.clipped:

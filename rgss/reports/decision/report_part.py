@@ -89,7 +89,8 @@ def portfolio_sentence(portfolio: PortfolioDecision) -> str:
     served = "; ".join(f"{one.task} by {one.member} (variant {one.variant})" for one in portfolio.assignments)
     proof = portfolio_proof(portfolio)
     members = ", ".join(portfolio.members)
-    return f"Portfolio: {members} together serve every study: {served}. {proof[0].upper()}{proof[1:]}."
+    serve = "together serve" if len(portfolio.members) > 1 else "serves"
+    return f"Portfolio: {members} {serve} every study: {served}. {proof[0].upper()}{proof[1:]}."
 
 
 def _robustness(found: RobustnessFindings | None) -> Plain:

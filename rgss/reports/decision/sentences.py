@@ -40,7 +40,9 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
     feasible = decision.counts.feasible
     among = f"{best} of the {feasible} variants that meet" if feasible > 1 else "is the one variant that meets"
     limits = " and every limit of the program" if decision.program == "epsilon_constraint" else ""
-    within = f", within the tolerance of {share_text(made.tolerance)}" if made.tolerance else ""
+    within = ""
+    if made.tolerance:
+        within = f", within the tolerance of {share_text(made.tolerance)} on what trials observe"
     basis = basis_text(shown_feasible=made.shown_feasible)
     yield Reason(text=f"Variant {decision.chosen} {among} every requirement{limits} by the {basis}{within}.")
     others = [variant for variant in decision.ties if variant != decision.chosen]

@@ -95,6 +95,7 @@ def dask_cluster(
                 hint="set distributed.comm.tls.ca-file, client.cert and client.key, as docs/scale-out.md shows",
             )
         try:
+            _check_address(address)
             client = distributed.Client(
                 address, timeout=patience_s, security=security, set_as_default=False, name="rgss"
             )
@@ -119,6 +120,20 @@ def dask_cluster(
         finally:
             with contextlib.suppress(Exception):
                 client.close(timeout=1.0)
+
+
+def _check_address(address: str) -> None:
+    """Check an address before a client is made of it, which would complain of itself when it is dropped.
+
+    Raises:
+        ValueError: It is empty, or of a kind that Dask does not have.
+    """
+    from distributed.comm.addressing import parse_address
+    from distributed.comm.registry import get_backend
+
+    if not address.strip():
+        raise ValueError("no address")
+    get_backend(parse_address(address)[0])
 
 
 def difference(differs: Differs, here: Mapping[str, str]) -> str:
@@ -154,7 +169,9 @@ def _inspected(client: Any, address: str, order: Order) -> str:
             f"the Dask cluster at {address} has no workers",
             hint=f"start some, such as 'dask worker {address} --nthreads 1'",
         )
-    machines = {_machine_of(where, answer, order.environment) for where, answer in answers.items()}
+    # A worker that is lost meanwhile runs nothing either; the others take over, if there are any.
+    heard = {where: answer for where, answer in answers.items() if not isinstance(answer, OSError)} or answers
+    machines = {_machine_of(where, answer, order.environment) for where, answer in heard.items()}
     return "; ".join(sorted(machines - {""}))
 
 
@@ -182,13 +199,17 @@ def _machine_of(where: str, answer: object, expected: Mapping[str, str]) -> str:
 @contextmanager
 def _quiet() -> Iterator[None]:
     """Silence Dask's output on standard error; our messages report what is relevant."""
-    logger = logging.getLogger("distributed")
-    before = logger.level
-    logger.setLevel(logging.CRITICAL + 1)
+    # Dask's settings give loggers below this one levels of their own.
+    names = [name for name in logging.root.manager.loggerDict if name.startswith("distributed.")]
+    loggers = [logging.getLogger(name) for name in ("distributed", *names)]
+    before = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL + 1)
     try:
         with warnings.catch_warnings():
             # Versions are compared by us, the scheduler's alone left out.
             warnings.filterwarnings("ignore", module=r"distributed\.")
             yield
     finally:
-        logger.setLevel(before)
+        for logger, level in zip(loggers, before, strict=True):
+            logger.setLevel(level)

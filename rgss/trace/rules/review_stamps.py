@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 
-from rgss.documents import LARGEST_FILE_BYTES, replaced_file
+from rgss.documents import LARGEST_FILE_BYTES, replaced_file, unwritable
 from rgss.errors import DefinitionError
 from rgss.requirements import RequirementSet, Review
 from rgss.trace.rules.upstream import upstream_of_each
@@ -86,6 +86,7 @@ def write_reviews(folder: Path, reviews: Mapping[str, Review]) -> Path:
 
     Raises:
         DefinitionError: The file would exceed the size limit of the reader, or the folder cannot be written.
+        StorageError: The disk is full.
     """
     path, content = folder / REVIEWS, reviews_yaml(reviews).encode("utf-8")
     if len(content) > LARGEST_FILE_BYTES:
@@ -95,7 +96,7 @@ def write_reviews(folder: Path, reviews: Mapping[str, Review]) -> Path:
         with replaced_file(path, replace_source=True) as part:
             part.write_bytes(content)
     except OSError as error:
-        raise DefinitionError(f"{REVIEWS} cannot be written: {error.strerror}", hint="check the folder") from error
+        raise unwritable(Path(REVIEWS), error) from error
     return path
 
 

@@ -147,15 +147,7 @@ def _mended(
         limit = condition.limit
         if not condition.sense.holds(float(column[row]), limit):
             limit = float(column[row])
-            changes.append(
-                LimitChange(
-                    requirement=condition.requirement,
-                    demand=condition.demand,
-                    limit=condition.limit * _required_share(condition),
-                    needed=limit * _required_share(condition),
-                    unit=condition.limit_unit,
-                )
-            )
+            changes.append(_change(condition, limit))
         feasible &= keeps(condition.sense, column, limit)
     # Regret is relative to what is feasible, which the repair changes.
     tied = np.flatnonzero(ordering_of(preferences.program, preferences, table, feasible).best(feasible))
@@ -163,10 +155,18 @@ def _mended(
     return tuple(changes), int(feasible.sum()), winner
 
 
-def _required_share(condition: Condition) -> float:
-    """The required limit over the one that holds with the tolerance of the choice; a repair changes the former."""
-    required = condition.required if isinstance(condition, Threshold) else None
-    return 1.0 if required is None or condition.limit == 0.0 else required / condition.limit
+def _change(condition: Condition, limit: float) -> LimitChange:
+    """The change of a condition to another limit; of one with a tolerance, the change of what is required."""
+    present, needed = condition.limit, limit
+    if isinstance(condition, Threshold) and condition.required is not None:
+        present, needed = condition.required, condition.required_for(limit)
+    return LimitChange(
+        requirement=condition.requirement,
+        demand=condition.demand,
+        limit=present,
+        needed=needed,
+        unit=condition.limit_unit,
+    )
 
 
 def _least_effort(each: NDArray[np.float64], movable: NDArray[np.intp]) -> int:

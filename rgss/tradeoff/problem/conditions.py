@@ -94,9 +94,11 @@ class Threshold(BoundedMeasure):
 
     Attributes:
         required: The threshold as it is required, where the choice may miss it by a tolerance; None where it may not.
+        tolerance: The share of its magnitude by which it may be missed.
     """
 
     required: float | None = None
+    tolerance: float = 0.0
 
     @property
     def demand(self) -> str:
@@ -119,7 +121,15 @@ class Threshold(BoundedMeasure):
     def tolerated(self, share: float) -> Threshold:
         """The threshold that may be missed by a share of its magnitude."""
         better = math.copysign(share * abs(self.value), self.comparison.margin(1.0, 0.0))
-        return self if share == 0.0 else replace(self, value=self.value - better, required=self.value)
+        if share == 0.0:
+            return self
+        return replace(self, value=self.value - better, required=self.value, tolerance=share)
+
+    def required_for(self, quantity: float) -> float:
+        """The required threshold that a quantity just meets, with the tolerance."""
+        # The tolerance is of the magnitude, so that it takes a negative threshold the other way.
+        better = self.comparison.margin(1.0, 0.0) * math.copysign(1.0, quantity)
+        return quantity / (1.0 - better * self.tolerance)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -20,6 +20,12 @@ if TYPE_CHECKING:
     from rgss.tradeoff.robustness.rank_reversal import RankReversal, rank_reversals, sample_anchored
     from rgss.tradeoff.robustness.sampled_effects import FEWEST_PER_CLASS, SampledIndex, classes_of, first_order_indices
     from rgss.tradeoff.robustness.stakeholders import StakeholderAgreement, stakeholder_agreement
-    from rgss.tradeoff.robustness.uncertainty import ChoiceUncertainty, Rival, choice_uncertainty
+    from rgss.tradeoff.robustness.uncertainty import (
+        FEWEST_AT_THRESHOLD,
+        TIE_PROBABILITY,
+        ChoiceUncertainty,
+        Rival,
+        choice_uncertainty,
+    )
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

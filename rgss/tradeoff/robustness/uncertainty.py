@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.tradeoff.problem import TIE_TOLERANCE, Array, EvidenceTable
+from rgss.tradeoff.problem import TIE_TOLERANCE, Array, EvidenceTable, Threshold
 from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
 
 TIE_PROBABILITY = 0.05
@@ -16,6 +17,9 @@ TIE_PROBABILITY = 0.05
 
 MOST_MORE = 100_000
 """More replicates than this are not counted out."""
+
+FEWEST_AT_THRESHOLD = 10.0
+"""Where fewer failures than this are to be expected at the threshold of a share, probabilities follow the prior."""
 
 _Z = 1.6448536269514722
 """The one-sided 95 % quantile of the normal distribution."""
@@ -33,7 +37,8 @@ class Rival:
         within_margin: Whether its estimated value is within the practical margin of the choice's.
         replicates: Replicates in all with which their difference would exceed its noise; None where
             no number does, for they do not differ or a demand decides.
-        by_feasibility: Whether it is not tied by its value: it is ahead only where the choice is not feasible.
+        by_feasibility: Whether it is not tied by its value: with the choice feasible it is as good with a probability
+            below `TIE_PROBABILITY`.
         measure: The measure in whose value they differ most by the estimates; None where they do not differ.
         fixed: Whether that measure follows from the design alone, so that no replicate changes its difference.
         clipped: Where no value differs, the measures in whose quantities they differ beyond an end of the value
@@ -64,6 +69,8 @@ class ChoiceUncertainty:
         rivals: Alternatives tied with the choice, by falling probability.
         gains: Expected gain of value by so many more replicates of every alternative.
         perfect: Expected gain by perfect knowledge.
+        scarce: Requirements on a share of trials of which all alternatives together have too few to tell it from its
+            threshold.
     """
 
     chosen: int
@@ -75,6 +82,7 @@ class ChoiceUncertainty:
     rivals: tuple[Rival, ...]
     gains: tuple[tuple[int, float], ...]
     perfect: float
+    scarce: tuple[str, ...] = ()
 
 
 def choice_uncertainty(
@@ -85,6 +93,7 @@ def choice_uncertainty(
     replicates: NDArray[np.int64],
     estimated: NDArray[np.bool_],
     single: Array,
+    proportions: Collection[str] = (),
     more: tuple[int, ...] = (1, 10),
 ) -> ChoiceUncertainty:
     """The uncertainty of a choice.
@@ -96,6 +105,7 @@ def choice_uncertainty(
         replicates: Replicates that the estimates of each alternative come from, shape (n,).
         estimated: Mask of the alternatives that are feasible by their estimates, shape (n,).
         single: Their single values by their estimates, shape (n, m).
+        proportions: The measures that are shares of trials.
         more: Numbers of more replicates that are valued.
     """
     feasible = found.outcomes.feasible
@@ -115,7 +125,19 @@ def choice_uncertainty(
         rivals=_rivals(found, chosen, margin, replicates, estimated, single),
         gains=tuple((count, _expected_gain(worth, count / (replicates + count))) for count in more),
         perfect=_expected_gain(worth, np.ones(len(replicates))),
+        scarce=_scarce(found.preferences.thresholds, int(replicates.sum()), proportions),
     )
+
+
+def _scarce(thresholds: Sequence[Threshold], trials: int, proportions: Collection[str]) -> tuple[str, ...]:
+    """The requirements at whose threshold fewer failures than `FEWEST_AT_THRESHOLD` are to be expected."""
+    found: dict[str, None] = {}
+    for one in thresholds:
+        limit = one.value if one.required is None else one.required
+        failing = 1.0 - limit if one.comparison.is_lower_bound else limit
+        if one.measure in proportions and 0.0 < limit < 1.0 and trials * failing < FEWEST_AT_THRESHOLD:
+            found[one.requirement] = None
+    return tuple(found)
 
 
 def _expected_gain(worth: Array, share: Array) -> float:
@@ -157,21 +179,23 @@ def _rivals(
         gaps = weights * (single[row] - single[chosen])
         measure = _widest(weighting.deciding_measures, gaps)
         difference = float(gaps.sum())
+        known = np.isfinite(both)
         near = bool(estimated[row]) and abs(difference) <= margin + TIE_TOLERANCE
         if not near and probability < TIE_PROBABILITY:
             continue
-        known = np.isfinite(both)
         spread = float(both[known].std()) if known.any() else math.nan
+        # Of the same draws as the spread: the difference of the estimates is that of luck too.
+        expected = float(both[known].mean()) if known.any() else math.nan
         by_value = float((ahead & feasible[:, chosen]).mean())
         by_feasibility = not near and by_value < TIE_PROBABILITY
         fewest = int(min(replicates[row], replicates[chosen]))
-        counted = bool(estimated[row]) and not by_feasibility
+        counted = bool(estimated[row]) and not by_feasibility and measure is not None
         rivals.append(
             Rival(
                 row=row,
                 probability=probability,
                 within_margin=near,
-                replicates=_replicates_needed(difference, spread, fewest) if counted else None,
+                replicates=_replicates_needed(expected, spread, fewest) if counted else None,
                 measure=measure,
                 by_feasibility=by_feasibility,
                 fixed=measure is not None and measure not in found.table.samples,
@@ -186,7 +210,7 @@ def _replicates_needed(difference: float, spread: float, replicates: int) -> int
     if not math.isfinite(spread) or not math.isfinite(difference) or abs(difference) <= TIE_TOLERANCE:
         return None
     needed = math.ceil(replicates * (_Z * spread / abs(difference)) ** 2)
-    return None if needed > MOST_MORE else max(needed, replicates)
+    return None if needed > MOST_MORE else max(needed, replicates + 1)
 
 
 def _different(table: EvidenceTable, measures: tuple[str, ...], row: int, chosen: int) -> tuple[str, ...]:

@@ -285,7 +285,7 @@ def test_a_portfolio_of_one_gripper_for_two_studies(rgss, with_evidence, tmp_pat
     found = rgss("trade", "--brief", "--json", "studies/both.yaml", "--project", folder).document["portfolio"]
 
     assert told.status == 0
-    assert f"\nPortfolio\n{found['members'][0]} together serve every study; value " in told.output
+    assert f"\nPortfolio\n{found['members'][0]} serves every study; value " in told.output
     assert [one["study"] for one in found["assignments"]] == ["studies/pick_place.yaml", "studies/payload.yaml"]
     assert found["value"] == pytest.approx(sum(one["value"] for one in found["assignments"]) / 2)
     assert found["enumeration_agrees"] == "agreed"

@@ -231,7 +231,7 @@ def test_trade_needs_all_evidence(rgss, with_evidence):
 
     assert (told.status, told.output) == (2, "")
     assert told.complaint == (
-        "rgss: 72 of 288 trials have no evidence for the project as it is now (run 'rgss sweep' first)"
+        "rgss: 72 of 288 trials have no evidence for the project as it is now (run 'rgss sweep --replicates 4' first)"
     )
 
 

@@ -265,3 +265,29 @@ def test_with_a_tolerance_the_required_limit_is_what_changes(seeded, build_probl
         away = {"R-a": 1.0 - 1e-9, "R-b": 1.0 + 1e-9}
         then = decide(with_tolerance({one.requirement: one.needed * away[one.requirement] for one in repair.changes}))
         assert (then.counts.feasible, then.chosen) == (repair.unlocked, repair.winner)
+
+
+@pytest.mark.parametrize(
+    ("sense", "required", "quantity", "needed"),
+    [
+        (">=", 1.0, -1.0, -1.0 / 1.1),
+        (">=", 0.0, -1.0, -1.0 / 1.1),
+        (">=", 4.0, 1.0, 1.0 / 0.9),
+        (">=", -1.0, -3.0, -3.0 / 1.1),
+        ("<=", -1.0, 1.0, 1.0 / 1.1),
+        ("<=", 0.0, 1.0, 1.0 / 1.1),
+        ("<=", -4.0, -1.0, -1.0 / 0.9),
+    ],
+)
+def test_a_tolerance_is_of_the_magnitude_on_either_side_of_zero(build_problem, sense, required, quantity, needed):
+    """By hand: a tenth of a negative threshold takes it the other way than a tenth of a positive one."""
+    strict = build_problem({1: {"a": quantity}}, thresholds=[("R-a", "a", sense, required)])
+    tolerant = dataclasses.replace(strict, thresholds=(strict.thresholds[0].tolerated(0.1),))
+
+    (repair,) = decide(tolerant).conflicts.repairs
+    (change,) = repair.changes
+    assert (change.limit, change.needed) == (required, pytest.approx(needed))
+    for nudge, feasible in ((1e-6, 1), (-1e-6, 0)):
+        value = change.needed - nudge if sense == ">=" else change.needed + nudge
+        moved = dataclasses.replace(strict.thresholds[0], value=value).tolerated(0.1)
+        assert decide(dataclasses.replace(strict, thresholds=(moved,))).counts.feasible == feasible

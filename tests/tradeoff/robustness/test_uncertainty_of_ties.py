@@ -13,13 +13,13 @@ from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
 from rgss.tradeoff.robustness.uncertainty import choice_uncertainty
 
 
-def found_of(totals, feasible):
+def found_of(totals, feasible, *thresholds):
     """Posterior draws as the uncertainty reads them, of one measure that is the value."""
     weighting = SimpleNamespace(weights={"v": 1.0}, deciding_measures=("v",))
     return SimpleNamespace(
         totals=totals,
         outcomes=SimpleNamespace(feasible=feasible),
-        preferences=SimpleNamespace(weighting=weighting),
+        preferences=SimpleNamespace(weighting=weighting, thresholds=thresholds),
         table=EvidenceTable.of(np.arange(totals.shape[1]), {"v": totals.mean(axis=0)}),
         as_required=lambda row: feasible[:, row],
     )
@@ -51,6 +51,48 @@ def test_who_is_ahead_only_where_the_choice_is_infeasible_gets_no_number(drawn):
     assert (found[1].by_feasibility, found[1].replicates) == (True, None)
     assert not found[2].by_feasibility
     assert found[2].replicates is not None
+
+
+def test_a_lead_of_the_estimates_by_luck_does_not_count_as_separated():
+    """The estimates are 0.1 apart, the draws 0.01 with a spread of 0.03: 10 trials do not separate them."""
+    generator = np.random.default_rng(5)
+    totals = np.column_stack([np.full(2000, 0.5), 0.49 + 0.03 * generator.standard_normal(2000)])
+    one = choice_uncertainty(
+        found_of(totals, np.ones((2000, 2), dtype=bool)),
+        0,
+        margin=0.001,
+        replicates=np.array([10, 10]),
+        estimated=np.ones(2, dtype=bool),
+        single=np.array([[0.5], [0.4]]),
+    )
+    (rival,) = one.rivals
+    assert rival.replicates == pytest.approx(10 * (1.645 * 0.03 / 0.01) ** 2, rel=0.15)
+
+
+@pytest.mark.parametrize(
+    ("comparison", "value", "counts", "scarce"),
+    [
+        (Comparison.AT_LEAST, 0.9, [49, 50], ("SYS-1",)),
+        (Comparison.AT_LEAST, 0.9, [50, 51], ()),
+        (Comparison.AT_LEAST, 0.98, [150, 150], ("SYS-1",)),
+        (Comparison.AT_MOST, 0.1, [49, 50], ("SYS-1",)),
+        (Comparison.AT_LEAST, 1.0, [50, 50], ()),
+    ],
+)
+def test_trials_too_few_for_a_share_are_named(drawn, comparison, value, counts, scarce):
+    totals, feasible = (each[:, :2] for each in drawn)
+    threshold = Threshold(requirement="SYS-1", measure="v", unit="1", comparison=comparison, value=value)
+    for proportions, expected in ((("v",), scarce), ((), ())):
+        one = choice_uncertainty(
+            found_of(totals, feasible, threshold.tolerated(0.1)),
+            0,
+            margin=0.01,
+            replicates=np.array(counts),
+            estimated=np.ones(2, dtype=bool),
+            single=np.array([[0.6], [0.5]]),
+            proportions=proportions,
+        )
+        assert one.scarce == expected
 
 
 def test_the_fewer_of_two_numbers_of_replicates_count(drawn):

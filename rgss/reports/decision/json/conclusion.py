@@ -29,7 +29,10 @@ def conclusion_to_json(made: StudyDecision) -> Plain:
         "chosen": None if found.chosen is None else _standing(found.chosen),
         "variants": [{"variant": one.variant, "feasibility": one.feasibility.value} for one in found.standings],
         "uncertainty": _uncertainty(made),
-        "seeds": [{"first": one.first, "last": one.last, "variants": list(one.variants)} for one in made.seeds],
+        "seeds": [
+            {"first": one.first, "last": one.last, "absent": list(one.absent), "variants": list(one.variants)}
+            for one in made.seeds
+        ],
     }
 
 
@@ -75,4 +78,5 @@ def _uncertainty(made: StudyDecision) -> Plain | None:
         ],
         "expected_gains": [{"replicates": count, "gain": gain} for count, gain in one.gains],
         "perfect_knowledge": one.perfect,
+        "scarce": list(one.scarce),
     }

@@ -48,6 +48,8 @@ def _front(found: RobustnessFindings) -> str:
     front = [point for point in analysis.front.points if point.support is not Support.DOMINATED]
     unsupported = [analysis.variants[one.row] for one in front if one.support is Support.UNSUPPORTED]
     none = f"; no weights choose {variants_text(unsupported)}." if unsupported else "; each is best for some weights."
+    if len(front) == 1:
+        none = ", at all weights."
     return f"Pareto front: {variants_text([analysis.variants[one.row] for one in front])}{none}"
 
 

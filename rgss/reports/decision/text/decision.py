@@ -58,7 +58,8 @@ def portfolio_lines(portfolio: PortfolioDecision) -> Iterator[str]:
     if missing:
         yield missing
         return
-    yield f"{', '.join(portfolio.members)} together serve every study; value {value_in_words(portfolio.objective)}."
+    serve = "together serve" if len(portfolio.members) > 1 else "serves"
+    yield f"{', '.join(portfolio.members)} {serve} every study; value {value_in_words(portfolio.objective)}."
     rows = [[one.task, one.member, str(one.variant), value_in_words(one.value)] for one in portfolio.assignments]
     yield from aligned_table(["study", "served by", "variant", "value"], rows, right=(2, 3))
     sizes = ", ".join(f"{size}: {value_in_words(best)}" for size, best in enumerate(portfolio.by_size, start=1))

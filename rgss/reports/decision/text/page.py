@@ -15,6 +15,7 @@ from rgss.reports.decision.text.robustness import robustness_lines
 from rgss.reports.decision.text.screening import reopened_lines, screening_lines
 from rgss.reports.decision.text.sensitivity import sensitivity_lines
 from rgss.reports.decision.text.what_if import what_if_lines
+from rgss.reports.decision.words import count_text
 
 
 def decision_lines(made: StudyDecision, *, effects: bool = False) -> Iterator[str]:
@@ -24,7 +25,8 @@ def decision_lines(made: StudyDecision, *, effects: bool = False) -> Iterator[st
         made: The decision.
         effects: True to show the effects of each level on the measures of effectiveness too.
     """
-    yield from (f"Study {made.study}: {made.variants} variants, {made.trials} trials", *seeds_sentences(made.seeds), "")
+    counts = f"{count_text(made.variants, 'variant')}, {count_text(made.trials, 'trial')}"
+    yield from (f"Study {made.study}: {counts}", *seeds_sentences(made.seeds), "")
     if made.what_if is not None:
         yield from what_if_lines(made.what_if)
         yield from ("", "The decision under these suppositions", "")

@@ -128,11 +128,13 @@ def _drivers(found: RobustnessFindings) -> Iterator[str]:
         # No factor of a sample need explain a share alone, though designs differ.
         none = "not computed" if one.not_computed else "none" if found.sampled else "no differences"
         rows.append([one.measure, shares or none, ", ".join(one.left_out) or UNKNOWN])
-    yield from aligned_table(["measure", "factors", "left out, for lack of success"], rows)
+    yield from aligned_table(["measure", "factors", "left out, for lack of an estimate"], rows)
     for reason in dict.fromkeys(one.not_computed for one in found.drivers if one.not_computed):
         measures = ", ".join(one.measure for one in found.drivers if one.not_computed == reason)
         yield f"Not computed for {measures}: {reason}."
     effects = found.analysis.effects
-    joint = [f"{factor.id} sets {' and '.join(factor.parameters)}" for factor in effects.factors]
-    held = f"; {', '.join(effects.constants)} do not vary" if effects.constants else ""
-    yield f"({'; '.join(joint)}{held})"
+    notes = [f"{factor.id} sets {' and '.join(factor.parameters)}" for factor in effects.factors]
+    if effects.constants:
+        notes.append(f"{', '.join(effects.constants)} {'do' if len(effects.constants) > 1 else 'does'} not vary")
+    if notes:
+        yield f"({'; '.join(notes)})"

@@ -34,7 +34,7 @@ def sensitivity_lines(found: Sensitivity) -> Iterator[str]:
     if found.kept is not None:
         yield ""
         within = f"within {found.keep_margin:g} of the best for some {_weights(found)}weights"
-        yield f"Designs worth keeping ({within}, none as good at all)"
+        yield f"Designs worth keeping ({within}, and no other ahead by more at all weights)"
         yield from _kept(kept_groups(found))
         yield from beaten_sentences(found)
     if found.agreement is not None:
