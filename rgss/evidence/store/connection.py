@@ -213,6 +213,14 @@ def _obstacle(folder: Path) -> int | None:
     return None
 
 
+def is_of_disk(error: StorageError) -> bool:
+    """True if a translated error of SQLite comes from a disk that is full or fails."""
+    cause = error.__cause__
+    return isinstance(cause, PROBLEMS) and any(
+        one in problem_of(cause) for one in ("full", "disk I/O", "unable to open")
+    )
+
+
 def error_of(error: OSError) -> type[EvidenceError]:
     """Error class of an OSError: `StorageError` if the disk is full or fails, or too many files are open."""
     return StorageError if error.errno in _NO_SPACE else EvidenceError

@@ -5,11 +5,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Any, TypeVar
 
-from rgss.errors import EvidenceError
+from rgss.errors import EvidenceError, StorageError
 from rgss.evidence.records import (
     Fidelity,
     Piece,
@@ -25,7 +26,7 @@ from rgss.evidence.records import (
     require_key,
     trial_row,
 )
-from rgss.evidence.store.connection import Database, Row, connect, is_writable, translated_errors
+from rgss.evidence.store.connection import Database, Row, connect, is_of_disk, is_writable, translated_errors
 from rgss.evidence.store.creation import create_store, require_content
 from rgss.evidence.store.ledger import require_ledger
 from rgss.evidence.store.schema import prepare, require_present, require_sound_pages
@@ -61,8 +62,8 @@ class EvidenceStore:
 
         Args:
             path: The file.
-            create: True to create a missing file and its folder. Otherwise a file that cannot be written is opened
-                read-only.
+            create: True to create a missing file and its folder. Otherwise a file that cannot be written, or lies on a
+                full disk, is opened read-only.
             read_only: True to open it read-only in any case, so that no file is created or changed. While no other
                 process has it open it is treated as immutable; see `observed`.
             label: The file's name in messages; the path itself by default.
@@ -76,7 +77,20 @@ class EvidenceStore:
                 raise EvidenceError(f"there is no evidence in {name}", hint="run the sweep first")
             create_store(path, label=name)
         require_content(path, label=name)
-        read_only = read_only or (not create and not is_writable(path))
+        if read_only or (not create and not is_writable(path)):
+            return cls._opened(path, name, read_only=True)
+        try:
+            return cls._opened(path, name, read_only=False)
+        except StorageError as error:
+            # On a full disk SQLite cannot make the index of its log, which who only reads does not need.
+            if create or not is_of_disk(error):
+                raise
+            with suppress(EvidenceError):
+                return cls._opened(path, name, read_only=True)
+            raise
+
+    @classmethod
+    def _opened(cls, path: Path, name: str, *, read_only: bool) -> EvidenceStore:
         with translated_errors(name, folder=path.parent):
             connection = connect(path, read_only=read_only)
             try:

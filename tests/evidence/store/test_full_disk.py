@@ -112,3 +112,30 @@ except EvidenceError as error:
     assert complaint == FULL
     with EvidenceStore.open(path) as store:
         assert len(store.all()) == 60
+
+
+READ = """\
+    with EvidenceStore.open(path, create=False, label="it") as store:
+        print(len(store))
+except EvidenceError as error:
+    print(error, file=sys.stderr)
+"""
+
+
+def test_what_is_stored_can_be_read_on_a_full_disk(path, record):
+    """SQLite cannot make the index of its log there, which nobody needs who only reads."""
+    text = record_to_json(record())
+    said, _ = limited(WRITE, path, text, 100_000)
+    with EvidenceStore.open(path):
+        pass
+    assert not path.with_name(f"{path.name}-wal").exists()
+    command = [sys.executable, "-c", LIMITED + READ, str(path), text, "0"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert (done.stdout, done.stderr) == (f"{len(said)}\n", "")
+
+
+def test_a_store_that_is_to_be_written_is_not_opened_on_a_full_disk(path, record):
+    text = record_to_json(record())
+    limited(WRITE, path, text, 100_000)
+    _, complaint = limited(WRITE, path, text, 0)
+    assert complaint == FULL
