@@ -134,6 +134,11 @@ WITHOUT_ITS_MESH = (
         (TWO_ARMS.replace("revolute", "planar"), ["--flange", "left"], "the joint left_joint is planar"),
         ("<robot", [], "is not XML"),
         ("<model/>", [], "is not a URDF: it has no robot with links"),
+        (
+            '<robot xmlns:xacro="u"><xacro:macro name="a" params=""><link name="a"/></xacro:macro></robot>',
+            [],
+            "defines macros and has no link of its own (name the xacro that calls them with the robot)",
+        ),
         ("<!DOCTYPE robot><robot/>", [], "declares a document type"),
         (WITHOUT_ITS_MESH, [], "the file no.stl of arm.urdf is not there"),
     ],

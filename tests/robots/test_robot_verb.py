@@ -111,7 +111,7 @@ def test_moments_that_are_zero_are_those_of_the_shape(capsys, written):
     ("old", "new", "message"),
     [
         ('axis xyz="0 0 1"', 'axis xyz="0 0 0"', "arm.urdf has an axis without a direction for 'joint_1'"),
-        ('mass value="1"', 'mass value="0.00"', "arm.urdf has no mass or no inertia for 1 links: link_1"),
+        ('mass value="1"', 'mass value="0.00"', "arm.urdf has no mass or no inertia for 1 link: link_1"),
         ('mass value="1"', 'mass value="nan"', "arm.urdf has value='nan' in <mass> of 'link_1'"),
         ('joint name="joint_2"', 'joint name="joint_1"', "the URDF has two joints of the name 'joint_1'"),
     ],

@@ -52,8 +52,9 @@ def complete_masses(root: ET.Element, urdf: Path, *, leave: Sequence[str], mass_
         raise DefinitionError("every link of the arm has a mass", hint="leave --mass out, or correct the URDF's masses")
     if mass_kg is None:
         shown = ", ".join(massless[:_NAMES_SHOWN]) + (", …" if len(massless) > _NAMES_SHOWN else "")
+        links_text = "1 link" if len(massless) == 1 else f"{len(massless)} links"
         raise DefinitionError(
-            f"{urdf.name} has no mass or no inertia for {len(massless)} links: {shown}",
+            f"{urdf.name} has no mass or no inertia for {links_text}: {shown}",
             hint="give the mass of the whole arm, which is distributed by volume: --mass '20 kg'",
         )
     left = mass_kg - sum(stated.values())

@@ -87,6 +87,10 @@ def _parsed(urdf: Path, xacro: Mapping[str, str]) -> ET.Element:
         name = root.get("name", "")
         name = urdf.name.partition(".")[0] if not name or "$" in name else name
         root = _root_of(expanded(urdf, name=name, arguments=xacro), urdf, hint)
+    if root.tag == "robot" and root.find("link") is None and "<xacro:macro" in text:
+        raise DefinitionError(
+            f"{urdf} defines macros and has no link of its own", hint="name the xacro that calls them with the robot"
+        )
     if root.tag != "robot" or root.find("link") is None:
         raise DefinitionError(f"{urdf} is not a URDF: it has no robot with links", hint=hint)
     return root
