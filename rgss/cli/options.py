@@ -106,6 +106,21 @@ def add_evidence_choice(parser: argparse.ArgumentParser) -> None:
     add_nominal(parser)
 
 
+def sweep_words(options: argparse.Namespace, *names: str) -> list[str]:
+    """The words of ``rgss sweep`` for the trials that a command's options select.
+
+    Args:
+        options: The command's options.
+        names: The options with a value that are named beside the study, such as ``fidelity``.
+    """
+    words = ["rgss", "sweep", *([options.study] if getattr(options, "study", None) else [])]
+    for name in names:
+        value = getattr(options, name, None)
+        if value is not None:
+            words += [f"--{name}", str(value)]
+    return [*words, "--nominal"] if getattr(options, "nominal", False) else words
+
+
 def with_sweep_options(hint: str, options: argparse.Namespace) -> str:
     """A hint that names ``rgss sweep`` with the options that select the trials of a command.
 
@@ -113,14 +128,7 @@ def with_sweep_options(hint: str, options: argparse.Namespace) -> str:
         hint: The hint.
         options: The command's options.
     """
-    words = ["rgss", "sweep", *([options.study] if getattr(options, "study", None) else [])]
-    for name in ("fidelity", "replicates"):
-        value = getattr(options, name, None)
-        if value is not None:
-            words += [f"--{name}", str(value)]
-    if getattr(options, "nominal", False):
-        words.append("--nominal")
-    return hint.replace("'rgss sweep'", f"'{shlex.join(words)}'")
+    return hint.replace("'rgss sweep'", f"'{shlex.join(sweep_words(options, 'fidelity', 'replicates'))}'")
 
 
 def chosen_project(options: argparse.Namespace) -> Project:

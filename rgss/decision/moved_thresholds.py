@@ -11,8 +11,9 @@ from rgss.decision.preference_model import anchored_measures, program_of, risks_
 from rgss.errors import DefinitionError, TradeoffError
 from rgss.studies import Project
 from rgss.tradeoff import Conflicts, JointRepair, LimitChange, Repair, TradeProblem
-from rgss.tradeoff.problem import EvidenceTable, chosen_of_equals, tabulated
-from rgss.tradeoff.programs import ordering_of, violations
+from rgss.tradeoff.infeasibility import winner_among
+from rgss.tradeoff.problem import EvidenceTable, tabulated
+from rgss.tradeoff.programs import violations
 
 
 def with_thresholds(project: Project, thresholds: Mapping[str, float]) -> Project:
@@ -96,10 +97,7 @@ def with_moved_winners(project: Project, problem: TradeProblem, conflicts: Confl
         except (DefinitionError, TradeoffError):
             return None
         feasible = np.asarray(~violations(moved, table).any(axis=1), dtype=np.bool_)
-        tied = np.flatnonzero(ordering_of(moved.program, moved, table, feasible).best(feasible))
-        return chosen_of_equals(
-            table, moved.deciding_functions, tied, last_of_equals=project.study.trade_off.last_of_equals
-        )
+        return winner_among(moved, table, feasible, last_of_equals=project.study.trade_off.last_of_equals)
 
     return replace(
         conflicts,

@@ -97,28 +97,21 @@ def test_a_file_on_a_full_disk_is_a_failure_of_the_run(rgss, folder):
     assert "cannot be written: No space left on device (free some space, or check the disk)" in told.complaint
 
 
-def test_so_it_is_where_no_verb_expects_it(rgss, folder, monkeypatch):
-    def fills(_):
-        raise OSError(errno.ENOSPC, "No space left on device", "page.html")
+@pytest.mark.parametrize(
+    ("number", "status", "complaint"),
+    [
+        (errno.ENOSPC, 3, "x.yaml cannot be written: No space left on device (free some space, or check the disk)"),
+        (errno.EACCES, 2, "x.yaml may not be read or written (change its permissions)"),
+    ],
+)
+def test_so_it_is_where_no_verb_expects_it(rgss, folder, monkeypatch, number, status, complaint):
+    def fails(_):
+        raise OSError(number, os.strerror(number), "x.yaml")
 
-    monkeypatch.setattr("rgss.cli.verbs.variants.run", fills)
+    monkeypatch.setattr("rgss.cli.verbs.variants.run", fails)
     monkeypatch.setattr("rgss.cli.main._discard_output", lambda: None)
     told = rgss("variants", "--project", folder)
-    assert told.status == 3
-    assert told.complaint == (
-        "rgss: page.html cannot be written: No space left on device (free some space, or check the disk)"
-    )
-
-
-def test_a_folder_without_permission_is_bad_input(rgss, folder, monkeypatch):
-    def refused(_):
-        raise PermissionError(errno.EACCES, "Permission denied", "/p/requirements")
-
-    monkeypatch.setattr("rgss.cli.verbs.variants.run", refused)
-    monkeypatch.setattr("rgss.cli.main._discard_output", lambda: None)
-    told = rgss("variants", "--project", folder)
-    assert told.status == 2
-    assert told.complaint == "rgss: /p/requirements may not be read or written (change its permissions)"
+    assert (told.status, told.complaint) == (status, f"rgss: {complaint}")
 
 
 def test_a_current_folder_that_was_removed_does_not_matter_to_a_project_that_is_named(rgss, folder, monkeypatch):

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
+from rgss.cli.options import sweep_words
 from rgss.cli.safe_output import errors_are_seen
 
 if TYPE_CHECKING:
@@ -86,13 +87,7 @@ def _print_result(options: argparse.Namespace, project: Project, found: UntilDec
     from rgss.cli.output import print_lines
     from rgss.reports.decision import open_paragraph, until_decided_summary
 
-    words = ["rgss", "sweep", *([options.study] if options.study else [])]
-    for name in ("project", "fidelity"):
-        value = getattr(options, name)
-        if value is not None:
-            words += [f"--{name}", str(value)]
-    if options.nominal:
-        words.append("--nominal")
+    words = sweep_words(options, "project", "fidelity")
     if not project.study.sweeps_until_decided:
         words += ["--until", "decided"]
     lines = [until_decided_summary(found), open_paragraph(found, command=shlex.join(words))]

@@ -7,7 +7,7 @@ import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rgss.cli.options import add_evidence_choice, chosen_project
+from rgss.cli.options import add_evidence_choice, chosen_project, sweep_words
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -180,12 +180,7 @@ def _check_films(options: argparse.Namespace) -> None:
 
 def _sweep_command(options: argparse.Namespace) -> str:
     """The command that makes the evidence of this report."""
-    words = ["rgss", "sweep", *([options.study] if options.study else [])]
-    for name in ("project", "fidelity", "replicates"):
-        value = getattr(options, name)
-        if value is not None:
-            words += [f"--{name}", str(value)]
-    return shlex.join(words)
+    return shlex.join(sweep_words(options, "project", "fidelity", "replicates"))
 
 
 def _trace(

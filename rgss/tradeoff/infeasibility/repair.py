@@ -121,6 +121,22 @@ def unvalued_measures(preferences: Preferences, table: EvidenceTable) -> tuple[s
     return tuple(one for one in preferences.weighting.deciding_measures if np.isnan(table.column(one)).all())
 
 
+def winner_among(
+    preferences: Preferences, table: EvidenceTable, feasible: NDArray[np.bool_], *, last_of_equals: bool
+) -> int | None:
+    """The alternative that is chosen of the feasible ones; None if there is none.
+
+    Args:
+        preferences: Preferences that the alternatives are compared by.
+        table: The alternatives.
+        feasible: Mask of the feasible ones, shape (n,).
+        last_of_equals: As for `with_repairs`.
+    """
+    # Regret is relative to what is feasible, which a repair changes.
+    tied = np.flatnonzero(ordering_of(preferences.program, preferences, table, feasible).best(feasible))
+    return chosen_of_equals(table, preferences.deciding_functions, tied, last_of_equals=last_of_equals)
+
+
 def _mended(
     preferences: Preferences, enumeration: Enumeration, requirements: Sequence[str], *, last_of_equals: bool
 ) -> tuple[tuple[LimitChange, ...], int, int | None]:
@@ -149,9 +165,7 @@ def _mended(
             limit = float(column[row])
             changes.append(_change(condition, limit))
         feasible &= keeps(condition.sense, column, limit)
-    # Regret is relative to what is feasible, which the repair changes.
-    tied = np.flatnonzero(ordering_of(preferences.program, preferences, table, feasible).best(feasible))
-    winner = chosen_of_equals(table, preferences.deciding_functions, tied, last_of_equals=last_of_equals)
+    winner = winner_among(preferences, table, feasible, last_of_equals=last_of_equals)
     return tuple(changes), int(feasible.sum()), winner
 
 

@@ -113,7 +113,7 @@ def _walk(
             return near, evaluate(near).best()
         points = _inner_points(near, far)
         if points[0] == points[1]:
-            # Between equal numbers, or kinks that rounding alone tells apart, nothing lies that could be looked at.
+            # Equal numbers, or kinks that only rounding distinguishes: no number between them to evaluate.
             continue
         first, second = (evaluate(point) for point in points)
         rivals = np.flatnonzero(first.feasible)

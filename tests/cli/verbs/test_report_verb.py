@@ -190,6 +190,8 @@ def test_too_little_evidence_names_the_sweep_that_is_missing(with_evidence, tmp_
     assert f"(run 'rgss sweep studies/pick_place.yaml --project {with_evidence} --fidelity kinematic' first)" in (
         said.complaint
     )
+    said = rgss("report", "--nominal", "--replicates", 5, "--project", with_evidence)
+    assert f"(run 'rgss sweep --project {with_evidence} --replicates 5 --nominal' first)" in said.complaint
 
 
 @pytest.mark.parametrize(
