@@ -93,7 +93,9 @@ def _run(arguments: Sequence[str] | None) -> int:
         _print_error(f"rgss: {error}")
         return BAD_INPUT
     except KeyboardInterrupt:
-        _print_error("rgss: interrupted; finished trials are stored")
+        stores = getattr(options, "stores_trials", False) or getattr(options, "run", False)
+        _print_error("rgss: interrupted; finished trials are stored" if stores else "rgss: interrupted")
+        _report_interrupted_import(options)
         return INTERRUPTED
     except BrokenPipeError:
         # The reader of the output has closed the pipe, which is no error.
@@ -176,7 +178,10 @@ def command_line() -> argparse.ArgumentParser:
         verb.add_argument("--wide", action="store_true", help="on a terminal: do not fit lines and tables to its width")
         module.configure(verb)
         verb.set_defaults(
-            handler=module.run, is_fitted=getattr(module, "FITTED", True), is_paged=getattr(module, "PAGED", False)
+            handler=module.run,
+            is_fitted=getattr(module, "FITTED", True),
+            is_paged=getattr(module, "PAGED", False),
+            stores_trials=getattr(module, "STORES_TRIALS", False),
         )
     return parser
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import signal
 import subprocess
@@ -9,6 +10,8 @@ import sys
 from pathlib import Path
 
 import pytest
+
+from rgss.cli.main import module_name
 
 RGSS = [sys.executable, "-m", "rgss.cli.main"]
 
@@ -71,4 +74,25 @@ def test_an_interrupt_before_the_work_begins_is_one_line():
     os.kill(process.pid, signal.SIGINT)
     output, errors = process.communicate()
 
-    assert (process.returncode, output, errors) == (130, "", "rgss: interrupted; finished trials are stored\n")
+    assert (process.returncode, output, errors) == (130, "", "rgss: interrupted\n")
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["sweep"], "rgss: interrupted; finished trials are stored\n"),
+        (["confirm"], "rgss: interrupted; finished trials are stored\n"),
+        (["regress"], "rgss: interrupted; finished trials are stored\n"),
+        (["trade", "--what-if", "charge.check=1 ms", "--run"], "rgss: interrupted; finished trials are stored\n"),
+        (["trade"], "rgss: interrupted\n"),
+        (["import", "csv", "table.csv"], "rgss: interrupted\n"),
+        (["run", "28"], "rgss: interrupted\n"),
+    ],
+)
+def test_an_interrupt_speaks_of_trials_where_they_are_stored(rgss, monkeypatch, words, told):
+    def interrupted(_options):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(importlib.import_module(f"rgss.cli.verbs.{module_name(words[0])}"), "run", interrupted)
+    result = rgss(*words)
+    assert (result.status, result.output, result.errors) == (130, "", told)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from rgss.trials.pieces import TrialSpec
 
 HELP = "run the chosen design and its rivals at a finer step and in another engine, and compare the decisions"
+STORES_TRIALS = True
 EXAMPLE = "rgss confirm --jobs 2"
 MORE_EXAMPLES = (
     ("rgss confirm --variants 28,31 --seeds 1", "these two designs, with one seed"),

@@ -24,6 +24,7 @@ CHANGED = 4
 """Exit status where behaviour changed without a stated reason and nothing is shown to be worse."""
 
 HELP = "compare behaviour, guarded metrics and the decision with a baseline; missing trials are run first"
+STORES_TRIALS = True
 EXAMPLE = "rgss regress --junit regress.xml --markdown summary.md"
 MORE_EXAMPLES = (
     ("rgss regress", "compare with the baseline beside the study"),

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from rgss.trials.pieces import TrialSpec
 
 HELP = "run every trial of a study that has no evidence yet"
+STORES_TRIALS = True
 EXAMPLE = "rgss sweep --replicates 10 --jobs 2"
 MORE_EXAMPLES = (
     ("rgss sweep --dry-run", "list what would be run and why"),
