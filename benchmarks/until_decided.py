@@ -167,12 +167,11 @@ def one_run(case: str, run: int, probabilities: list[float]) -> NDArray[np.float
         slack = RULE.slack
         acceptable = near and chance >= 0.9 * (1.0 - slack) and time <= 11.5 * (1.0 + slack)
     told = wrong = 0
-    for variant, verdicts in answer.verdicts.items():
+    for (variant, place), met in answer.progress.settled.items():
         _, chance, time = truth[variant - 1]
-        for requirement, met in (("R-S", chance >= 0.9), ("R-t", time <= 11.5)):
-            if verdicts[requirement].value != "inconclusive":
-                told += 1
-                wrong += (verdicts[requirement].value == "met") != met
+        truly = {"R-S": chance >= 0.9, "R-t": time <= 11.5}
+        told += 1
+        wrong += met != truly[template.thresholds[place].requirement]
     decided = answer.reason is Reason.DECIDED
     probabilities.append(probability)
     return np.array(

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         measure_variants,
         require_complete,
         requirements_with_criteria,
+        verdicts_on,
     )
     from rgss.assessment.recorded_verdicts import VerdictRecord, read_record
     from rgss.assessment.recording import record_after_sweep, record_verdicts

@@ -153,6 +153,17 @@ def requirements_with_criteria(project: Project) -> tuple[Requirement, ...]:
     return tuple(requirement for requirement, _ in _criteria(project))
 
 
+def verdicts_on(project: Project, entry: VariantMeasures, *, stale: Collection[str] = ()) -> dict[str, Verdict]:
+    """The verdict on each requirement with a criterion, from the estimates of a variant.
+
+    Args:
+        project: The project.
+        entry: The variant with its estimates.
+        stale: Ids of the requirements whose verdict is stale.
+    """
+    return {one.id: _verdict(criterion, entry, stale=one.id in stale) for one, criterion in _criteria(project)}
+
+
 def judged_measures(project: Project) -> frozenset[str]:
     """Ids of the measures of effectiveness, and of those that a requirement's criterion bounds.
 
@@ -184,6 +195,7 @@ def _measured(
         fixed=sources(variant),
         trials=[record.metrics for record in records],
         variant=variant.id,
+        over_looks=project.study.is_sequential,
     )
     return VariantMeasures(
         variant=variant,
@@ -202,7 +214,7 @@ def _judged(
     outdated: Sequence[tuple[StaleCause, ...]],
     reader: BasisReader,
 ) -> VariantMeasures:
-    bases, stale, verdicts = {}, {}, {}
+    bases, stale = {}, {}
     for requirement, criterion in _criteria(project):
         basis = reader.basis(requirement, criterion, entry.variant)
         found = set(causes_since(book.get(requirement.id, {}).get(entry.variant.id), basis))
@@ -212,10 +224,9 @@ def _judged(
         if causes:
             stale[requirement.id] = causes
         bases[requirement.id] = basis
-        verdicts[requirement.id] = _verdict(criterion, entry, stale=bool(causes))
     return replace(
         entry,
-        verdicts=MappingProxyType(verdicts),
+        verdicts=MappingProxyType(verdicts_on(project, entry, stale=stale)),
         outdated=len(outdated),
         causes=MappingProxyType(stale),
         bases=MappingProxyType(bases),

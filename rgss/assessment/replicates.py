@@ -71,6 +71,7 @@ def common_seeds(project: Project, measured: Sequence[VariantMeasures]) -> tuple
                 fixed=sources(entry.variant),
                 trials=[record.metrics for record in entry.records[:fewest]],
                 variant=entry.variant.id,
+                over_looks=project.study.is_sequential,
             ),
         )
         for entry in measured

@@ -76,6 +76,7 @@ def _in_case(project: Project, entry: VariantMeasures, case: str) -> VariantMeas
         fixed=sources(entry.variant),
         trials=[record.metrics for record in records],
         variant=entry.variant.id,
+        over_looks=project.study.is_sequential,
     )
     criteria = {one.id: one.criterion for one in project.requirements.system if one.criterion is not None}
 

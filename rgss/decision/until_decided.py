@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from rgss.assessment import VariantMeasures
+from rgss.assessment import VariantMeasures, verdicts_on
 from rgss.decision.choosing import proportion_measures, trade_problem
 from rgss.decision.level_structure import level_numbers
 from rgss.designs import DesignVariant, sources
@@ -36,7 +36,7 @@ class UntilDecided:
         reason: Reason for the end.
         variant: The chosen variant; None if none meets every requirement.
         contenders: The variants that may be the best one; if it is decided, by less than the margin.
-        verdicts: By variant, the verdict on each requirement, with the error rate over all looks.
+        verdicts: By variant, the verdict on each requirement, valid at any number of looks.
         trials: Number of trials of each variant.
         probability: Posterior probability that the choice is good; see
             `rgss.tradeoff.sequential.probability.probability_of_good_selection`.
@@ -134,7 +134,7 @@ def replicate_until_decided(
         reason=answer.reason,
         variant=answer.variant,
         contenders=answer.contenders,
-        verdicts=answer.verdicts,
+        verdicts={entry.variant.id: verdicts_on(project, entry) for entry in read.measured()},
         trials=wanted,
         probability=probability_of_good_selection(
             evidence,
@@ -236,6 +236,7 @@ class _Evidence:
             fixed=sources(variant),
             trials=[record.metrics for _, record in rows],
             variant=variant.id,
+            over_looks=True,
         )
         return VariantMeasures(
             variant=variant,

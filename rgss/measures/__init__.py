@@ -1,5 +1,6 @@
 """Measures of performance and effectiveness: definitions, expressions, estimates and verdicts."""
 
+from rgss.measures.anytime_evidence import bounded_mean_evidence, proportion_evidence
 from rgss.measures.definition_digests import definition_digest
 from rgss.measures.definitions import (
     Constant,
@@ -19,7 +20,6 @@ from rgss.measures.evaluation import COMPLETE, design_values, evaluate, replicat
 from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
 from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.loading import load_measures
-from rgss.measures.mean_limits import UNSEEN_FACTOR
 from rgss.measures.possible_values import estimate_ranges
 from rgss.measures.ranges import Range
 from rgss.measures.ratios import ratio_values

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
+from rgss.measures.anytime_evidence import anytime_mean_limits, anytime_proportion_limits
 from rgss.measures.mean_limits import mean_limits
 
 CONFIDENCE = 0.95
@@ -49,7 +50,12 @@ class Estimate:
 
 
 def mean_estimate(
-    values: Sequence[float], unit: str, *, least: float | None = None, most: float | None = None
+    values: Sequence[float],
+    unit: str,
+    *,
+    least: float | None = None,
+    most: float | None = None,
+    over_looks: bool = False,
 ) -> Estimate:
     """Mean of trial values with distribution-free confidence limits.
 
@@ -62,14 +68,17 @@ def mean_estimate(
         unit: Their unit.
         least: The least possible value; None if unknown.
         most: The greatest possible value; None if unknown.
+        over_looks: Whether the number of trials may depend on their values; the limits are then those of
+            `rgss.measures.anytime_evidence`, with the same bounds.
     """
     if not values:
         return Estimate.unknown(unit)
-    low, high = mean_limits(values, least=least, most=most, tail=TAIL)
+    limits = anytime_mean_limits if over_looks else mean_limits
+    low, high = limits(values, least=least, most=most, tail=TAIL)
     return Estimate(value=math.fsum(values) / len(values), unit=unit, low=low, high=high, n=len(values))
 
 
-def proportion_estimate(successes: int, trials: int) -> Estimate:
+def proportion_estimate(successes: int, trials: int, *, over_looks: bool = False) -> Estimate:
     """Proportion with the Clopper-Pearson interval (1934), which is defined for one trial too.
 
     Its limits are quantiles of Beta(k, n - k + 1) and Beta(k + 1, n - k); the coverage of each is at least its level.
@@ -78,10 +87,14 @@ def proportion_estimate(successes: int, trials: int) -> Estimate:
     Args:
         successes: Number of successes.
         trials: Number of trials.
+        over_looks: As for `mean_estimate`.
     """
     if trials == 0:
         return Estimate.unknown("1")
-    low, high = _proportion_limits(successes, trials)
+    if over_looks:
+        low, high = anytime_proportion_limits(successes, trials, tail=TAIL)
+    else:
+        low, high = _proportion_limits(successes, trials)
     return Estimate(value=successes / trials, unit="1", low=low, high=high, n=trials)
 
 

@@ -26,6 +26,7 @@ def evaluate(
     fixed: Mapping[str, float | str],
     trials: Sequence[Mapping[str, Observed]],
     variant: int,
+    over_looks: bool = False,
 ) -> dict[str, Estimate]:
     """Estimate every measure of one variant.
 
@@ -39,6 +40,8 @@ def evaluate(
         trials: The metrics of each trial, in SI; an absent key is an unknown value. A trial
             succeeded if its metric ``success`` is 1.
         variant: The variant's id, for messages.
+        over_looks: Whether the number of trials may depend on their results, as in replication until decided; the
+            intervals then hold at any number of trials.
 
     Returns:
         The estimate of each measure by its id, in the order of the file, in the measure's unit.
@@ -64,16 +67,19 @@ def evaluate(
         if rule.statistic is Estimator.RATIO:
             _require_declared(measure, quotients(measure, counted), variant)
             within = _bounds(measure, possible.get(measure.id, Range()))
-            estimates[measure.id] = ratio_estimate(measure, counted, ranges=ranges, within=within)
+            estimates[measure.id] = ratio_estimate(
+                measure, counted, ranges=ranges, within=within, over_looks=over_looks
+            )
             continue
         known = [value for row in counted if (value := _summarised(measure, row)) is not None]
         if rule.statistic is Estimator.MEAN and _is_of_design(measure_set, measure):
             estimates[measure.id] = _same(measure, known, variant)
         elif rule.statistic is Estimator.PROPORTION:
             complete = sum(value >= COMPLETE for value in known)
-            estimates[measure.id] = proportion_estimate(complete, len(known))
+            estimates[measure.id] = proportion_estimate(complete, len(known), over_looks=over_looks)
         else:
-            estimates[measure.id] = _mean(measure, known, possible.get(measure.id, Range()), variant)
+            within = possible.get(measure.id, Range())
+            estimates[measure.id] = _mean(measure, known, within, variant, over_looks=over_looks)
     return estimates
 
 
@@ -130,7 +136,7 @@ def _same(measure: Measure, known: Sequence[float], variant: int) -> Estimate:
     return Estimate(value=known[0], unit=measure.unit, low=known[0], high=known[0], n=len(known))
 
 
-def _mean(measure: Measure, known: Sequence[float], possible: Range, variant: int) -> Estimate:
+def _mean(measure: Measure, known: Sequence[float], possible: Range, variant: int, *, over_looks: bool) -> Estimate:
     """Mean of a measure's values, with bounds that are declared or follow from its definition or its unit."""
     _require_declared(measure, known, variant)
     least, most = measure.least, measure.most
@@ -140,7 +146,7 @@ def _mean(measure: Measure, known: Sequence[float], possible: Range, variant: in
             least = 0.0
         least = possible.low if least is None and math.isfinite(possible.low) else least
         most = possible.high if most is None and math.isfinite(possible.high) else most
-    return mean_estimate(known, measure.unit, least=least, most=most)
+    return mean_estimate(known, measure.unit, least=least, most=most, over_looks=over_looks)
 
 
 def _bounds(measure: Measure, possible: Range) -> Range:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
 
+from rgss.measures.anytime_evidence import bounded_mean_evidence
 from rgss.measures.mean_limits import UNSEEN_FACTOR, falling_root, tail_probability
 from rgss.measures.ranges import Range
 
@@ -17,7 +19,7 @@ _MOST_DOUBLINGS = 200
 
 
 def ratio_limits(
-    pairs: Sequence[Pair], *, numerator: Range, denominator: Range, tail: float
+    pairs: Sequence[Pair], *, numerator: Range, denominator: Range, tail: float, over_looks: bool = False
 ) -> tuple[float | None, float | None] | None:
     """One-sided confidence limits of the ratio of means, each with at most the tail probability of failure.
 
@@ -31,6 +33,8 @@ def ratio_limits(
         numerator: Range of a.
         denominator: Range of b.
         tail: Probability beyond each limit.
+        over_looks: Whether the number of trials may depend on their values. The test is then that of
+            `rgss.measures.bounded_mean_evidence`, which is exact where the bounds are stated.
 
     Returns:
         The lower and the upper limit, None for one that exceeds the range of floats; None if b may have either sign.
@@ -41,8 +45,9 @@ def ratio_limits(
     if denominator.low < 0.0 or min(b for _, b in pairs) < 0.0:
         return None
     tops, bottoms = _bounded(numerator, [a for a, _ in pairs]), _bounded(denominator, [b for _, b in pairs])
-    low = _upper_limit([(-a, b) for a, b in pairs], tops.negated().high, bottoms, tail)
-    return None if low is None else -low, _upper_limit(pairs, tops.high, bottoms, tail)
+    test = partial(_Test, denominator=bottoms, tail=tail, over_looks=over_looks)
+    low = _upper_limit(test(pairs=[(-a, b) for a, b in pairs], most=tops.negated().high))
+    return None if low is None else -low, _upper_limit(test(pairs=pairs, most=tops.high))
 
 
 def _bounded(one: Range, seen: Sequence[float]) -> Range:
@@ -52,27 +57,39 @@ def _bounded(one: Range, seen: Sequence[float]) -> Range:
     return Range(low=min(*seen, low), high=max(*seen, one.high if math.isfinite(one.high) else unseen))
 
 
-def _upper_limit(pairs: Sequence[Pair], most: float, denominator: Range, tail: float) -> float | None:
-    """Upper limit from the greatest possible numerator and the range of the denominators, which are not negative."""
-    mean = math.fsum(b for _, b in pairs) / len(pairs)
-    ratio = math.fsum(a for a, _ in pairs) / len(pairs) / mean
-    height = partial(_height, pairs, most, denominator, tail)
-    step = max(abs(ratio), abs(most) / mean)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Test:
+    """Test of a ratio from the greatest possible numerator and the range of the denominators, none negative."""
+
+    pairs: Sequence[Pair]
+    most: float
+    denominator: Range
+    tail: float
+    over_looks: bool
+
+    def height(self, ratio: float) -> float:
+        """Probability of the test of a ratio, above its tail; it falls with the ratio."""
+        differences = sorted(a - ratio * b for a, b in self.pairs)
+        bound = self.most - min(ratio * self.denominator.low, ratio * self.denominator.high)
+        bound = max(differences[-1], bound)
+        if not self.over_looks:
+            return tail_probability(differences, bound, 0.0) - self.tail
+        return math.exp(-bounded_mean_evidence(differences, 0.0, above=False, most=bound)) - self.tail
+
+
+def _upper_limit(test: _Test) -> float | None:
+    count = len(test.pairs)
+    mean = math.fsum(b for _, b in test.pairs) / count
+    ratio = math.fsum(a for a, _ in test.pairs) / count / mean
+    step = max(abs(ratio), abs(test.most) / mean)
     if step == 0.0:
         return ratio
     for _ in range(_MOST_DOUBLINGS):
-        if not math.isfinite((ratio + step) * denominator.high):
+        if not math.isfinite((ratio + step) * test.denominator.high):
             return None
-        beyond = height(ratio + step)
+        beyond = test.height(ratio + step)
         if beyond <= 0.0:
-            found = falling_root(height, ratio, ratio + step, below=beyond)
+            found = falling_root(test.height, ratio, ratio + step, below=beyond)
             return max(ratio, float(f"{found:.{_DIGITS}g}"))
         step *= 2.0
     return None
-
-
-def _height(pairs: Sequence[Pair], most: float, denominator: Range, tail: float, ratio: float) -> float:
-    """Probability of the test of a ratio, above its tail; it falls with the ratio."""
-    differences = sorted(a - ratio * b for a, b in pairs)
-    bound = most - min(ratio * denominator.low, ratio * denominator.high)
-    return tail_probability(differences, max(differences[-1], bound), 0.0) - tail

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+from rgss.measures.anytime_evidence import anytime_mean_limits
 from rgss.measures.definitions import Measure
 from rgss.measures.estimates import TAIL, Estimate
 from rgss.measures.expressions import Binary
@@ -55,7 +56,12 @@ def quotients(measure: Measure, rows: Sequence[Mapping[str, Value]]) -> list[flo
 
 
 def ratio_estimate(
-    measure: Measure, rows: Sequence[Mapping[str, Value]], *, ranges: Mapping[str, Range], within: Range
+    measure: Measure,
+    rows: Sequence[Mapping[str, Value]],
+    *,
+    ranges: Mapping[str, Range],
+    within: Range,
+    over_looks: bool = False,
 ) -> Estimate:
     """Ratio of means with the limits of `rgss.measures.ratio_limits`, which stay within what is possible.
 
@@ -67,6 +73,7 @@ def ratio_estimate(
         rows: Value of every symbol in each trial, in SI.
         ranges: Ranges of the symbols in SI.
         within: Range that the quotient of a trial cannot leave, in the measure's unit.
+        over_looks: Whether the number of trials may depend on their values; the limits then hold at any number.
     """
     linearised = [value for value in ratio_values(measure, rows) if value is not None]
     root = measure.expression.root
@@ -80,9 +87,11 @@ def ratio_estimate(
             numerator=range_of(root.left, ranges),
             denominator=range_of(root.right, ranges),
             tail=TAIL,
+            over_looks=over_looks,
         )
         if found is None:
-            low, high = mean_limits(linearised, least=None, most=None, tail=TAIL)
+            limits = anytime_mean_limits if over_looks else mean_limits
+            low, high = limits(linearised, least=None, most=None, tail=TAIL)
         else:
             low, high = (None if limit is None else limit / measure.si_per_unit for limit in found)
         low, high = _cut(low, high, within)

@@ -10,6 +10,7 @@ import pytest
 from rgss.assessment import common_seeds, measure_variants, require_complete, sequential_seeds, specs_read
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Provenance
+from rgss.measures.anytime_evidence import anytime_proportion_limits
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.trial_keys import key_of
 
@@ -109,6 +110,17 @@ def test_a_fixed_number_reads_no_more(shipped, sequential, variants, store, reco
         assert sequential_seeds(project, measured) == ()
 
 
+def test_intervals_hold_at_any_number_where_the_number_depends_on_results(sequential, variants, store, record_of):
+    put(sequential, store, record_of, dict.fromkeys(IDS, range(1, 9)))
+    entry = measure_variants(sequential, store, among=variants)[0]
+    successes = sum(record.success for record in entry.records)
+    share = entry.estimates["S"]
+    assert (share.low, share.high) == anytime_proportion_limits(successes, 8, tail=0.025)
+    fixed = measure_variants(sequential.with_replicates(8), store, among=variants)[0].estimates["S"]
+    assert (fixed.value, fixed.n) == (share.value, share.n)
+    assert share.low < fixed.low < fixed.high < share.high
+
+
 def test_evidence_of_other_inputs_ends_the_row(sequential, variants, store, record_of):
     put(sequential, store, record_of, dict.fromkeys(IDS, range(1, 4)))
     other = dataclasses.replace(sequential, study=dataclasses.replace(sequential.study, solver_iterations=50))
@@ -120,7 +132,9 @@ def test_evidence_of_other_inputs_ends_the_row(sequential, variants, store, reco
 def test_common_seeds_are_estimated_as_if_nothing_else_was_there(sequential, variants, store, record_of):
     put(sequential, store, record_of, {1: range(1, 4), 2: range(1, 9), 28: range(1, 7), 72: range(1, 6)})
     measured = measure_variants(sequential, store, among=variants)
-    fixed = measure_variants(sequential.with_replicates(3), store, among=variants)
+    rule = dataclasses.replace(sequential.study.until_decided, pilot=3, verdict_cap=3, cap=3)
+    capped = dataclasses.replace(sequential, study=dataclasses.replace(sequential.study, until_decided=rule))
+    fixed = measure_variants(capped, store, among=variants)
     alike = common_seeds(sequential, measured)
     assert [entry.estimates for entry in alike] == [entry.estimates for entry in fixed]
     assert [entry.trials for entry in alike] == [entry.trials for entry in fixed]

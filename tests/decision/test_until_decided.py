@@ -1,9 +1,11 @@
 from __future__ import annotations
 
+import dataclasses
 import random
 
 import pytest
 
+from rgss.assessment import measure_variants
 from rgss.decision.until_decided import replicate_until_decided
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Provenance
@@ -58,6 +60,11 @@ def test_replicates_go_where_they_can_change_the_decision(shipped, store, runner
     }
     assert 0.0 <= result.probability <= 1.0
     assert set(result.verdicts) == set(result.trials)
+    # The pages judge the same trials alike.
+    study = dataclasses.replace(shipped.study, replicates=RULE.pilot, is_sequential=True, until_decided=RULE)
+    read = measure_variants(dataclasses.replace(shipped, study=study), store)
+    assert {entry.variant.id: entry.verdicts for entry in read} == result.verdicts
+    assert {entry.variant.id: len(entry.records) for entry in read} == result.trials
     again = replicate_until_decided(shipped, store, lambda specs: None, rule=RULE)
     assert again == result
     text = until_decided_summary(result)

@@ -53,6 +53,7 @@ def _estimates(project: Project, entry: VariantMeasures, affected: frozenset[str
             fixed=fixed,
             trials=[record.metrics for record in entry.records],
             variant=entry.variant.id,
+            over_looks=project.study.is_sequential,
         )
     # Measures that follow from the design alone need no interval; the others are unchanged.
     values = design_values(measures, fixed=fixed, variant=entry.variant.id)

@@ -120,6 +120,7 @@ def _measures(project: Project, variant: DesignVariant, seeds: tuple[int, ...], 
             fixed=sources(variant),
             trials=[record.metrics for record in records],
             variant=variant.id,
+            over_looks=project.study.is_sequential,
         ),
         verdicts={},
     )

@@ -97,8 +97,8 @@ def seeds_sentences(groups: Sequence[SeedGroup]) -> Iterator[str]:
     if not any(one.added for one in groups):
         return
     yield (
-        "Replicates were added where the decision was open: intervals and verdicts are those of a number fixed "
-        "beforehand, and may err more often than they state; 'rgss sweep --json' gives verdicts that allow for it."
+        "Replicates were added where the decision was open; intervals and verdicts allow for it: they hold at any "
+        "number of replicates."
     )
 
 

@@ -8,15 +8,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.measures import bounded_mean_evidence, proportion_evidence
 from rgss.tradeoff.problem import Comparison, Threshold, ValueFunction
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.observed import Observed
 from rgss.tradeoff.sequential.tests import (
-    bounded_mean_evidence,
     difference_above,
     mean_above,
     mean_evidence,
-    proportion_evidence,
 )
 
 _STEP = 1e-6

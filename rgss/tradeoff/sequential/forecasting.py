@@ -96,7 +96,7 @@ def _requirements(
     evidence: SequentialEvidence, rule: SequentialRule, progress: Progress, row: int, ran: int
 ) -> dict[str, int | None]:
     variant = int(evidence.table.variants[row])
-    needed = -np.log(rule.error_rate)
+    needed = -np.log(rule.error_rate / 2.0)
     found: dict[str, int | None] = {}
     for place, one in enumerate(evidence.observed):
         for at, threshold in one.thresholds.items():

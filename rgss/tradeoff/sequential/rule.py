@@ -15,8 +15,8 @@ class SequentialRule:
     """Stopping rule of sequential replication.
 
     Attributes:
-        error_rate: α: probability that the decision is called decided and is wrong; and, of each
-            verdict that is not inconclusive, that it is wrong.
+        error_rate: α: probability that the decision is called decided and is wrong. Replicates are added for a
+            verdict until it would be wrong with a probability of at most α/2.
         margin: Difference of value that is practically none: the indifference zone.
         slack: Share of a threshold by which it may be missed without an effect on the decision.
         pilot: Replicates that every alternative gets.

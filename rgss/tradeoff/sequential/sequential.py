@@ -27,14 +27,13 @@ from enum import Enum
 
 import numpy as np
 
-from rgss.measures import Verdict
 from rgss.tradeoff.problem import surpassed_equals
 from rgss.tradeoff.sequential.allocation import leaders, levelled, likely_better, raised_together
 from rgss.tradeoff.sequential.elimination import eliminated, highest_rows, rivals_after_pilot
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.rule import SequentialRule, affordable_replicates, check_pilot
+from rgss.tradeoff.sequential.settled_thresholds import has_open_threshold, settled_thresholds
 from rgss.tradeoff.sequential.settling import INFEASIBLE, Progress, is_accepted, unsettled
-from rgss.tradeoff.sequential.verdicts import has_open_threshold, settled_thresholds, verdicts_of
 
 
 class Reason(str, Enum):
@@ -70,7 +69,6 @@ class Decided:
         variant: The alternative that is chosen; None if none meets every requirement.
         contenders: The alternatives that may be the best; if it is decided, those that the choice
             may fall short of, by less than the margin.
-        verdicts: By alternative, the verdict on each requirement.
         progress: Results of the looks.
         unsettled: The alternatives that may be worth more than the choice by the margin.
     """
@@ -78,7 +76,6 @@ class Decided:
     reason: Reason
     variant: int | None
     contenders: tuple[int, ...]
-    verdicts: Mapping[int, Mapping[str, Verdict]] = field(hash=False)
     progress: Progress
     unsettled: frozenset[int] = frozenset()
 
@@ -126,7 +123,6 @@ def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
         reason=Reason.DECIDED if decided else ended,
         variant=chosen,
         contenders=contenders,
-        verdicts=verdicts_of(evidence, progress),
         progress=progress,
         unsettled=frozenset() if decided else open_pairs,
     )

@@ -13,8 +13,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.measures import UNSEEN_FACTOR
-
 PRIOR_REPLICATES = 4.0
 """Weight of the prior in Student's mixture: an effect of half a standard deviation is expected."""
 
@@ -26,40 +24,6 @@ those of designs that share their executions do not.
 """
 
 _BISECTIONS = 50
-
-_STEP_OF_BETS = math.sqrt(2.0)
-_BETS_BELOW = 24
-_CENTRAL_BET = 0.125
-
-
-def proportion_evidence(successes: int, trials: int, limit: float, *, above: bool) -> float:
-    """Logarithm of the evidence that a success probability lies above, or below, a limit.
-
-    The likelihood ratio against the limit, mixed over the probabilities on the other side with
-    Jeffreys's prior (Robbins, "Statistical methods related to the law of the iterated logarithm",
-    1970). Every term of the mixture is a supermartingale for each probability of the hypothesis,
-    because the likelihood ratio of a Bernoulli variable is monotone.
-
-    Args:
-        successes: Number of trials that succeeded.
-        trials: Number of trials.
-        limit: The limit.
-        above: Whether the hypothesis that is to be rejected is "at most the limit"; "at least" otherwise.
-    """
-    if not above:
-        return proportion_evidence(trials - successes, trials, 1.0 - limit, above=True)
-    if limit >= 1.0:
-        return -math.inf
-    if limit <= 0.0:
-        return math.inf if successes else 0.0
-    from scipy.special import betainc, betaln
-
-    posterior = betainc(trials - successes + 0.5, successes + 0.5, 1.0 - limit)
-    if posterior <= 0.0:
-        return -math.inf
-    prior = betainc(0.5, 0.5, 1.0 - limit)
-    mixture = betaln(successes + 0.5, trials - successes + 0.5) - betaln(0.5, 0.5) + math.log(posterior / prior)
-    return float(mixture - successes * math.log(limit) - (trials - successes) * math.log1p(-limit))
 
 
 def mean_evidence(values: NDArray[np.float64], limit: float, *, above: bool) -> float:
@@ -76,7 +40,7 @@ def mean_evidence(values: NDArray[np.float64], limit: float, *, above: bool) -> 
     Args:
         values: The values, shape (n,).
         limit: The limit.
-        above: As for `proportion_evidence`.
+        above: As for `rgss.measures.proportion_evidence`.
     """
     count = len(values)
     if count < 2:
@@ -87,54 +51,6 @@ def mean_evidence(values: NDArray[np.float64], limit: float, *, above: bool) -> 
         return -math.inf
     spread = float(np.square(values - mean).sum())
     return _student_evidence(count, distance, spread)
-
-
-def bounded_mean_evidence(
-    values: NDArray[np.float64], limit: float, *, above: bool, least: float = -math.inf, most: float = math.inf
-) -> float:
-    """Logarithm of the evidence that a mean lies above, or below, a limit, for any distribution between bounds.
-
-    Against a mean of at least m a gambler bets that the values are smaller: the wealth ``Π (1 + f (m - x))`` is a
-    supermartingale for any bet f from 0 to 1/(b - m), where b is the upper bound (Waudby-Smith and Ramdas, "Estimating
-    means of bounded random variables by betting", 2024). It is spread over bets whose ratio is √2. The other side is
-    mirrored.
-
-    Without a bound on the side that the hypothesis allows, unobserved values are assumed to be at most `UNSEEN_FACTOR`
-    times the mean of the observed ones in absolute value, as for the intervals of `rgss.measures.mean_limits`. The bets
-    are then shares of 1/m, independent of the values, and those that the assumed bound does not allow count as
-    lost: what remains is at most a supermartingale while the assumption holds.
-
-    Args:
-        values: The values, shape (n,).
-        limit: The limit.
-        above: As for `proportion_evidence`.
-        least: The least possible value; minus infinity if unknown.
-        most: The greatest possible value; infinity if unknown.
-    """
-    if above:
-        return bounded_mean_evidence(-values, -limit, above=False, least=-most, most=-least)
-    count = len(values)
-    stated = math.isfinite(most) and not (count and float(values.max()) > most)
-    if count < 2 and not (count and stated):
-        return -math.inf
-    top = most if stated else max(float(values.max()), UNSEEN_FACTOR * math.fsum(abs(values)) / count)
-    room = top - limit
-    if room <= 0.0:
-        return math.inf if float(values.min()) < limit else -math.inf
-    reach = _BETS_BELOW if stated else 2 * _BETS_BELOW
-    places = np.arange(0 if stated else -reach, reach + 1, dtype=np.float64)
-    largest = 1.0 / room if stated else _CENTRAL_BET / (abs(limit) or 1.0)
-    parts = _STEP_OF_BETS ** -np.abs(places)
-    bets = largest * _STEP_OF_BETS**-places
-    allowed = bets * room <= 1.0 if not stated else np.ones(len(bets), dtype=np.bool_)
-    with np.errstate(divide="ignore"):
-        # Of the largest bet a value at the bound takes all, but for rounding.
-        wealth = np.log1p(np.maximum(np.outer(bets[allowed], limit - values), -1.0)).sum(axis=1)
-        wealth += np.log(parts[allowed] / parts.sum())
-    greatest = float(wealth.max(initial=-math.inf))
-    if not math.isfinite(greatest):
-        return greatest
-    return greatest + math.log(math.fsum(np.exp(wealth - greatest)))
 
 
 def mean_above(values: NDArray[np.float64], level: float) -> float:

@@ -45,7 +45,7 @@ def test_the_decision_reads_all_and_says_so(rgss, folder):
     assert (
         lines[2] == "Effects of levels are of the 3 seeds that all variants have; '--replicates 3' reads these alone."
     )
-    assert lines[3].startswith("Replicates were added where the decision was open: intervals and verdicts are those")
+    assert lines[3].startswith("Replicates were added where the decision was open; intervals and verdicts allow for it")
     assert "not computed" not in told.output
 
 

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.measures import Verdict
 from rgss.tradeoff import Alternative, ChanceBound, Comparison, Lexicographic
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.forecasting import forecast
@@ -79,8 +78,7 @@ def test_the_better_one_is_chosen_and_the_hopeless_get_few(replicate):
     assert 2 in answer.contenders
     assert answer.progress.dropped[3] == "infeasible"
     assert counts[3] < counts[2] < RULE.cap
-    assert answer.verdicts[3] == {"R-1": Verdict.NOT_MET}
-    assert answer.verdicts[2] == {"R-1": Verdict.MET}
+    assert (answer.progress.settled[3, 0], answer.progress.settled[2, 0]) == (False, True)
 
 
 def test_exact_ties_end_at_the_cap_with_the_smallest_id(replicate):
@@ -260,19 +258,19 @@ def test_the_same_evidence_gives_the_same_answer(replicate):
 
 def test_decisions_and_verdicts_are_wrong_at_most_as_often_as_stated(replicate):
     # Variant 2 would be worth more, but succeeds just too seldom for the slack; 3 lacks more than the margin.
-    wrong = verdicts = wrong_verdicts = 0
+    wrong = told = wrongly_told = 0
     runs = 60
     for seed in range(runs):
         rows = drawn({1: 0.98, 2: 0.8, 3: 0.98}, seed=seed)
         answer, _, _ = replicate(rows, {1: 0.6, 2: 0.9, 3: 0.4})
         wrong += answer.reason is Reason.DECIDED and answer.variant != 1
         for variant, met in ((1, True), (2, False), (3, True)):
-            verdict = answer.verdicts[variant]["R-1"]
-            verdicts += verdict is not Verdict.INCONCLUSIVE
-            wrong_verdicts += verdict is (Verdict.NOT_MET if met else Verdict.MET)
+            settled = answer.progress.settled.get((variant, 0))
+            told += settled is not None
+            wrongly_told += settled is (not met)
     assert wrong <= 0.05 * runs
-    assert verdicts > runs
-    assert wrong_verdicts <= 0.05 * verdicts
+    assert told > runs
+    assert wrongly_told <= 0.05 * told
 
 
 def test_the_probability_is_that_of_a_population_of_two_betas(evidence_of):

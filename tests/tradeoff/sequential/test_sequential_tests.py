@@ -6,13 +6,12 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
+from rgss.measures import bounded_mean_evidence, proportion_evidence
 from rgss.measures.mean_limits import mean_limits
 from rgss.tradeoff.sequential.tests import (
-    bounded_mean_evidence,
     difference_above,
     mean_above,
     mean_evidence,
-    proportion_evidence,
 )
 
 

@@ -1,11 +1,9 @@
-"""Verdicts on requirements under replication: thresholds that are settled, and those still open."""
+"""Thresholds that are settled under replication, and those still open."""
 
 from __future__ import annotations
 
 import math
 
-from rgss.measures import Verdict
-from rgss.tradeoff.problem import EVIDENCE_PREFIX
 from rgss.tradeoff.sequential.comparison import verdict_evidence
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.rule import SequentialRule
@@ -17,13 +15,16 @@ def settled_thresholds(
 ) -> dict[tuple[int, int], bool]:
     """Thresholds that are proven to be met or violated, by alternative and place; those of earlier looks remain.
 
+    As of an interval each side is allowed half of the error rate, so that at 5 % a threshold is settled where the
+    intervals of 95 % that hold over all looks decide it.
+
     Args:
         evidence: The evidence so far.
         rule: The rule.
         progress: Results of earlier looks.
     """
     settled = dict(progress.settled)
-    needed = math.log(1.0 / rule.error_rate)
+    needed = math.log(2.0 / rule.error_rate)
     for one in evidence.observed:
         for place, threshold in one.thresholds.items():
             for row, variant in enumerate(evidence.table.variants.tolist()):
@@ -45,34 +46,3 @@ def has_open_threshold(evidence: SequentialEvidence, progress: Progress, row: in
     """
     variant = int(evidence.table.variants[row])
     return any((variant, place) not in progress.settled for one in evidence.observed for place in one.thresholds)
-
-
-def verdicts_of(evidence: SequentialEvidence, progress: Progress) -> dict[int, dict[str, Verdict]]:
-    """Verdict of each alternative on each requirement; inconclusive where a threshold is not settled.
-
-    Args:
-        evidence: The evidence.
-        progress: Results of the looks.
-    """
-    observed = {place for one in evidence.observed for place in one.thresholds}
-    verdicts: dict[int, dict[str, Verdict]] = {}
-    for variant in evidence.table.variants.tolist():
-        alternative = evidence.table[evidence.table.row_of(variant)]
-        answers: dict[str, list[bool | None]] = {}
-        for place, threshold in enumerate(evidence.thresholds):
-            answer = progress.settled.get((variant, place))
-            if place not in observed:
-                answer = threshold.is_met_by(threshold.statistic(alternative))
-            answers.setdefault(threshold.requirement, []).append(answer)
-        verdicts[variant] = {
-            requirement: _verdict(each)
-            for requirement, each in answers.items()
-            if not requirement.startswith(EVIDENCE_PREFIX)
-        }
-    return verdicts
-
-
-def _verdict(answers: list[bool | None]) -> Verdict:
-    if False in answers:
-        return Verdict.NOT_MET
-    return Verdict.INCONCLUSIVE if None in answers else Verdict.MET
