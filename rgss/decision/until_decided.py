@@ -161,10 +161,24 @@ def trial_twins(project: Project, variants: Sequence[DesignVariant]) -> Mapping[
     Returns:
         By variant, the first variant with the same trials.
     """
-    first: dict[str, int] = {}
+    first: dict[object, int] = {}
     found = {}
+    # What a measure takes from the design beside the trials separates designs whose trials are the same.
+    measures = project.measures
+    observed = {one.id for one in measures.inputs if one.from_trial}
+    beside = sorted(
+        {
+            one.source
+            for used in measures.used.values()
+            if used & observed
+            for one in measures.inputs
+            if one.id in used and not one.from_trial
+        }
+    )
+    fixed = {one.id: sources(one) for one in variants}
     for spec in trial_specs(project, variants=variants, seeds=[project.study.seed]):
-        found[spec.variant] = first.setdefault(key_of(replace(spec, variant=0)), spec.variant)
+        design = tuple(fixed[spec.variant].get(source) for source in beside)
+        found[spec.variant] = first.setdefault((key_of(replace(spec, variant=0)), design), spec.variant)
     return found
 
 

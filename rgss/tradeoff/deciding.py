@@ -90,7 +90,7 @@ def decide(
     ranking = rank(enumeration, ties)
     chosen = ties[0] if ties else None
     runner_up = find_runner_up(enumeration, ranking, ties)
-    better, deciding_requirements, better_count = excluded_better(enumeration)
+    better, deciding_requirements, better_count = excluded_better(problem, enumeration)
     return Decision(
         program=problem.program.name,
         objectives=enumeration.ordering.objectives,

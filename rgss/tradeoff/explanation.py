@@ -9,6 +9,10 @@ import numpy as np
 from rgss.tradeoff.decision import LONGEST_LIST, Contribution, FlatMeasure, InfeasibleAlternative, RankedAlternative
 from rgss.tradeoff.infeasibility import RequirementCount, excluded_counts
 from rgss.tradeoff.problem import surpassed_equals
+from rgss.tradeoff.programs import AdditiveValue, Tchebycheff
+from rgss.tradeoff.programs.program_orderings import orderings_of
+
+_MOST_COMPARED = 10_000_000
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -70,7 +74,7 @@ def infeasible_alternatives(enumeration: Enumeration) -> tuple[InfeasibleAlterna
 
 
 def excluded_better(
-    enumeration: Enumeration,
+    problem: TradeProblem, enumeration: Enumeration
 ) -> tuple[tuple[InfeasibleAlternative, ...], tuple[RequirementCount, ...], int]:
     """Alternatives preferred to the best feasible one, with the demands that exclude them.
 
@@ -78,21 +82,45 @@ def excluded_better(
     is better.
 
     Args:
+        problem: The trade-off.
         enumeration: Every alternative evaluated.
 
     Returns:
-        The alternatives by falling weighted value; the demands that exclude at least one of them,
+        The alternatives by descending weighted value; the demands that exclude at least one of them,
         with the number; how many alternatives there are in all. Empty if nothing is feasible.
     """
     best = enumeration.best_row
     if best is None:
         return (), (), 0
     better = ~enumeration.feasible & enumeration.ordering.beats(best)
+    if not isinstance(problem.program, (AdditiveValue, Tchebycheff)):
+        better = _chosen_if_allowed(problem, enumeration, best)
     rows = np.flatnonzero(better)
     order = rows[np.lexsort((rows, -enumeration.values[rows]))][:LONGEST_LIST]
     alternatives = tuple(_infeasible(enumeration, int(enumeration.variants[row])) for row in order)
     counts = tuple(count for count in excluded_counts(enumeration, better) if count.excluded)
     return alternatives, counts, len(rows)
+
+
+def _chosen_if_allowed(problem: TradeProblem, enumeration: Enumeration, best: int) -> NDArray[np.bool_]:
+    """Mask of the infeasible alternatives that the program would choose if each alone were feasible too.
+
+    Regrets and tolerances are relative to the best of all feasible alternatives, so that comparing two does not tell.
+    Of too many alternatives those come first that are preferred when two are compared, then those of the highest value.
+    """
+    preferred = enumeration.ordering.beats(best)
+    orders = orderings_of(problem.program, problem, enumeration.table)
+    found = np.zeros(len(preferred), dtype=np.bool_)
+    rows = np.flatnonzero(~enumeration.feasible)
+    rows = rows[np.lexsort((rows, -enumeration.values[rows], ~preferred[rows]))]
+    for row in rows[: max(1, _MOST_COMPARED // len(found))]:
+        if not np.isfinite(enumeration.ordering.at(int(row))).all():
+            continue
+        among = enumeration.feasible.copy()
+        among[row] = True
+        tied = orders(among).best(among)
+        found[row] = tied[row] and not tied[best]
+    return found
 
 
 def contributions(problem: TradeProblem, enumeration: Enumeration, variant: int | None) -> tuple[Contribution, ...]:

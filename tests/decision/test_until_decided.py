@@ -6,7 +6,9 @@ import random
 import pytest
 
 from rgss.assessment import measure_variants
-from rgss.decision.until_decided import replicate_until_decided
+from rgss.decision import until_decided
+from rgss.decision.until_decided import replicate_until_decided, trial_twins
+from rgss.designs import sources
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.reports.decision.until_decided import until_decided_summary
@@ -111,3 +113,19 @@ def test_a_sweep_that_is_interrupted_goes_on_to_the_same_end(shipped, tmp_path, 
 def test_trials_that_were_not_run_are_told(shipped, store):
     with pytest.raises(EvidenceError, match="the trial of variant 1 with seed 1 was not run"):
         replicate_until_decided(shipped, store, lambda specs: None, rule=RULE)
+
+
+def test_variants_of_equal_trials_are_apart_if_a_measure_of_trials_takes_something_from_the_design(
+    shipped, monkeypatch
+):
+    """If trials were the same for all, the simulated payload would still depend on the hand, the time on the speed."""
+    monkeypatch.setattr(until_decided, "key_of", lambda spec: "the same")
+    variants = shipped.designs.expand()
+    twins = trial_twins(shipped, variants)
+    alike = {}
+    for one in variants:
+        values = sources(one)
+        alike.setdefault(tuple(values[f"design.{name}"] for name in ("d1", "d2", "d3", "d7")), set()).add(one.id)
+    assert {frozenset(ids) for ids in alike.values()} == {
+        frozenset(one for one in twins if twins[one] == first) for first in set(twins.values())
+    }

@@ -113,6 +113,9 @@ def _anchors(standings: Standings, book: RangeBook) -> Iterator[UncertainInput]:
                 continue
             name = f"value.{valued.measure}.{key}"
             low, high, basis = book.range_of(name, unit, anchor, spread, least=least)
+            standing = standings.with_anchor(valued, key)
+            if basis is RangeBasis.SHARE:
+                low, high = (_nearest_defined(standing, anchor, end) for end in (low, high))
             yield UncertainInput(
                 id=name,
                 kind=InputKind.ANCHOR,
@@ -121,7 +124,7 @@ def _anchors(standings: Standings, book: RangeBook) -> Iterator[UncertainInput]:
                 low=low,
                 high=high,
                 basis=basis,
-                standing=standings.with_anchor(valued, key),
+                standing=standing,
                 search=FlipSearch.SCANNED,
                 exact=False,
             )

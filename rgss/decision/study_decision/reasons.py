@@ -51,9 +51,10 @@ def gains_over_runner_up(decision: Decision) -> tuple[Gain, ...]:
         decision: The decision.
 
     Returns:
-        A gain for each weighted measure; none if nothing is chosen, or there is no runner-up.
+        A gain for each weighted measure; none if nothing is chosen, there is no runner-up, or the program chooses by
+        something else than the weighted value.
     """
-    if decision.runner_up is None or not decision.runner_up_contributions:
+    if decision.program != "additive" or decision.runner_up is None or not decision.runner_up_contributions:
         return ()
     pairs = zip(decision.chosen_contributions, decision.runner_up_contributions, strict=True)
     return tuple(Gain(measure=one.measure, amount=one.contribution - other.contribution) for one, other in pairs)

@@ -21,7 +21,7 @@ from rgss.reports.decision.conclusion import (
 )
 from rgss.reports.decision.sensitivity_sentences import tied_by_weights_sentence
 from rgss.reports.decision.words import UNKNOWN, amount, basis_text, ids_text, moves_text, score, variants_text
-from rgss.trace.views import share_in_words
+from rgss.trace.views import share_in_words, value_in_words
 
 BEGIN = "<!-- decision: written by `rgss trade --section --into FILE`; do not edit -->"
 END = "<!-- end of decision -->"
@@ -40,7 +40,7 @@ def decision_section(made: StudyDecision) -> str:
         parts += [f"No variant of study `{made.study}` meets every requirement by its {basis}.", ""]
     elif found is not None:
         parts += [*_choice(made, made.comparison), ""]
-        parts += [*_deciding(made, found), ""]
+        parts += [*_deciding(made, made.comparison, found), ""]
         parts += [*_costs(found), ""]
     if made.assumptions:
         parts += [*_assumptions(made), ""]
@@ -118,20 +118,29 @@ def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:
         cells = [UNKNOWN if value is None else amount(value, row.unit) for value in row.cells]
         yield f"| `{row.measure}` | {row.weight:.2f} | {' | '.join(cells)} |"
     yield f"| **value** | | {' | '.join(map(score, compared.values))} |"
+    for one in compared.objectives:
+        yield f"| **{one.place}. {one.name}** | | {' | '.join(map(value_in_words, one.cells))} |"
 
 
 def _parameter(value: float | str, unit: str) -> str:
     return value if isinstance(value, str) else f"{value:g}{'' if unit in ('', '1') else f' {unit}'}"
 
 
-def _deciding(made: StudyDecision, found: RobustnessFindings) -> Iterator[str]:
-    decision = made.decision
+def _lead(made: StudyDecision, compared: SideBySide) -> str:
+    """Sentence on the lead over the runner-up, in what the program decides by."""
+    if compared.objectives:
+        rows = [(row.name, [value_in_words(cell) for cell in row.cells]) for row in compared.objectives]
+        parts = [f"`{name}` {cells[0]}" + "".join(f" (runner-up {each})" for each in cells[1:]) for name, cells in rows]
+        return f"The objectives of the program, in turn: {', '.join(parts)}."
     gains = sorted((gain.amount, gain.measure) for gain in made.gains)
     ahead = ", ".join(f"`{measure}` ({gain:+.3f})" for gain, measure in reversed(gains) if gain > 5e-4)
     behind = ", ".join(f"`{measure}` ({gain:+.3f})" for gain, measure in gains if gain < -5e-4)
-    yield (
-        f"*What decides it.* Against the runner-up it gains in {ahead or 'nothing'} and loses in {behind or 'nothing'}."
-    )
+    return f"Against the runner-up it gains in {ahead or 'nothing'} and loses in {behind or 'nothing'}."
+
+
+def _deciding(made: StudyDecision, compared: SideBySide, found: RobustnessFindings) -> Iterator[str]:
+    decision = made.decision
+    yield f"*What decides it.* {_lead(made, compared)}"
     if decision.excluded_better:
         requirements = ", ".join(f"{one.requirement} ({one.excluded})" for one in decision.deciding_requirements)
         better = decision.counts.excluded_better

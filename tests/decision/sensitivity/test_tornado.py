@@ -287,3 +287,15 @@ def test_of_another_program_nothing_is_analysed(analysed):
     assert found.tornado is None
     assert found.kept is None
     assert found.refused == "the lexicographic program does not choose by weighted value"
+
+
+@pytest.mark.parametrize("point", ["halfway: 28.5 s", "halfway: 8.2 s", "steepest: 28.5 s"])
+def test_a_point_between_the_ends_stays_between_them(analysed, point):
+    """A tenth of it leads beyond an end, where the function is not defined."""
+    choice = [line for line in CHOICE if "t_e_simulated" not in line]
+    _, _, found = analysed(
+        choice=[*choice, f"  - {{measure: t_e_simulated, weight: 0.3, worst: 30 s, best: 8 s, {point}}}"]
+    )
+    key = point.partition(":")[0]
+    (bar,) = [bar for bar in found.tornado.bars if bar.id == f"value.t_e_simulated.{key}"]
+    assert 8.0 < bar.low.value < bar.base < bar.high.value < 30.0
