@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.tradeoff.problem.alternatives import Array
+from rgss.tradeoff.problem.noise_widths import noise_widths
 from rgss.tradeoff.problem.population import drawn_with_population, joint_draws
 from rgss.tradeoff.problem.proportion_population import proportion_population
 
@@ -154,7 +155,7 @@ def _own_share(noise: Array, known: NDArray[np.bool_]) -> float:
 
 
 def _means(values: Array, levels: NDArray[np.intp] | None, shared: Array, generator: np.random.Generator) -> Array:
-    """Draws of means, by pivots with pooled noise, shrunk to the population as far as the noise requires.
+    """Draws of means, by pivots with noise of pooled form and own width, shrunk to the population.
 
     Where all values are positive noise is a factor and the population is one of logarithms.
     """
@@ -170,17 +171,18 @@ def _means(values: Array, levels: NDArray[np.intp] | None, shared: Array, genera
     means = np.where(there, some, 0.0).sum(axis=1) / counts
     noise = np.where(there, some / means[:, None] - 1.0 if positive else some - means[:, None], 0.0)
     _, first, group = np.unique(_same_rows(some), return_index=True, return_inverse=True)
-    pool = _pooled_noise(noise[first], there[first], counts[first])
+    widths = noise_widths(noise, counts, first)
+    pool = _pooled_noise((noise / widths[:, None])[first], there[first], counts[first])
     scores = _scores(noise, shared[:, : values.shape[1]], group, generator)
     centres = np.log(means) if positive else means
     moved = np.empty((draws, len(rows)))
     for count in np.unique(counts):
         at = counts == count
         sums = pool[generator.integers(0, len(pool), size=(_POOL_DRAWS, int(count)))].mean(axis=1)
-        pivots = -np.log(np.maximum(1.0 + sums, _LEAST_RATIO)) if positive else -sums
-        pivots.sort()
-        # The pivot falls where the observed mean is high.
-        moved[:, at] = _at_scores(pivots, -scores[:, at])
+        sums.sort()
+        # The observed mean is high by so much; the pivot falls where it is.
+        high = widths[at] * _at_scores(sums, scores[:, at])
+        moved[:, at] = -np.log(np.maximum(1.0 + high, _LEAST_RATIO)) if positive else -high
     drawn = drawn_with_population(
         centres + moved,
         group,
@@ -193,7 +195,7 @@ def _means(values: Array, levels: NDArray[np.intp] | None, shared: Array, genera
 
 
 def _pooled_noise(noise: Array, known: NDArray[np.bool_], counts: NDArray[np.int64]) -> Array:
-    """Deviations from their means of all alternatives together, as wide as they are from the true means."""
+    """Deviations from their means in units of their widths, of all alternatives together."""
     several = counts > 1
     if not several.any():
         return np.zeros(1)
