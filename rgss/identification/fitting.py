@@ -22,6 +22,9 @@ WIDEST = 0.25
 """Half-width of an interval over its value from which a parameter counts as not determined."""
 
 MOST_AUTOCORRELATION = 0.3
+MOST_PORTMANTEAU = 60.0
+"""White residuals exceed it with a probability of 7 in a million: chi-squared with 20 degrees of freedom."""
+
 """Correlation of neighbouring residuals above which the model misses part of the motion."""
 
 _SINGULAR = 1.0e-9
@@ -68,6 +71,7 @@ class ServoFit:
         samples: Number of samples.
         autocorrelation: Correlation of neighbouring residuals; far from 0 the model misses part of the motion, and
             the intervals are widened accordingly.
+        portmanteau: Statistic of Ljung and Box of the residuals' correlations over 20 lags.
     """
 
     joint: str
@@ -76,11 +80,12 @@ class ServoFit:
     rms_rad_s: dict[str, float]
     samples: int
     autocorrelation: float
+    portmanteau: float
 
     @property
     def adequate(self) -> bool:
         """The residuals are nearly white, so that the model explains the motion and the intervals hold."""
-        return self.autocorrelation <= MOST_AUTOCORRELATION
+        return self.autocorrelation <= MOST_AUTOCORRELATION and self.portmanteau <= MOST_PORTMANTEAU
 
     def determined(self) -> dict[str, float]:
         """Values of the determined parameters by name."""
@@ -134,6 +139,7 @@ def fit_joint(recording: Recording, joint: str) -> ServoFit:
         rms_rad_s=problem.rms(found),
         samples=sum(len(each.times_s) for each in segments),
         autocorrelation=correlation,
+        portmanteau=problem.portmanteau(residuals),
     )
 
 

@@ -17,6 +17,9 @@ Array = NDArray[np.float64]
 _LONGEST_DELAY_S = 0.5
 _SEARCH_STEP_S = 1.0e-3
 _MOST_GAIN_HZ = 5.0e3
+LAGS = 20
+"""Lags over which residuals are tested for whiteness."""
+
 PARAMETER_ENDS = {
     "velocity_gain_hz": (0.01, _MOST_GAIN_HZ, 1.0),
     "position_gain_hz2": (0.0, _MOST_GAIN_HZ**2, 10.0),
@@ -129,6 +132,14 @@ class ServoProblem:
         """Correlation of neighbouring residuals."""
         total = float(np.sum(residuals**2))
         return 0.0 if total == 0.0 else float(np.sum(residuals[1:] * residuals[:-1])) / total
+
+    def portmanteau(self, residuals: Array) -> float:
+        """Statistic of Ljung and Box (1978) over `LAGS` lags: chi-squared with as many degrees if they are white."""
+        count, total = len(residuals), float(np.sum(residuals**2))
+        if total == 0.0 or count <= LAGS + 1:
+            return 0.0
+        correlations = [float(np.sum(residuals[lag:] * residuals[:-lag])) / total for lag in range(1, LAGS + 1)]
+        return count * (count + 2.0) * math.fsum(r * r / (count - k) for k, r in enumerate(correlations, start=1))
 
     def _unweighted(self, values: Array) -> tuple[Array, Array]:
         both = self._compared([values])[0]

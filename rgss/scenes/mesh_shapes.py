@@ -26,6 +26,7 @@ HULL_TOLERANCE_M = 5e-4
 MOST_VERTICES = 160
 """Greatest number of corners of a shape; the time of contact and collision checks is proportional to it."""
 
+_INSIDE = 1e-3
 _SUFFIXES = frozenset({".stl", ".obj", ".dae", ".ply"})
 _LFS_POINTER = b"version https://git-lfs.github.com/spec/"
 _STL_HEADER_BYTES, _STL_FACE_BYTES = 84, 50
@@ -277,7 +278,7 @@ def _is_closed(mesh: Any) -> bool:
 
 
 def _parts(bodies: Sequence[Any], most: int) -> list[Array]:
-    """Convex pieces of the bodies of a mesh; empty if faces without a volume are left over.
+    """Convex pieces of the bodies of a mesh; empty if faces without a volume are left over outside of them.
 
     Separate faces, such as the six of an open box, are taken for one body.
     """
@@ -285,7 +286,23 @@ def _parts(bodies: Sequence[Any], most: int) -> list[Array]:
     parts = [piece for body in solid for piece in _convex_pieces(body, most)]
     if faces is None:
         return parts
-    return [*parts, faces] if _has_volume(faces) else []
+    if _has_volume(faces):
+        return [*parts, faces]
+    return parts if _are_inside(faces, parts) else []
+
+
+def _are_inside(points: Array, parts: Sequence[Array]) -> bool:
+    """True if each point lies in the hull of a part, within a thousandth of the parts' extent."""
+    from scipy.spatial import ConvexHull
+
+    if not parts:
+        return False
+    inside = np.zeros(len(points), dtype=np.bool_)
+    for part in parts:
+        planes = ConvexHull(part).equations
+        room = _INSIDE * float(np.ptp(part, axis=0).max())
+        inside |= (points @ planes[:, :3].T + planes[:, 3] <= room).all(axis=1)
+    return bool(inside.all())
 
 
 def _bodies_and_faces(bodies: Sequence[Any]) -> tuple[list[Any], Array | None]:

@@ -106,6 +106,21 @@ def test_motion_that_the_model_misses_is_reported():
     assert not fit.adequate
 
 
+@pytest.mark.parametrize(("wave", "adequate"), [(0.0, True), (0.004, False)])
+def test_a_slow_deviation_within_the_noise_is_reported(wave, adequate):
+    """Neighbouring residuals correlate by less than 0.1 only, but those far apart do too."""
+    generator = np.random.default_rng(4)
+    motions = []
+    for times_s, target, speeds, q, v in motions_of(JointServo(velocity_gain_hz=60, coulomb_rad_s2=0.5), (0.5, 1.0)):
+        measured = v + 0.01 * generator.standard_normal(len(v)) + wave * np.sin(12.0 * times_s)
+        motions.append((times_s, target, speeds, q, measured))
+
+    fit = fit_joint(recording_of(motions), "j1")
+
+    assert abs(fit.autocorrelation) < 0.2
+    assert fit.adequate is adequate
+
+
 def test_a_joint_that_never_moves_is_refused():
     with pytest.raises(DefinitionError, match="no motion of joint 'j2'"):
         fit_joint(recording_of(motions_of(SERVO, (0.5,))), "j2")

@@ -106,6 +106,16 @@ def test_faces_without_a_volume_beside_a_body_are_within_its_shapes(saved):
     assert [np.round(np.max(part, axis=0), 6).tolist() for part in parts] == [[0.1, 0.05, 0.03], [0.4, 0.1, 0.05]]
 
 
+def test_a_loose_face_on_a_body_does_not_replace_its_pieces_by_one_hull(saved):
+    """A flat patch, as modellers leave one on a wall, adds nothing beyond the bodies."""
+    left, right = trimesh.creation.box((0.1, 0.1, 0.1)), trimesh.creation.box((0.1, 0.1, 0.1))
+    right.apply_translation((0.5, 0.0, 0.0))
+    patch = trimesh.Trimesh([(0.05, -0.02, -0.02), (0.05, 0.02, -0.02), (0.05, 0.0, 0.02)], [(0, 1, 2)], process=False)
+    parts = shapes(saved(trimesh.util.concatenate([left, right, patch])), CollisionShapes.DECOMPOSE)
+    assert [len(each) for each in parts] == [8, 8]
+    assert sum(ConvexHull(each).volume for each in parts) == pytest.approx(2e-3, rel=1e-3)
+
+
 def test_what_a_mesh_is(saved):
     found = mesh_summary(saved(trimesh.creation.box((0.2, 0.1, 0.06))))
     assert (found.is_closed, found.bodies) == (True, 1)

@@ -13,7 +13,10 @@ from rgss.errors import DefinitionError, DriverError
 
 if TYPE_CHECKING:
     from rgss.drivers import Driver, Rehearsal, RobotLimits, StreamClock, StreamResult, TimedTask
+    from rgss.scenes import Robot
     from rgss.trials import TrialSpec
+
+_JOINTS_OF_DRIVERS = {"ur": (6, 6), "xarm": (5, 7)}
 
 
 def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
@@ -27,7 +30,7 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
         0 if the rehearsal or the run is complete, 130 if it was interrupted, 3 if it ended otherwise.
 
     Raises:
-        DefinitionError: The folder of the recording does not exist.
+        DefinitionError: The folder of the recording does not exist, or the driver has no arms with such joints.
         DriverError: The task was refused, or the robot cannot be connected.
         MotionError: A move was not planned or timed.
     """
@@ -43,6 +46,7 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
     if options.recording is not None and not options.recording.absolute().parent.is_dir():
         raise DefinitionError(f"{options.recording} cannot be written: there is no such folder", hint="create it")
     cell = cell_of(spec)
+    _require_drivable(options.driver, cell.scene.robot)
     plan = plan_of(spec)
     task = timed_task(spec, plan, timing_of(spec, plan))
     limits = limits_of(cell.scene.robot.joints, tool_speed_m_s=conditions_of(spec).tool_speed_m_s)
@@ -74,6 +78,27 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
     if result.outcome is StreamOutcome.COMPLETED:
         return CLEAN
     return INTERRUPTED if result.outcome is StreamOutcome.INTERRUPTED else RUN_FAILED
+
+
+def _require_drivable(driver: str, robot: Robot) -> None:
+    """Check that arms of a driver have joints such as those of the robot.
+
+    Raises:
+        DefinitionError: They have another number, or none that slides.
+    """
+    from rgss.scenes import JointKind
+
+    if driver not in _JOINTS_OF_DRIVERS:
+        return
+    least, most = _JOINTS_OF_DRIVERS[driver]
+    sliding = sum(joint.kind is not JointKind.REVOLUTE for joint in robot.joints)
+    if sliding or not least <= len(robot.joints) <= most:
+        numbers = f"{least}" if least == most else f"{least} to {most}"
+        slide = f", {sliding} of which slide{'' if sliding > 1 else 's'}" if sliding else ""
+        raise DefinitionError(
+            f"driver {driver} moves arms of {numbers} joints that turn; {robot.id} has {len(robot.joints)}{slide}",
+            hint="use --driver simulated",
+        )
 
 
 def _driver(

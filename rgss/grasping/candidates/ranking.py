@@ -28,7 +28,9 @@ from rgss.scenes import (
     settled_grasp,
 )
 
-_OPEN_GAP_M = 0.002
+OPEN_GAP_M = 0.002
+"""Room that each pad needs beside the object on its way to the grasp."""
+
 _ORDER = tuple(Approach)
 
 
@@ -180,7 +182,7 @@ def _ranked(
         return _Rejected(FrameRejection.CONTACT)
     tool_in_object, patches = settled
     opening_m = max(patch.opening_m for patch in patches)
-    if opening_m > geometry.largest_opening_m - _OPEN_GAP_M:
+    if opening_m > geometry.largest_opening_m - OPEN_GAP_M:
         return _Rejected(FrameRejection.TOO_WIDE, opening_m)
     if opening_m <= geometry.largest_opening_m - geometry.stroke_m:
         return _Rejected(FrameRejection.TOO_NARROW, opening_m)

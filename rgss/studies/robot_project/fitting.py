@@ -191,7 +191,8 @@ def _points_into_arm(cell: Workcell) -> bool:
 def _overhead(robot: Robot, geometries: Sequence[GripperGeometry], size: HandSize) -> Iterator[Layout]:
     """Layouts under an arm that hangs; computed lazily."""
     samples = sampled_configurations(robot)
-    tools = np.array([Arm(replace(robot, base=Pose()), Pose()).tool_matrix(q) for q in samples])
+    arm = Arm(replace(robot, base=Pose()), Pose())
+    tools = np.array([arm.tool_matrix(q) for q in samples])
     tool_m = max(geometry.grasp_centre.position_m[2] for geometry in geometries)
     yield from overhead_layouts(tools[:, :3, 3], tools[:, :3, 2], tool_m=tool_m, scale=size.scale)
 

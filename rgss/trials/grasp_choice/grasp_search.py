@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.grasping.candidates import (
+    OPEN_GAP_M,
     FrameRejection,
     RankedGrasp,
     RankedGrasps,
@@ -127,10 +128,14 @@ class GraspSearch:
         """Width of the object, where it is nearest to what the gripper takes, and the end of the gripper's range."""
         texts = []
         for why, opening_m in self.ranked.nearest_opening_m.items():
-            is_wide = why is FrameRejection.TOO_WIDE
-            end_m = self.geometry.largest_opening_m if is_wide else self.geometry.least_opening_m
-            ends = "opens" if is_wide else "closes"
-            texts.append(f"; {2e3 * opening_m:.4g} mm across at best, and the gripper {ends} to {2e3 * end_m:.4g} mm")
+            if why is FrameRejection.TOO_WIDE:
+                end_m = self.geometry.largest_opening_m
+                gripper = (
+                    f"opens to {2e3 * end_m:.4g} mm, which leaves room for {2e3 * (end_m - OPEN_GAP_M):.4g} mm at most"
+                )
+            else:
+                gripper = f"closes to {2e3 * self.geometry.least_opening_m:.4g} mm"
+            texts.append(f"; {2e3 * opening_m:.4g} mm across at best, and the gripper {gripper}")
         return "".join(texts)
 
 

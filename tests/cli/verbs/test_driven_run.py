@@ -11,10 +11,11 @@ from dataclasses import replace
 import pytest
 
 from rgss.cli.driven import timed_task
-from rgss.cli.driven.running import _interrupt_flag, _result_as_json, _show_rehearsal, _show_result
+from rgss.cli.driven.running import _interrupt_flag, _require_drivable, _result_as_json, _show_rehearsal, _show_result
 from rgss.drivers import Estimate, GripperState, Rehearsal, RobotLimits, SetPoint, StreamOutcome, StreamResult
 from rgss.drivers.streaming import Sample
-from rgss.errors import MotionError
+from rgss.errors import DefinitionError, MotionError
+from rgss.scenes import JointKind
 from rgss.studies import load_project, trial_specs
 from rgss.trials import plan_of, timing_of
 
@@ -51,6 +52,30 @@ def test_a_real_robot_is_only_rehearsed(rgss, untouched, driver):
     as_json = rgss("run", 65, "--nominal", "--driver", driver, "--json", "--project", untouched).document
     assert as_json["outcome"] is None
     assert len(as_json["start_rad"]) == 6
+
+
+@pytest.mark.parametrize(
+    ("driver", "joints", "sliding", "told"),
+    [
+        ("ur", 6, 0, None),
+        ("xarm", 5, 0, None),
+        ("simulated", 3, 2, None),
+        ("ur", 5, 0, "driver ur moves arms of 6 joints that turn; ur10 has 5"),
+        ("ur", 6, 1, "driver ur moves arms of 6 joints that turn; ur10 has 6, 1 of which slides"),
+        ("xarm", 4, 2, "driver xarm moves arms of 5 to 7 joints that turn; ur10 has 4, 2 of which slide"),
+    ],
+)
+def test_a_driver_is_refused_for_a_robot_that_is_none_of_its_arms(shipped, driver, joints, sliding, told):
+    robot = shipped.scene.robot
+    kinds = [JointKind.PRISMATIC] * sliding + [JointKind.REVOLUTE] * (joints - sliding)
+    pairs = zip(robot.joints, kinds, strict=False)
+    robot = replace(robot, joints=tuple(replace(joint, kind=kind) for joint, kind in pairs))
+    if told is None:
+        _require_drivable(driver, robot)
+        return
+    with pytest.raises(DefinitionError) as error:
+        _require_drivable(driver, robot)
+    assert (error.value.message, error.value.hint) == (told, "use --driver simulated")
 
 
 @pytest.mark.engine

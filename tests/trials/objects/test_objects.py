@@ -126,7 +126,10 @@ def test_an_object_that_does_not_enter_the_hand_is_given_with_both_sizes(with_ob
     spec = with_object(Box(size_m=(0.2, 0.21, 0.19)))
     (problem,) = reach_problems(spec.scene, spec.gripper.geometry, clearance_m=0.005, task=spec.task, friction=0.7)
     opens_mm = 2e3 * spec.gripper.geometry.largest_opening_m
-    assert problem.detail.endswith(f"; 190 mm across at best, and the gripper opens to {opens_mm:.4g} mm")
+    assert problem.detail.endswith(
+        f"; 190 mm across at best, and the gripper opens to {opens_mm:.4g} mm, which leaves room for "
+        f"{opens_mm - 4.0:.4g} mm at most"
+    )
     assert problem.reason is None
 
 
@@ -158,7 +161,7 @@ def test_a_trial_without_a_grasp_says_why_no_candidate_can_be_carried_out(with_o
     detail = record.failure_detail
     assert re.fullmatch(
         r"no grasp candidate of \w+ can be carried out: .*too wide: \d+.*; 190 mm across at best, and the gripper "
-        r"opens to \d+ mm",
+        r"opens to \d+ mm, which leaves room for \d+ mm at most",
         detail,
     )
 
