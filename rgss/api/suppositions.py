@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from rgss.api.argument_terms import number_argument, texts_argument
 
-WhatIf = Mapping[str, float | str] | Sequence[str] | str
+WhatIf = Mapping[str, float | str | bool] | Sequence[str] | str
 """Suppositions: ``{"weight.t_p": 0.4}``, or texts as ``--what-if`` takes them."""
 
 
@@ -20,7 +20,7 @@ def suppositions_of(what_if: WhatIf) -> list[str]:
         what_if: The suppositions.
 
     Raises:
-        DefinitionError: They have another form, or a value is neither a number nor a text.
+        DefinitionError: They have another form, or a value is neither a number, a text nor a truth value.
     """
     if isinstance(what_if, str):
         return [what_if]
@@ -30,5 +30,7 @@ def suppositions_of(what_if: WhatIf) -> list[str]:
 
 
 def _value(name: str, value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
     # A plain float: the repr of a number of NumPy is a call such as `np.float64(0.4)`.
     return value if isinstance(value, str) else repr(number_argument(f"what_if: {name}", value, hint=_HINT))

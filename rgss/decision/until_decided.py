@@ -97,12 +97,13 @@ def replicate_until_decided(
 
     Raises:
         EvidenceError: The store is damaged, or trials were not run.
-        TradeoffError: The program of the trade-off has no sequential rule.
+        TradeoffError: The program of the trade-off has no sequential rule, or the budget is less than the pilot.
     """
-    from rgss.tradeoff.sequential import probability_of_good_selection
+    from rgss.tradeoff.sequential import check_pilot, probability_of_good_selection
 
     rule = rule or project.study.until_decided
     variants = project.designs.expand()
+    check_pilot(rule, len(variants))
     read = _Evidence(project, store, variants)
     wanted = {variant.id: rule.pilot for variant in variants}
     progress = Progress()

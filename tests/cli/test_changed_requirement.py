@@ -31,7 +31,8 @@ def test_every_page_counts_it_as_open(changed, rgss, monkeypatch):
     (by,) = OPEN.findall(said)
     assert "SYS-012" in by.split(", ")
     standing = next(line for line in said.splitlines() if line.startswith("Requirements of variant"))
-    assert "SYS-012 without valid evidence" in standing
+    assert "SYS-012 stale" in standing
+    assert standing.endswith("'rgss measure' says why a verdict is stale.")
     (count, named) = re.search(r"(\d+) open \(([^)]*)\)", standing).groups()
     assert len(named.split(", ")) == int(count)
 

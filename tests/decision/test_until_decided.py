@@ -9,7 +9,7 @@ from rgss.assessment import measure_variants
 from rgss.decision import until_decided
 from rgss.decision.until_decided import replicate_until_decided, trial_twins
 from rgss.designs import sources
-from rgss.errors import EvidenceError
+from rgss.errors import EvidenceError, TradeoffError
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.reports.decision.until_decided import until_decided_summary
 from rgss.studies.expansion import trial_specs
@@ -108,6 +108,13 @@ def test_a_sweep_that_is_interrupted_goes_on_to_the_same_end(shipped, tmp_path, 
         left = 1_000
         assert replicate_until_decided(shipped, other, interrupted, rule=rule) == whole
         assert {trial.key: trial.record for trial in other.all()} == records
+
+
+def test_a_budget_below_the_pilot_is_refused_before_anything_is_run(shipped, store, runner):
+    rule = dataclasses.replace(RULE, budget=72 * RULE.pilot - 1)
+    with pytest.raises(TradeoffError, match="a budget of 287 trials is less than the pilot of 4 replicates of 72"):
+        replicate_until_decided(shipped, store, runner, rule=rule)
+    assert runner.asked == []
 
 
 def test_trials_that_were_not_run_are_told(shipped, store):

@@ -12,7 +12,7 @@ import pytest
 
 from rgss.decision.sensitivity import InputKind, RangeBasis, Tornado, TornadoBar, TornadoEnd
 from rgss.reports.decision.json.sensitivity import tornado_to_json
-from rgss.reports.decision.meanings import CONFIDENCE_MEANING, FIRST_MEANING, WEIGHTS_MEANING
+from rgss.reports.decision.meanings import meanings
 from rgss.reports.decision.text.tornado import PAGE_WIDTH, tornado_lines
 from rgss.reports.decision.tornado_picture import tornado_svg
 
@@ -134,5 +134,7 @@ def test_the_document_has_no_infinite_number(tornado):
 
 
 def test_each_figure_of_acceptability_has_a_sentence():
-    for name, meaning in (("weights", WEIGHTS_MEANING), ("first", FIRST_MEANING), ("confidence", CONFIDENCE_MEANING)):
-        assert meaning.startswith(f"{name}: ")
+    for with_noise in (False, True):
+        for name, meaning in zip(("weights", "first", "confidence"), meanings(with_noise=with_noise), strict=True):
+            assert meaning.startswith(f"{name}: ")
+            assert ("noise" in meaning) == (with_noise and name == "first")

@@ -34,6 +34,7 @@ class DesignStanding:
         missed: Ids of those that are shown not to be met.
         not_run: Ids of those without valid evidence, and of those without a criterion.
         undecided: Ids of those with a criterion that are open or without evidence.
+        stale: Ids of those whose verdict is stale.
     """
 
     variant: int
@@ -42,6 +43,7 @@ class DesignStanding:
     missed: tuple[str, ...]
     not_run: tuple[str, ...]
     undecided: tuple[str, ...]
+    stale: tuple[str, ...] = ()
 
     @property
     def feasibility(self) -> Feasibility:
@@ -118,4 +120,5 @@ def _standing(project: Project, entry: VariantMeasures, unmeasured: tuple[str, .
         missed=tuple(found[Verdict.NOT_MET]),
         not_run=(*without, *unmeasured),
         undecided=(*found[Verdict.INCONCLUSIVE], *without),
+        stale=tuple(found[Verdict.STALE]),
     )

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from rgss.assessment import SeedGroup
-from rgss.decision.study_decision import Feasibility, RobustnessFindings, StudyDecision
+from rgss.decision.study_decision import DesignStanding, Feasibility, RobustnessFindings, StudyDecision
 from rgss.reports.decision.words import basis_text, count_text, variants_text
 from rgss.trace.views import share_in_words
 from rgss.tradeoff.robustness import FEWEST_AT_THRESHOLD, TIE_PROBABILITY, ChoiceUncertainty, Rival
@@ -70,14 +70,21 @@ def standing_sentence(made: StudyDecision) -> str:
     chosen = made.conclusion.chosen
     if chosen is None:
         return ""
-    open_ = [one if one in chosen.open else f"{one} without valid evidence" for one in chosen.undecided]
+    open_ = [one + _without(one, chosen) for one in chosen.undecided]
     parts = [f"{len(chosen.met)} met"]
     for named, word in ((open_, "open"), (chosen.missed, "missed")):
         parts.append(f"{len(named)} {word}" + (f" ({', '.join(named)})" if named else ""))
     return (
         f"Requirements of variant {chosen.variant}: {'; '.join(parts)}; "
         f"{len(made.conclusion.unmeasured)} decided by no measure."
+        + (" 'rgss measure' says why a verdict is stale." if chosen.stale else "")
     )
+
+
+def _without(requirement: str, chosen: DesignStanding) -> str:
+    if requirement in chosen.open:
+        return ""
+    return " stale" if requirement in chosen.stale else " without valid evidence"
 
 
 def seeds_sentences(groups: Sequence[SeedGroup]) -> Iterator[str]:

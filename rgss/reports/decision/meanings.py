@@ -2,6 +2,16 @@
 
 from __future__ import annotations
 
-WEIGHTS_MEANING = "weights: if people may weigh the measures in any way, how large a part of these ways leads here"
-FIRST_MEANING = "first: how often it would be the best if both the weights and the noise of the trials were drawn again"
-CONFIDENCE_MEANING = "confidence: with the weights that are typical for it, the probability that it is best"
+_WEIGHTS = "weights: if people may weigh the measures in any way, how large a part of these ways leads here"
+_FIRST = "first: how often it would be the best if both the weights and the noise of the trials were drawn again"
+_FIRST_WITHOUT_NOISE = "first: how often it would be the best if the weights were drawn again"
+_CONFIDENCE = "confidence: with the weights that are typical for it, the probability that it is best"
+
+
+def meanings(*, with_noise: bool) -> tuple[str, str, str]:
+    """Explanations of `weights`, `first` and `confidence`.
+
+    Args:
+        with_noise: Whether draws of `first` include the noise of the trials.
+    """
+    return _WEIGHTS, _FIRST if with_noise else _FIRST_WITHOUT_NOISE, _CONFIDENCE

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rgss.decision.robustness import not_computed_lines
 from rgss.decision.sensitivity import Sensitivity, TornadoBar, TornadoEnd
-from rgss.reports.decision.meanings import CONFIDENCE_MEANING, FIRST_MEANING, WEIGHTS_MEANING
+from rgss.reports.decision.meanings import meanings
 from rgss.reports.decision.sensitivity_sentences import (
     agreement_sentences,
     beaten_sentences,
@@ -17,11 +17,12 @@ from rgss.reports.decision.words import UNKNOWN, amount, ids_text, score, varian
 from rgss.reports.plain_numbers import Plain, plain_number
 
 
-def sensitivity_part(found: Sensitivity | None) -> Plain | None:
+def sensitivity_part(found: Sensitivity | None, *, with_noise: bool) -> Plain | None:
     """Content of the section on sensitivity, as the page writes it; None without a choice.
 
     Args:
         found: The sensitivity of the decision; None if not analysed.
+        with_noise: Whether the draws of the decision's robustness include the noise of the trials.
     """
     if found is None or found.refused:
         return None
@@ -49,7 +50,7 @@ def sensitivity_part(found: Sensitivity | None) -> Plain | None:
         ],
         "beaten": list(beaten_sentences(found)),
         "stakeholders": _stakeholders(found),
-        "meanings": [WEIGHTS_MEANING, FIRST_MEANING, CONFIDENCE_MEANING],
+        "meanings": list(meanings(with_noise=with_noise)),
         "not_computed": list(not_computed_lines(found.not_computed)),
     }
 

@@ -70,7 +70,9 @@ def report_document(
         "weights": weight_columns(project, found),
         "decision": decision_part(made),
         "conflicts": conflict_part(decision),
-        "sensitivity": sensitivity_part(made.sensitivity),
+        "sensitivity": sensitivity_part(
+            made.sensitivity, with_noise=found.weighting is not None and found.weighting.with_noise
+        ),
         "elicitation": list(elicitation_sentences(made.elicited, made.elicited_by)),
         "factors": factor_columns(measured, found.effects),
         "effects": effect_columns(found.effects),

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.sequential.forecasting import MOST_FORECAST, Forecast, forecast
     from rgss.tradeoff.sequential.probability import probability_of_good_selection
     from rgss.tradeoff.sequential.reserve import next_batch_with_reserve
-    from rgss.tradeoff.sequential.rule import SequentialRule
+    from rgss.tradeoff.sequential.rule import SequentialRule, check_pilot
     from rgss.tradeoff.sequential.sequential import Decided, Reason, next_batch
     from rgss.tradeoff.sequential.settling import Progress
 else:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from rgss.decision.robustness import Part, WeightRobustness
 from rgss.decision.study_decision import Contender, RobustnessFindings
-from rgss.reports.decision.meanings import CONFIDENCE_MEANING, FIRST_MEANING, WEIGHTS_MEANING
+from rgss.reports.decision.meanings import meanings
 from rgss.reports.decision.words import UNKNOWN, ids_text, variants_text
 from rgss.reports.plain_text import aligned_table
 from rgss.trace.views import share_in_words
@@ -94,5 +94,5 @@ def _legend(found: RobustnessFindings, weighting: WeightRobustness, indices: Acc
         yield f"feasible: probability that they meet every requirement, by {found.analysis.draws:,} posterior draws"
     yield from (
         "In other words,",
-        *(f"  {meaning}" for meaning in (WEIGHTS_MEANING, FIRST_MEANING, CONFIDENCE_MEANING)),
+        *(f"  {meaning}" for meaning in meanings(with_noise=weighting.with_noise)),
     )
