@@ -9,6 +9,7 @@ import pytest
 
 import rgss
 from rgss.api.argument_terms import TERMS, ErrorsNameArguments
+from rgss.api.suppositions import suppositions_of
 from rgss.errors import DefinitionError, DocumentError, EvidenceError
 from tests.fixtures.shipped_project import REPOSITORY
 
@@ -35,6 +36,13 @@ def test_missing_trials(swept):
         _ = study.trade().decision
     with pytest.raises(EvidenceError, match=r"call sweep\(\) first"):
         _ = study.trade().pareto
+
+
+def test_truth_values_of_suppositions_are_words():
+    assert suppositions_of({"uncertainty.nominal": True, "weight.t_p": 0.5}) == [
+        "uncertainty.nominal=true",
+        "weight.t_p=0.5",
+    ]
 
 
 def test_suppositions(study):
