@@ -9,8 +9,7 @@ import numpy as np
 from rgss.tradeoff.decision import LONGEST_LIST, Contribution, FlatMeasure, InfeasibleAlternative, RankedAlternative
 from rgss.tradeoff.infeasibility import RequirementCount, excluded_counts
 from rgss.tradeoff.problem import surpassed_equals
-from rgss.tradeoff.programs import AdditiveValue, Tchebycheff
-from rgss.tradeoff.programs.program_orderings import orderings_of
+from rgss.tradeoff.programs import AdditiveValue, Tchebycheff, orderings_of
 
 _MOST_COMPARED = 10_000_000
 
