@@ -22,10 +22,10 @@ WIDEST = 0.25
 """Half-width of an interval over its value from which a parameter counts as not determined."""
 
 MOST_AUTOCORRELATION = 0.3
+"""Correlation of neighbouring residuals above which the model misses part of the motion."""
+
 MOST_PORTMANTEAU = 60.0
 """White residuals exceed it with a probability of 7 in a million: chi-squared with 20 degrees of freedom."""
-
-"""Correlation of neighbouring residuals above which the model misses part of the motion."""
 
 _SINGULAR = 1.0e-9
 _ALIKE = 0.9

@@ -105,8 +105,10 @@ def bounded_mean_evidence(
     if stated:
         largest = min(1.0 / room, _LARGEST_BET)
     else:
-        # The assumed bound is not above the limit if all values are 0.
-        first = int(np.flatnonzero(values)[0])
+        not_zero = np.flatnonzero(values)
+        if not not_zero.size:
+            return -math.inf
+        first = int(not_zero[0])
         largest, values = min(_CENTRAL_BET / abs(float(values[first])), _LARGEST_BET), values[first + 1 :]
     parts = _STEP_OF_BETS ** -np.abs(places)
     bets = largest * _STEP_OF_BETS**-places
@@ -130,6 +132,7 @@ def anytime_proportion_limits(successes: int, trials: int, *, tail: float) -> tu
         tail: Probability with which each limit ever fails.
     """
     low = 0.0 if not successes else 1.0 - _greatest_proportion(trials - successes, trials, tail)
+    low = float(f"{low:.{_DIGITS}g}")
     return low, _greatest_proportion(successes, trials, tail)
 
 
