@@ -95,6 +95,29 @@ def test_suppositions_change_the_decision_and_keep_the_former(shipped, measured,
     assert other.what_if.before.lead == pytest.approx(sum(gain.amount for gain in made.gains))
 
 
+def test_of_another_program_the_pages_give_its_objectives_and_no_lead_in_value(shipped, measured, read_trade_off_of):
+    study = read_trade_off_of(
+        "values:",
+        "  - {measure: S, weight: 0.5, worst: 0.8, best: 1.0}",
+        "  - {measure: P_max, weight: 0.5, worst: 0.8 kg, best: 1.4 kg}",
+        "decide_by: {program: lexicographic, order: [{measure: t_p}, {measure: C_total}]}",
+    )
+    project = dataclasses.replace(shipped, study=study)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(robustness, "ITERATIONS", 200)
+        found = decide_study(project, measured, evidence="evidence.sqlite")
+    assert found.gains == ()
+    assert "It leads the runner-up" not in "\n".join(decision_lines(found))
+    section = decision_section(found)
+    rows = found.comparison.objectives
+    assert [row.name for row in rows] == ["t_p", "C_total"]
+    assert "*What decides it.* The objectives of the program, in turn: `t_p` " in section
+    assert section.count("| **1. t_p** | | ") == section.count("| **2. C_total** | | ") == 1
+    scenario = suppose(project, ["SYS-012.threshold=0.7 kg"])
+    other = decide_study(project, measured, evidence="evidence.sqlite", analysed=False, scenario=scenario)
+    assert other.what_if.before.lead is other.what_if.after.lead is None
+
+
 def test_a_missing_part_is_not_final(made):
     analysis = dataclasses.replace(
         made.robustness.analysis, not_computed={Part.PRICES: NotComputed(reason="no memory", remedy="")}

@@ -20,11 +20,15 @@ class InputKind(str, Enum):
 
 
 class RangeBasis(str, Enum):
-    """Source of a range: stated in the study, elicited, or a share of the value by convention."""
+    """Source of a range: stated in the study, elicited, or a share of the value by convention.
+
+    A cut share ends where a value that is anchored on the input would be undefined.
+    """
 
     STATED = "stated"
     ELICITED = "elicited"
     SHARE = "share"
+    CUT_SHARE = "cut_share"
 
 
 class FlipSearch(str, Enum):

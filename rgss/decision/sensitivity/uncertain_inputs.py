@@ -115,7 +115,7 @@ def _anchors(standings: Standings, book: RangeBook) -> Iterator[UncertainInput]:
             low, high, basis = book.range_of(name, unit, anchor, spread, least=least)
             standing = standings.with_anchor(valued, key)
             if basis is RangeBasis.SHARE:
-                low, high = (_nearest_defined(standing, anchor, end) for end in (low, high))
+                low, high, basis = _where_defined(standing, anchor, low, high)
             yield UncertainInput(
                 id=name,
                 kind=InputKind.ANCHOR,
@@ -164,7 +164,7 @@ def _thresholds(standings: Standings, book: RangeBook) -> Iterator[UncertainInpu
         low, high, basis = book.range_of(name, threshold.unit, base, spread)
         standing = standings.with_threshold(threshold.requirement)
         if moved_along and basis is RangeBasis.SHARE:
-            low, high = (_nearest_defined(standing, base, end) for end in (low, high))
+            low, high, basis = _where_defined(standing, base, low, high)
         yield UncertainInput(
             id=name,
             kind=InputKind.THRESHOLD,
@@ -178,6 +178,14 @@ def _thresholds(standings: Standings, book: RangeBook) -> Iterator[UncertainInpu
             search=FlipSearch.SCANNED if moved_along else FlipSearch.NESTED,
             exact=not moved_along,
         )
+
+
+def _where_defined(
+    standing: Callable[[float], Standing], base: float, low: float, high: float
+) -> tuple[float, float, RangeBasis]:
+    """A share of a value as a range, cut where the values that are anchored on the input are not defined."""
+    ends = (_nearest_defined(standing, base, low), _nearest_defined(standing, base, high))
+    return (*ends, RangeBasis.SHARE if ends == (low, high) else RangeBasis.CUT_SHARE)
 
 
 def _nearest_defined(standing: Callable[[float], Standing], base: float, end: float) -> float:

@@ -18,7 +18,8 @@ class DecisionSide:
     Attributes:
         decision: The decision.
         value: The value of the choice; None if unknown, or nothing is chosen.
-        lead: The lead of the choice over the runner-up in value; None if there is none.
+        lead: The lead of the choice over the runner-up in value; None if there is none, or the program chooses by
+            something else.
         estimates: The estimate of the choice in each weighted measure; None if unknown.
     """
 
@@ -76,7 +77,9 @@ def decision_side(project: Project, measured: Sequence[VariantMeasures], decisio
     return DecisionSide(
         decision=decision,
         value=best,
-        lead=None if best is None or next_best is None else best - next_best,
+        lead=best - next_best
+        if decision.program == "additive" and best is not None and next_best is not None
+        else None,
         estimates={
             measure: None if chosen is None else chosen.estimates[measure].value
             for measure in project.study.trade_off.weighting.weights

@@ -75,9 +75,11 @@ def range_sentence(tornado: Tornado) -> str:
     stated = sum(bar.basis.value == "stated" for bar in tornado.bars)
     elicited = sum(bar.basis.value == "elicited" for bar in tornado.bars)
     shares = len(tornado.bars) - stated - elicited
+    cut = [bar.id for bar in tornado.bars if bar.basis.value == "cut_share"]
+    smaller = f" Nearer, since beyond it a value function is not defined: {', '.join(cut)}." if cut else ""
     return (
         f"Of the ranges {stated} are stated, {elicited} elicited and {shares} a share of the value, which is a "
-        "convention and no evidence."
+        f"convention and no evidence.{smaller}"
     )
 
 

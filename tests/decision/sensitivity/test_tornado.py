@@ -14,6 +14,7 @@ from rgss.decision.robustness import robustness
 from rgss.decision.sensitivity import RangeBasis, analyse_sensitivity
 from rgss.decision.what_if import measured_in, suppose
 from rgss.errors import DocumentError
+from rgss.reports.decision.sensitivity_sentences import range_sentence
 from rgss.tradeoff import ExponentialValue, Weighting
 from rgss.tradeoff.programs import enumerate_alternatives
 
@@ -147,6 +148,10 @@ def test_an_end_beyond_which_no_value_is_defined_is_taken_nearer(analysed):
     (bar,) = [bar for bar in found.tornado.bars if bar.id == "SYS-004.threshold"]
     assert (bar.base, bar.high.value) == (43000.0, pytest.approx(47300.0))
     assert 39000.0 < bar.low.value < 43000.0
+    assert bar.basis is RangeBasis.CUT_SHARE
+    assert range_sentence(found.tornado).endswith(
+        "Nearer, since beyond it a value function is not defined: SYS-004.threshold."
+    )
 
 
 def test_no_time_is_negative(analysed):
