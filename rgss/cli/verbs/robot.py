@@ -65,8 +65,8 @@ def _show(summary: RobotSummary) -> None:
     print_table(["joint", "kind", "range", "speed", "effort"], rows)
     print()
     start = "middle of its region" if robot.joints[0].kind is JointKind.PRISMATIC else "first axis"
-    print(f"Reach: {summary.reach_m:.3f} m from the {start} to the flange.")
     count = len(summary.positions_m)
+    print(f"Reach: {summary.reach_m:.3f} m from the {start} to the flange, in the farthest of {count} configurations.")
     print(f"Payload by the joints' efforts, in the worst of {count} configurations: {_payload(summary.payload_kg)}.")
     if summary.convex_shapes:
         print(f"Collision meshes: {summary.convex_shapes} convex shapes stand for them.")
