@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from rgss.assessment import VariantMeasures, verdicts_on
+from rgss.assessment import VariantMeasures, requirements_with_criteria, verdicts_on
 from rgss.decision.choosing import proportion_measures, trade_problem
 from rgss.decision.level_structure import level_numbers
 from rgss.designs import DesignVariant, sources
@@ -164,23 +164,22 @@ def trial_twins(project: Project, variants: Sequence[DesignVariant]) -> Mapping[
     """
     first: dict[object, int] = {}
     found = {}
-    # What a measure takes from the design beside the trials separates designs whose trials are the same.
-    measures = project.measures
-    observed = {one.id for one in measures.inputs if one.from_trial}
-    beside = sorted(
-        {
-            one.source
-            for used in measures.used.values()
-            if used & observed
-            for one in measures.inputs
-            if one.id in used and not one.from_trial
-        }
-    )
+    beside = _design_beside_trials(project)
     fixed = {one.id: sources(one) for one in variants}
     for spec in trial_specs(project, variants=variants, seeds=[project.study.seed]):
         design = tuple(fixed[spec.variant].get(source) for source in beside)
         found[spec.variant] = first.setdefault((key_of(replace(spec, variant=0)), design), spec.variant)
     return found
+
+
+def _design_beside_trials(project: Project) -> tuple[str, ...]:
+    """Sources of the design that the decision's measures of trials use too; they separate designs of equal trials."""
+    measures = project.measures
+    deciding = {one.criterion.measure for one in requirements_with_criteria(project) if one.criterion is not None}
+    used = [measures.used[name] for name in {*deciding, *project.study.trade_off.weighting.weights}]
+    observed = {one.id for one in measures.inputs if one.from_trial}
+    beside = frozenset[str]().union(*(each for each in used if each & observed))
+    return tuple(sorted(one.source for one in measures.inputs if one.id in beside and not one.from_trial))
 
 
 class _Evidence:

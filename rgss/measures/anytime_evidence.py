@@ -23,7 +23,6 @@ _STEP_OF_BETS = math.sqrt(2.0)
 _BETS_BELOW = 24
 _CENTRAL_BET = 0.125
 _LARGEST_BET = 1e290
-_LEAST_EVIDENCE = -50.0
 _DIGITS = 9
 _MOST_STEPS = 100
 
@@ -196,10 +195,10 @@ def _crossing(height: Callable[[float], float], low: float, high: float) -> floa
 
 
 def _height(evidence: Callable[[float], float], count: int, tail: float) -> Callable[[float], float]:
-    """What falls through 0 where the evidence reaches log(1/tail); of its power, which is nearly straight."""
+    """What falls through 0 where the evidence reaches log(1/tail): powers of p-values, which are nearly straight."""
     needed = float(tail ** (1.0 / count))
 
     def height(limit: float) -> float:
-        return math.exp(-max(evidence(limit), _LEAST_EVIDENCE) / count) - needed
+        return math.exp(-max(evidence(limit), 0.0) / count) - needed
 
     return height

@@ -16,7 +16,6 @@ Pair = tuple[float, float]
 
 _DIGITS = 9
 _MOST_DOUBLINGS = 200
-_LEAST_EVIDENCE = -50.0
 
 
 def ratio_limits(
@@ -76,7 +75,7 @@ class _Test:
         if not self.over_looks:
             return tail_probability(differences, bound, 0.0) - self.tail
         evidence = bounded_mean_evidence(differences, 0.0, above=False, most=bound)
-        return math.exp(-max(evidence, _LEAST_EVIDENCE)) - self.tail
+        return math.exp(-max(evidence, 0.0)) - self.tail
 
 
 def _upper_limit(test: _Test) -> float | None:

@@ -11,12 +11,14 @@ from rgss.tradeoff.infeasibility import RequirementCount, excluded_counts
 from rgss.tradeoff.problem import surpassed_equals
 from rgss.tradeoff.programs import AdditiveValue, Tchebycheff, orderings_of
 
-_MOST_COMPARED = 10_000_000
-
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from rgss.tradeoff.programs import Enumeration, TradeProblem
+
+
+_MOST_COMPARED = 10_000_000
+"""Largest number of alternatives that are ordered in all to find those that are excluded."""
 
 
 def ordered_ties(
@@ -91,8 +93,9 @@ def excluded_better(
     best = enumeration.best_row
     if best is None:
         return (), (), 0
-    better = ~enumeration.feasible & enumeration.ordering.beats(best)
-    if not isinstance(problem.program, (AdditiveValue, Tchebycheff)):
+    if isinstance(problem.program, (AdditiveValue, Tchebycheff)):
+        better = ~enumeration.feasible & enumeration.ordering.beats(best)
+    else:
         better = _chosen_if_allowed(problem, enumeration, best)
     rows = np.flatnonzero(better)
     order = rows[np.lexsort((rows, -enumeration.values[rows]))][:LONGEST_LIST]

@@ -122,17 +122,21 @@ def test_trials_that_were_not_run_are_told(shipped, store):
         replicate_until_decided(shipped, store, lambda specs: None, rule=RULE)
 
 
+@pytest.mark.parametrize(("valued", "apart_by"), [(None, ("d7",)), ("P_max_simulated", ("d1", "d2", "d3"))])
 def test_variants_of_equal_trials_are_apart_if_a_measure_of_trials_takes_something_from_the_design(
-    shipped, monkeypatch
+    shipped, read_trade_off_of, monkeypatch, valued, apart_by
 ):
-    """If trials were the same for all, the simulated payload would still depend on the hand, the time on the speed."""
+    """If trials were the same for all, equation 4.3 would still depend on the speed, the bench on the hand."""
     monkeypatch.setattr(until_decided, "key_of", lambda spec: "the same")
-    variants = shipped.designs.expand()
-    twins = trial_twins(shipped, variants)
+    project, variants = shipped, shipped.designs.expand()
+    if valued is not None:
+        study = read_trade_off_of("values:", f"  - {{measure: {valued}, weight: 1.0, worst: 0.8 kg, best: 1.4 kg}}")
+        project = dataclasses.replace(shipped, study=study)
+    twins = trial_twins(project, variants)
     alike = {}
     for one in variants:
         values = sources(one)
-        alike.setdefault(tuple(values[f"design.{name}"] for name in ("d1", "d2", "d3", "d7")), set()).add(one.id)
+        alike.setdefault(tuple(values[f"design.{name}"] for name in apart_by), set()).add(one.id)
     assert {frozenset(ids) for ids in alike.values()} == {
         frozenset(one for one in twins if twins[one] == first) for first in set(twins.values())
     }

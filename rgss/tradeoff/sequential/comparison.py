@@ -12,11 +12,7 @@ from rgss.measures import bounded_mean_evidence, proportion_evidence
 from rgss.tradeoff.problem import Comparison, Threshold, ValueFunction
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.observed import Observed
-from rgss.tradeoff.sequential.tests import (
-    difference_above,
-    mean_above,
-    mean_evidence,
-)
+from rgss.tradeoff.sequential.tests import difference_above, mean_above, mean_evidence
 
 _STEP = 1e-6
 _PROPORTIONS, _MEANS, _THRESHOLDS = 0.6, 0.1, 0.3
