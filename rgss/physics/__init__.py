@@ -4,7 +4,7 @@ from rgss.physics.camera import VIEWS, Camera, View
 from rgss.physics.contact_world import ContactWorld
 from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.hand_view import HandView
-from rgss.physics.linkage_drive import least_iterations
+from rgss.physics.hands import least_iterations, light_fingers, light_object, passing_mass_kg
 from rgss.physics.opening import OtherEngineSettings, open_world
 from rgss.physics.rendering import Picture
 from rgss.physics.servo_loop import VelocityLoop, mean_commands

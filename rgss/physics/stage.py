@@ -15,7 +15,7 @@ from typing import Any
 
 from rgss.errors import SimulationError
 from rgss.physics.engine import load_urdf_text, open_client, pybullet
-from rgss.physics.finger_joints import finger_joint_names, finger_joint_positions
+from rgss.physics.hands import finger_joint_names, finger_joint_positions
 from rgss.physics.shape_surfaces import half_extent, half_size, object_surfaces, shape_surface
 from rgss.physics.solids import Surface, box_surface, cylinder_surface, hull_surface, mesh_surface
 from rgss.scenes import (

@@ -8,7 +8,7 @@ from dataclasses import replace
 from rgss.errors import SimulationError
 from rgss.physics.bodies import add_object
 from rgss.physics.engine import ClientOwner, load_urdf_text
-from rgss.physics.linkage_drive import LinkageDrive
+from rgss.physics.hands import LinkageDrive
 from rgss.physics.settings import PhysicsSettings
 from rgss.scenes import Gripper, Pose, Robot, Workpiece, assembled_urdf, finger_joint
 

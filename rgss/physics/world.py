@@ -19,7 +19,7 @@ from rgss.physics.contact_reader import ContactReader
 from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.engine import ClientOwner
 from rgss.physics.hand_view import HandView
-from rgss.physics.linkage_drive import LinkageDrive
+from rgss.physics.hands import LinkageDrive
 from rgss.physics.settings import PhysicsSettings
 from rgss.physics.suction_seal import SuctionSeal
 from rgss.physics.world_builder import WorldBuilder

@@ -15,7 +15,7 @@ from typing import Any
 from rgss.errors import SimulationError
 from rgss.physics.bodies import add_body, add_object, links_of
 from rgss.physics.engine import load_urdf_text
-from rgss.physics.linkage_drive import LinkageDrive, least_iterations
+from rgss.physics.hands import LinkageDrive, least_iterations
 from rgss.physics.settings import PhysicsSettings
 from rgss.physics.suction_bond import PyBulletBond
 from rgss.physics.suction_seal import SuctionSeal

@@ -18,6 +18,7 @@ from rgss.scenes.convex_shapes import (
 )
 from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
 from rgss.scenes.grasps import (
+    RIBS,
     Approach,
     ChosenGrasp,
     GivenGrasp,
@@ -54,6 +55,7 @@ from rgss.scenes.hands import (
 from rgss.scenes.link_solids import LinkSolid, link_solid
 from rgss.scenes.linkage import Linkage, LinkageMotion, motion_of
 from rgss.scenes.linkage_assembly import linkage_masses_kg
+from rgss.scenes.linkage_inertia import leading_joint, pad_mass_kg, reflected_inertias
 from rgss.scenes.looks import DrawnMesh, drawn_mesh
 from rgss.scenes.mass_properties import (
     Gyration,
@@ -76,7 +78,6 @@ from rgss.scenes.objects import (
     with_raised_stack,
 )
 from rgss.scenes.pose import Pose
-from rgss.scenes.rib_geometry import RIBS
 from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, LinkLook, Robot
 from rgss.scenes.robot_file import load_robot
 from rgss.scenes.scene import (

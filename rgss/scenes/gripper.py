@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from rgss.scenes.linkage import Linkage
+from rgss.scenes.linkage_inertia import pad_mass_kg
 from rgss.scenes.pose import Pose
 from rgss.scenes.shapes import Box, Cylinder
 
@@ -214,8 +215,14 @@ class Gripper:
 
     @property
     def driven_mass_kg(self) -> float:
-        """Mass moved by the motor of one finger: the finger and the reflected inertia of its drive."""
-        return self.finger_mass_kg + self.drive.inertia_kg
+        """Mass moved by the motor of one finger: the finger and the reflected inertia of its drive.
+
+        Of a linkage it is the equivalent mass at the pad.
+        """
+        linkage = self.geometry.linkage
+        if linkage is None:
+            return self.finger_mass_kg + self.drive.inertia_kg
+        return pad_mass_kg(linkage) * self.geometry.fingers * self.finger_mass_kg / linkage.moved_mass_kg
 
     @property
     def mass_kg(self) -> float:

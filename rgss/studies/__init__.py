@@ -10,6 +10,7 @@ if TYPE_CHECKING:
         double_counting_findings,
         draw_findings,
         impact_findings,
+        light_body_findings,
         object_limit_findings,
         strict_findings,
         task_time_findings,

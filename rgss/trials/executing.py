@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from rgss.evidence import Fidelity
-from rgss.physics import TorqueArm, open_world
+from rgss.physics import TorqueArm, open_world, passing_mass_kg
 from rgss.scenes import Gripper, Scene, Workpiece
 from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.controlled_motion import controlled_motion
@@ -124,7 +124,7 @@ def _in_contact(
     firm = physics.passing(
         force_n=gripper.finger_force_n,
         speed_m_s=gripper.finger_velocity_m_s,
-        lightest_kg=min(*(one.workpiece.mass_kg for one in scene.objects), gripper.driven_mass_kg),
+        lightest_kg=min(*(one.workpiece.mass_kg for one in scene.objects), passing_mass_kg(gripper)),
     )
     with open_world(scene, gripper, firm, joint_offsets_rad=conditions.joint_offsets_rad) as world:
         execution = Execution(

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from rgss.scenes import Box, Cylinder, Gripper, load_gripper, load_scene
 from rgss.scenes.assembly import assembled_urdf
 from rgss.scenes.grasps.pad_layout import pad_layouts
-from rgss.scenes.rib_geometry import pad_ribs
+from rgss.scenes.grasps.rib_geometry import pad_ribs
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ import numpy as np
 
 from rgss.physics.mujoco.mjcf import add_body, add_geom, add_inertial, cylinder_inertia, number
 from rgss.physics.mujoco.solids import finger_solids
-from rgss.scenes import Gripper, Linkage, PadLayout, Pose, link_names_of
+from rgss.scenes import Gripper, Linkage, PadLayout, Pose, leading_joint, link_names_of
 
 GRIPPER_BASE = "gripper_base"
 """Link, body and shape of the gripper's base."""
@@ -144,7 +144,7 @@ def add_bond(equality: ET.Element, body: str, stiffness: Mapping[str, str]) -> N
 def add_linkage_drive(
     parts: HandParts, linkage: Linkage, bodies: Mapping[str, ET.Element], *, step_s: float
 ) -> HandModel:
-    """Couple the joints of a linkage to its driven joint, and give that a motor and a range.
+    """Couple the joints of a linkage to its leading joint, give that a motor and the driven one a range.
 
     Args:
         parts: Elements to which the motor and couplings are added.
@@ -154,7 +154,8 @@ def add_linkage_drive(
     """
     names = link_names_of(linkage)
     joints = {index: f"{names[index]}_joint" for index, link in enumerate(linkage.links) if link.kind is not None}
-    driven = joints[linkage.driven]
+    leader = leading_joint(linkage)
+    leading = linkage.links[leader]
     for index, name in joints.items():
         if index == linkage.driven:
             lower, upper = sorted((linkage.opened, linkage.closed))
@@ -162,19 +163,21 @@ def add_linkage_drive(
             joint.set("range", f"{number(lower)} {number(upper)}")
             joint.set("solreflimit", parts.stiffness["solref"])
             joint.set("solimplimit", parts.stiffness["solimp"])
+        if index == leader:
             continue
         link = linkage.links[index]
+        ratio = link.multiplier / leading.multiplier
         coupling = {
             "joint1": name,
-            "joint2": driven,
-            "polycoef": f"{number(link.offset)} {number(link.multiplier)} 0 0 0",
+            "joint2": joints[leader],
+            "polycoef": f"{number(link.offset - ratio * leading.offset)} {number(ratio)} 0 0 0",
             # The shortest time constant that the engine allows.
             "solref": f"{number(2 * step_s)} 1",
             "solimp": _GEAR_IMPEDANCE,
         }
         ET.SubElement(parts.equality, "joint", coupling)
-    effort = number(linkage.effort)
-    ET.SubElement(parts.actuator, "motor", {"name": driven, "joint": driven, "forcerange": f"-{effort} {effort}"})
+    effort, name = number(linkage.effort / abs(leading.multiplier)), joints[leader]
+    ET.SubElement(parts.actuator, "motor", {"name": name, "joint": name, "forcerange": f"-{effort} {effort}"})
     return HandModel(linkage_joints=joints)
 
 

@@ -1,4 +1,4 @@
-"""Motor of a gripper's linkage in MuJoCo."""
+"""Motor of a gripper's linkage in MuJoCo, on its leading joint."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from rgss.physics.linkage_motor import motor_command
+from rgss.physics.hands import motor_command
 from rgss.physics.mujoco.engine import mujoco
-from rgss.scenes import Linkage, motion_of
+from rgss.scenes import Linkage, leading_joint, motion_of
 
 
 class MujocoLinkageDrive:
-    """Velocity control of the driven joint with a limited effort.
+    """Velocity control of the leading joint with a limited effort.
 
     In each step the effort changes by what would bring the joint to its target velocity in that step, with the inertia
     of the whole mechanism reflected to the joint. Free, the joint has its velocity at once, however light its links
@@ -32,18 +32,19 @@ class MujocoLinkageDrive:
         """
         self._model, self._data, self._linkage, self._step_s = model, data, linkage, step_s
         self._positions = {index: int(model.joint(name).qposadr[0]) for index, name in joints.items()}
-        self._driven = self._positions[linkage.driven]
-        self._speed = int(model.joint(joints[linkage.driven]).dofadr[0])
-        self._motor = int(model.actuator(joints[linkage.driven]).id)
+        leader = leading_joint(linkage)
+        self._leading, self._leader_at = linkage.links[leader], self._positions[leader]
+        self._speed = int(model.joint(joints[leader]).dofadr[0])
+        self._motor = int(model.actuator(joints[leader]).id)
         self._ratios, self._inertias = np.zeros(model.nv), np.zeros(model.nv)
         for index, name in joints.items():
-            self._ratios[int(model.joint(name).dofadr[0])] = linkage.links[index].multiplier
+            self._ratios[int(model.joint(name).dofadr[0])] = linkage.links[index].multiplier / self._leading.multiplier
         self._command, self._effort, self._speed_before = (0.0, 0.0), 0.0, 0.0
 
     @property
     def largest_error(self) -> float:
-        """Greatest deviation of a joint from its ratio to the driven joint, in rad or m."""
-        qpos, driven = self._data.qpos, float(self._data.qpos[self._driven])
+        """Greatest deviation of a joint from where the leading joint puts it, in rad or m."""
+        qpos, driven = self._data.qpos, self._driven_position
         return max(
             abs(float(qpos[at]) - self._linkage.joint_position(index, driven)) for index, at in self._positions.items()
         )
@@ -69,11 +70,12 @@ class MujocoLinkageDrive:
         data = self._data
         velocity, greatest = motor_command(
             self._linkage,
-            float(data.qpos[self._driven]),
+            self._driven_position,
             velocity_m_s=velocity_m_s,
             force_n=force_n,
             step_s=self._step_s,
         )
+        velocity, greatest = velocity * self._leading.multiplier, greatest / abs(self._leading.multiplier)
         mujoco().mj_mulM(self._model, data, self._inertias, self._ratios)
         inertia, speed = float(self._ratios @ self._inertias), float(data.qvel[self._speed])
         # The acceleration of the last step shows the other forces, which are taken to persist.
@@ -83,6 +85,11 @@ class MujocoLinkageDrive:
         data.ctrl[self._motor] = self._effort
 
     def travel_m(self) -> tuple[float, ...]:
-        """Travel of each pad from open in m, from the driven joint."""
-        travel_m = motion_of(self._linkage).travel_m(float(self._data.qpos[self._driven]))
+        """Travel of each pad from open in m, from the leading joint."""
+        travel_m = motion_of(self._linkage).travel_m(self._driven_position)
         return (travel_m,) * len(self._linkage.pads)
+
+    @property
+    def _driven_position(self) -> float:
+        """Position of the driven joint that belongs to that of the leading one."""
+        return (float(self._data.qpos[self._leader_at]) - self._leading.offset) / self._leading.multiplier

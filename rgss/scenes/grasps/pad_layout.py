@@ -12,9 +12,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from rgss.scenes.grasps.pad_contact import PadPatch, pad_patches
+from rgss.scenes.grasps.rib_geometry import RIBS, PadRibs, pad_ribs
 from rgss.scenes.gripper import GripperGeometry
 from rgss.scenes.pose import Pose
-from rgss.scenes.rib_geometry import RIBS, PadRibs, pad_ribs
 from rgss.scenes.shapes import Box, Cylinder, ObjectShape
 
 _LARGEST_RADIUS_M = 0.004

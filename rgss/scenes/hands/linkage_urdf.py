@@ -150,7 +150,10 @@ def follows(name: str, joints: Mapping[str, ET.Element]) -> tuple[float, float]:
 
 
 def _mass_problems(links: Mapping[str, ET.Element], joints: Mapping[str, ET.Element], palm: str) -> Iterable[Problem]:
-    """Rigid parts without a mass: links on fixed joints are one part with the link that carries them."""
+    """Rigid parts without a mass: links on fixed joints are one part with the link that carries them.
+
+    A moving part without a shape that carries nothing stands for the command alone, and needs none.
+    """
     fixed_to = {
         _end(joint, "child"): _end(joint, "parent") for joint in joints.values() if joint.get("type") == "fixed"
     }
@@ -161,8 +164,10 @@ def _mass_problems(links: Mapping[str, ET.Element], joints: Mapping[str, ET.Elem
             first = fixed_to[first]
             seen.add(first)
         parts.setdefault(first, []).append(link)
+    carriers = {_end(joint, "parent") for joint in joints.values() if joint.get("type") != "fixed"}
     for first, part in parts.items():
-        if not any(_has_inertia(link) for link in part):
+        acts = first == palm or any(link.find("collision") is not None or link.get("name") in carriers for link in part)
+        if acts and not any(_has_inertia(link) for link in part):
             hint = "give it an <inertial> with a mass above 0 and its moments"
             yield f"has no mass or no inertia for link {first!r}", ("description",), hint
 

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from rgss.studies.checks.double_counting import double_counting_findings
     from rgss.studies.checks.draw_check import draw_findings
     from rgss.studies.checks.impact_check import impact_findings
+    from rgss.studies.checks.light_check import light_body_findings
     from rgss.studies.checks.object_limit_check import object_limit_findings
     from rgss.studies.checks.scene_texts import OF_ONE_GRIPPER, closing_texts, instability_texts, remedy
     from rgss.studies.checks.seal_check import seal_finding, unsealed_objects

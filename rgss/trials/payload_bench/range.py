@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from rgss.errors import DefinitionError
-from rgss.physics import MOST_ITERATIONS
+from rgss.physics import MOST_ITERATIONS, passing_mass_kg
 from rgss.scenes import half_extents_m
 from rgss.trials.payload_bench.spec import BenchSpec
 
@@ -96,7 +96,7 @@ VALIDATED: tuple[ValidatedQuantity, ...] = (
         unit="",
         lowest=0.0,
         highest=MOST_ITERATIONS,
-        of=lambda spec: spec.physics.solver_iterations * spec.lightest_body_kg / spec.gripper.driven_mass_kg,
+        of=lambda spec: spec.physics.solver_iterations * spec.lightest_body_kg / passing_mass_kg(spec.gripper),
     ),
     # Below it, two ribs of a pad are too close together to prevent a rotation of the object: at 20 mm a slow heavy
     # finger with 0.5 N has an error of 4.5 %.

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field
 
 from rgss.errors import DefinitionError
-from rgss.physics import MOST_ITERATIONS, PhysicsSettings
+from rgss.physics import MOST_ITERATIONS, PhysicsSettings, light_fingers, passing_mass_kg
 from rgss.scenes import (
     FORCE_WINDOW_S,
     Cylinder,
@@ -147,7 +147,7 @@ class BenchSpec:
         return self.physics.passing(
             force_n=self.gripper.finger_force_n,
             speed_m_s=self.gripper.finger_velocity_m_s,
-            lightest_kg=min(mass_kg, self.gripper.driven_mass_kg),
+            lightest_kg=min(mass_kg, passing_mass_kg(self.gripper)),
         )
 
     @property
@@ -199,13 +199,10 @@ class BenchSpec:
                 f"got {self.settings.resolution:g}",
                 hint="give the width of the final bracket as a share of its upper end",
             )
-        lightest_kg = self._lightest_body_kg(MOST_ITERATIONS)
-        if self.gripper.suction is None and self.gripper.driven_mass_kg < lightest_kg:
-            raise DefinitionError(
-                f"fingers of {self.gripper.driven_mass_kg:g} kg are too light for the solver to press with "
-                f"{self.gripper.finger_force_n:g} N; it needs {lightest_kg:.3g} kg",
-                hint="state the drive_inertia of the fingers, or increase the physics rate",
-            )
+        light = light_fingers(self.gripper, self.physics)
+        if light is not None:
+            message, hint = light
+            raise DefinitionError(message, hint=hint)
         if self.first_kg >= self.rated_kg:
             raise DefinitionError(
                 f"the smallest mass of {self.first_kg:.3g} kg is not below the rated {self.rated_kg:g} kg",

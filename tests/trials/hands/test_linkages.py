@@ -10,7 +10,7 @@ from dataclasses import replace
 import pytest
 
 from rgss.kinematics import gripper_loads
-from rgss.physics.linkage_drive import least_iterations
+from rgss.physics.hands import least_iterations
 from rgss.scenes import LinkageMotion, assembled_urdf, at_opening, finger_pads, load_gripper_file
 from rgss.trials.payload_bench.rig import PayloadRig, probe
 from rgss.trials.second_engine import mujoco_settings

@@ -1,9 +1,10 @@
-"""Drive of a gripper's linkage in PyBullet: a motor on the driven joint, gears to the joints that follow it.
+"""Drive of a gripper's linkage in PyBullet: a motor on one joint, gears to the others.
 
 A gear of the engine holds two joints at a ratio as a constraint of the solver. Each joint is geared directly to the
-driven one: along a chain of gears errors add up and the solver converges more slowly. The gears transmit the motor's
-effort to both pads, so that a pad's force follows from the mechanism; they need more iterations of the solver than
-sliding fingers.
+leading one: along a chain of gears errors add up and the solver converges more slowly. The leading joint is the driven
+one, unless that carries next to nothing; then it is the joint that carries most, and the motor acts there with the same
+power. The gears transmit the motor's effort to both pads, so that a pad's force follows from the mechanism; they need
+more iterations of the solver than sliding fingers.
 """
 
 from __future__ import annotations
@@ -11,8 +12,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from rgss.physics.linkage_motor import motor_command
-from rgss.scenes import Linkage, link_names_of, motion_of
+from rgss.physics.hands.linkage_motor import motor_command
+from rgss.scenes import Linkage, leading_joint, link_names_of, motion_of
 
 _LEAST_ITERATIONS, _ITERATIONS_A_FOLLOWER = 600, 400
 _GEAR_FORCE = 1.0e4
@@ -28,8 +29,11 @@ def least_iterations(linkage: Linkage) -> int:
     Args:
         linkage: The mechanism.
     """
-    followers = sum(link.kind is not None for link in linkage.links) - 1
-    return max(_LEAST_ITERATIONS, _ITERATIONS_A_FOLLOWER * followers)
+    return max(_LEAST_ITERATIONS, _ITERATIONS_A_FOLLOWER * _follower_count(linkage))
+
+
+def _follower_count(linkage: Linkage) -> int:
+    return sum(link.kind is not None for link in linkage.links) - 1
 
 
 class LinkageDrive:
@@ -55,19 +59,20 @@ class LinkageDrive:
         self._joints = {
             index: joints[f"{names[index]}_joint"] for index, link in enumerate(linkage.links) if link.kind is not None
         }
-        self._driven = self._joints[linkage.driven]
+        self._leader = leading_joint(linkage)
+        self._leading, self._leading_joint = linkage.links[self._leader], self._joints[self._leader]
         self._command: tuple[float, float] | None = None
         for joint in self._joints.values():
             # The engine's default motors would brake the joints.
             engine.setJointMotorControl2(robot, joint, engine.VELOCITY_CONTROL, force=0.0, physicsClientId=client)
         for index in self._joints:
-            if index != linkage.driven:
+            if index != self._leader:
                 self._gear(index)
 
     @property
     def largest_error(self) -> float:
-        """Greatest deviation of a joint from its ratio to the driven joint, in rad or m."""
-        driven = self._position(self._driven)
+        """Greatest deviation of a joint from where the leading joint puts it, in rad or m."""
+        driven = self._driven_position
         return max(
             abs(self._position(joint) - self._linkage.joint_position(index, driven))
             for index, joint in self._joints.items()
@@ -93,14 +98,14 @@ class LinkageDrive:
         """
         self._command = None
         driven = self._motion.driven_at(travel_m)
-        for index, joint in self._joints.items() if stiff else ((self._linkage.driven, self._driven),):
+        for index, joint in self._joints.items() if stiff else ((self._leader, self._leading_joint),):
             self._engine.setJointMotorControl2(
                 self._robot,
                 joint,
                 self._engine.POSITION_CONTROL,
                 targetPosition=self._linkage.joint_position(index, driven),
                 targetVelocity=0.0,
-                force=_GEAR_FORCE if stiff else self._linkage.effort,
+                force=_GEAR_FORCE if stiff else self._linkage.effort / abs(self._leading.multiplier),
                 physicsClientId=self._client,
             )
 
@@ -121,34 +126,40 @@ class LinkageDrive:
         velocity_m_s, force_n = self._command
         velocity, effort = motor_command(
             self._linkage,
-            self._position(self._driven),
+            self._driven_position,
             velocity_m_s=velocity_m_s,
             force_n=force_n,
             step_s=self._step_s,
         )
         self._engine.setJointMotorControl2(
             self._robot,
-            self._driven,
+            self._leading_joint,
             self._engine.VELOCITY_CONTROL,
-            targetVelocity=velocity,
-            force=effort,
+            targetVelocity=velocity * self._leading.multiplier,
+            force=effort / abs(self._leading.multiplier),
             physicsClientId=self._client,
         )
 
     def travel_m(self) -> tuple[float, ...]:
-        """Travel of each pad from open in m, from the driven joint."""
-        travel_m = self._motion.travel_m(self._position(self._driven))
+        """Travel of each pad from open in m, from the leading joint."""
+        travel_m = self._motion.travel_m(self._driven_position)
         return (travel_m,) * len(self._linkage.pads)
+
+    @property
+    def _driven_position(self) -> float:
+        """Position of the driven joint that belongs to that of the leading one."""
+        return (self._position(self._leading_joint) - self._leading.offset) / self._leading.multiplier
 
     def _position(self, joint: int) -> float:
         return float(self._engine.getJointState(self._robot, joint, self._client)[0])
 
     def _gear(self, index: int) -> None:
+        """Tie a joint to the leading one."""
         engine, robot, link = self._engine, self._robot, self._linkage.links[index]
-        joint = self._joints[index]
+        joint, ratio = self._joints[index], link.multiplier / self._leading.multiplier
         gear = engine.createConstraint(
             robot,
-            self._driven,
+            self._leading_joint,
             robot,
             joint,
             engine.JOINT_GEAR,
@@ -159,8 +170,8 @@ class LinkageDrive:
         )
         engine.changeConstraint(
             gear,
-            gearRatio=-1.0 / link.multiplier,
-            relativePositionTarget=-link.offset / link.multiplier,
+            gearRatio=-1.0 / ratio,
+            relativePositionTarget=self._leading.offset - link.offset / ratio,
             maxForce=_GEAR_FORCE,
             erp=_GEAR_CORRECTION,
             physicsClientId=self._client,

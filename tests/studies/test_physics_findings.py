@@ -1,4 +1,4 @@
-"""Designs whose fingers' impact the step does not resolve are found before anything is simulated."""
+"""Designs of which the step does not resolve the impact or pass the force are found before anything is simulated."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import pytest
 
 from rgss.cli.main import main
 from rgss.findings import Severity
+from rgss.studies import light_body_findings
 from rgss.studies.checks.impact_check import impact_findings
 from rgss.studies.project import load_project
 
@@ -50,3 +51,21 @@ def test_trials_without_contact_have_no_impact(folder):
     change(folder, "scenes/restaurant.yaml", "force_limit: 40 N", "force_limit: 12 N")
     change(folder, "studies/pick_place.yaml", "fidelity: contact", "fidelity: kinematic")
     assert tuple(impact_findings(load_project(folder))) == ()
+
+
+def test_the_reference_study_has_no_light_body(folder):
+    assert tuple(light_body_findings(load_project(folder))) == ()
+
+
+def test_a_cup_of_half_a_gram_needs_a_finer_step(folder):
+    path = folder / "scenes/restaurant.yaml"
+    text = path.read_text(encoding="utf-8")
+    (line,) = [line for line in text.splitlines() if line.strip().startswith("mass:")][:1]
+    change(folder, "scenes/restaurant.yaml", line, line.split(":")[0] + ": 500 mg")
+    found = tuple(light_body_findings(load_project(folder)))
+    assert found
+    for finding in found:
+        assert (finding.rule, finding.severity) == ("study.light-body", Severity.WARNING)
+        assert ": 0.0005 kg are too light for the solver to press with" in finding.message
+    change(folder, "studies/pick_place.yaml", "fidelity: contact", "fidelity: kinematic")
+    assert tuple(light_body_findings(load_project(folder))) == ()
