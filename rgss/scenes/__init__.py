@@ -35,6 +35,7 @@ from rgss.scenes.grasps import (
 from rgss.scenes.gripper import Gripper, GripperDrive, GripperFile, GripperGeometry, Suction, boss_height_m
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file
 from rgss.scenes.hands import (
+    FoundPads,
     LinkageGripperDocument,
     ParallelGripperDocument,
     VacuumGripperDocument,

@@ -7,6 +7,7 @@ import math
 import re
 import shutil
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import pytest
 import trimesh
@@ -178,9 +179,13 @@ def test_fingers_that_are_driven_alike_follow_each_other(tmp_path):
     with_mimic.write_text(JAWS, encoding="utf-8")
     found, expected = drafted_gripper(alone, tmp_path / "one"), drafted_gripper(with_mimic, tmp_path / "other")
 
-    assert found.geometry == expected.geometry
+    assert found.geometry.linkage == replace(expected.geometry.linkage, effort=60.0)
+    # 30 N of each motor on each pad, of which the project demands 20 N at most; with a mimic joint both share them.
+    speeds_and_forces = [load_gripper_file(path).settings for path in sorted(tmp_path.rglob("jaws.yaml"))]
+    assert sorted(one["gripper.finger.force"] for one in speeds_and_forces) == [15.0, 30.0]
     assert found.notes[0].rationale == (
-        "The URDF drives left_joint and right_joint alike; right_joint follows left_joint here."
+        "The URDF drives left_joint and right_joint alike; right_joint follows left_joint here, with the effort of "
+        "both, 60 N."
     )
     file = load_gripper_file(tmp_path / "one" / "scenes" / "grippers" / "jaws.yaml")
     assert file.geometry == found.geometry
@@ -248,6 +253,28 @@ def test_a_finger_with_a_boss_has_its_pad_in_the_parts_of_its_mesh(bossed, tmp_p
     (cup, *_) = drafted_gripper(bossed, tmp_path / "again", is_decomposed=True).cups
     # Its top stays 10 mm below the bosses.
     assert geometry.grasp_depth_m - cup.height_m / 2 >= 0.063 + 0.01 - 1e-9
+
+
+def test_a_palm_is_divided_only_if_the_fingers_have_pads(bossed, tmp_path):
+    """To divide a palm of 37,000 faces takes ten minutes, and fingers without pads are refused all the same."""
+    trimesh.creation.annulus(0.02, 0.03, 0.06).export(tmp_path / "palm.stl")
+    text = bossed.read_text(encoding="utf-8")
+    palm = re.search(r"<geometry><cylinder[^>]*></geometry>", text).group()
+    text = text.replace(palm, '<geometry><mesh filename="palm.stl"/></geometry>')
+    bossed.write_text(text, encoding="utf-8")
+    drafted_gripper(bossed, tmp_path / "pads", is_decomposed=True)
+    assert list((tmp_path / "pads").rglob("palm_0/palm_0.stl"))
+
+    for name, sign in (("left", 1.0), ("right", -1.0)):
+        mesh, beside = (trimesh.creation.icosphere(radius=0.01) for _ in range(2))
+        mesh.apply_translation([0.0, sign * 0.01, 0.0])
+        beside.apply_translation([0.0, sign * 0.01, 0.04])
+        trimesh.util.concatenate([mesh, beside]).export(tmp_path / f"{name}.stl")
+    with pytest.raises(DefinitionError, match=r"^jaws\.urdf .*on the pad") as refused:
+        drafted_gripper(bossed, tmp_path / "none", is_decomposed=True)
+    assert "e-" not in refused.value.message
+    assert list((tmp_path / "none").rglob("left_0/left_0.stl"))
+    assert not list((tmp_path / "none").rglob("palm_0/*"))
 
 
 def test_a_fast_gripper_of_long_pads_is_slowed_and_grasps_near_its_tips(tmp_path):

@@ -31,11 +31,13 @@ class PadError(Exception):
 
     Attributes:
         problem: Message, place in the gripper file and hint.
+        approach: True if the two links approach each other across the tool axis, and fail by their faces alone.
     """
 
-    def __init__(self, message: str, location: Location, hint: str) -> None:
+    def __init__(self, message: str, location: Location, hint: str, *, approach: bool = True) -> None:
         super().__init__(message)
         self.problem: Problem = (message, location, hint)
+        self.approach = approach
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -120,6 +122,7 @@ def _outward(linkage: Linkage, pads: tuple[int, int]) -> tuple[tuple[float, floa
                 message,
                 ("pads", names.index(name)),
                 "pads must stay parallel; add a joint that compensates the rotation",
+                approach=False,
             )
         middle = _middle(linkage.links[index])
         ends.append((_moved(low[index], middle), _moved(high[index], middle)))
@@ -132,7 +135,8 @@ def _outward(linkage: Linkage, pads: tuple[int, int]) -> tuple[tuple[float, floa
         message = (
             f"never lets the pads {names[0]!r} and {names[1]!r} meet: they stay {math.hypot(*apart_low):.4g} m apart"
         )
-        raise PadError(message, ("pads",), "name the links that close on an object, and check multipliers of <mimic>")
+        hint = "name the links that close on an object, and check multipliers of <mimic>"
+        raise PadError(message, ("pads",), hint, approach=False)
     x, y = x / way_m, y / way_m
     at_low, at_high = (x * apart[0] + y * apart[1] for apart in (apart_low, apart_high))
     opens_low = abs(at_low) > abs(at_high)
@@ -185,7 +189,7 @@ def _face(linkage: Linkage, index: int, azimuth: float) -> tuple[LinkagePad, flo
     largest = max(of_parts, key=lambda part: part.area_m2)
     face = innermost if innermost.area_m2 > _SMALL_SHARE * largest.area_m2 else largest
     if not face.area_m2:
-        width, length = (1e3 * size_m for size_m in innermost.size_m)
+        width, length = (round(1e3 * size_m, 2) for size_m in innermost.size_m)
         raise PadError(
             f"has no flat face of 4 mm on the pad {link.name!r}: {width:.3g} mm x {length:.3g} mm",
             ("pads",),

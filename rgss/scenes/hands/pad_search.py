@@ -63,8 +63,10 @@ def find_pads(urdf: Path, *, palm: str | None, project: Path, mounts: Sequence[P
     if not reached:
         message, hint = "has no two links that close on an object", "a pad is a link with a flat face"
         if problems:
-            # Links are in topological order: the last pair is that of the fingertips.
-            message, _, hint = problems[-1].problem
+            # Links are in topological order: the last pair is that of the fingertips. About another axis than that of
+            # the tool, no pair approaches.
+            nearest = [problem for problem in problems if problem.approach] or problems
+            message, _, hint = nearest[-1].problem
         raise DefinitionError(f"{urdf.name} {message}", hint=hint)
     _, mount, found = max(reached, key=lambda one: one[0])
     least_m = min(linkage.opening_m(linkage.opened) for linkage in found)

@@ -1,4 +1,4 @@
-"""Findings about objects that are too heavy for the robot, or too weak for the grip of the designs."""
+"""Findings about objects that are too heavy for the robot or the fingers, or too weak for the grip of the designs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rgss.studies.project import Project
 
 
 def object_limit_findings(project: Project) -> Iterator[Finding]:
-    """Warn of objects heavier than the payload of the robot, and of grips that exceed the force limit of the object.
+    """Warn of objects heavier than the payload of the robot or the friction of the fingers, or damaged by the grip.
 
     Args:
         project: The project with its study.
@@ -21,6 +21,7 @@ def object_limit_findings(project: Project) -> Iterator[Finding]:
     label = project.study.scene
     document = read_document(project.folder / label, label=label)
     yield from _heavy(project, document)
+    yield from _slippery(project, document)
     yield from _fragile(project, document)
 
 
@@ -30,7 +31,7 @@ def _heavy(project: Project, document: Document) -> Iterator[Finding]:
         workpiece = object_.workpiece
         if workpiece.mass_kg <= payload_kg:
             continue
-        at = ("workpieces", index - 1) if index else ("workpiece",)
+        at = _place_of(index)
         yield document.finding(
             "scene.payload",
             f"{workpiece.id} of {workpiece.mass_kg:.3g} kg exceeds the payload of the robot, {payload_kg:g} kg",
@@ -38,6 +39,37 @@ def _heavy(project: Project, document: Document) -> Iterator[Finding]:
             severity=Severity.WARNING,
             hint="take a lighter object, or a robot with a greater 'payload'",
         )
+
+
+def _slippery(project: Project, document: Document) -> Iterator[Finding]:
+    """Objects that the friction of no design's fingers bears at rest, by Coulomb's law."""
+    if project.study.fidelity is not Fidelity.CONTACT:
+        return
+    grippers = {spec.gripper for spec in trial_specs(project, seeds=(project.study.seed,))}
+    for index, object_ in enumerate(project.scene.objects):
+        workpiece = object_.workpiece
+        weight_n = workpiece.mass_kg * project.scene.gravity_m_s2
+        borne_n = {
+            gripper: gripper.geometry.fingers * gripper.finger_force_n * gripper.grip_coefficient(workpiece.friction)
+            for gripper in grippers
+        }
+        strongest = max(borne_n, key=borne_n.__getitem__)
+        if strongest.suction is not None or borne_n[strongest] >= weight_n:
+            continue
+        needed_n = weight_n * strongest.finger_force_n / borne_n[strongest]
+        at = _place_of(index)
+        yield document.finding(
+            "scene.grip",
+            f"the friction of no design's fingers bears {workpiece.id} of {workpiece.mass_kg:.3g} kg: that takes "
+            f"{needed_n:.3g} N on each, and they press with {strongest.finger_force_n:.3g} N at most",
+            (*at, "mass" if _states_mass(document, index) else "density"),
+            severity=Severity.WARNING,
+            hint="take a lighter object, or fingers with more force or friction",
+        )
+
+
+def _place_of(index: int) -> tuple[str | int, ...]:
+    return ("workpieces", index - 1) if index else ("workpiece",)
 
 
 def _states_mass(document: Document, index: int) -> bool:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rgss.errors import DefinitionError, DocumentError
-from rgss.scenes import GripperGeometry, Pose, carried_by, find_pads, load_gripper_file, origin_of
+from rgss.scenes import FoundPads, GripperGeometry, Pose, carried_by, find_pads, load_gripper_file, origin_of
 from rgss.studies.robot_project.cup_size import cups_of, grasp_from_tip_m
 from rgss.studies.robot_project.draft import DraftedRobot, identifier_of
 from rgss.studies.robot_project.fingers_of_urdf import complete_fingers
@@ -101,13 +101,17 @@ def drafted_gripper(
     grippers = project / "scenes" / "grippers"
     grippers.mkdir(parents=True, exist_ok=True)
     notes += copy_named_files(root, urdf, grippers)
-    if is_decomposed:
-        notes += decompose(root, grippers)
     id_ = identifier_of(root.get("name", ""), prefix="gripper")
-    ET.indent(root)
     copy = grippers / f"{id_}.urdf"
-    copy.write_text(ET.tostring(root, encoding="unicode") + "\n", encoding="utf-8")
     mounts = [_turned_from(axis) for axis in TOOL_AXES]
+    if is_decomposed:
+        # To divide a palm can take ten minutes: first the fingers, whose pads may be none all the same.
+        fingers = decompose(root, grippers, only=_moved_links(root))
+        _write(root, copy)
+        complete_fingers(copy, None)
+        _found_pads(copy, None, project, mounts, shown=urdf.name)
+        notes += [*fingers, *decompose(root, grippers)]
+    _write(root, copy)
     return _drafted(copy, project, id_=id_, palm=None, mounts=mounts, notes=notes, shown=urdf.name)
 
 
@@ -125,7 +129,7 @@ def _drafted(
     grippers.mkdir(parents=True, exist_ok=True)
     notes = [*notes, *complete_fingers(copy, palm)]
     try:
-        pads = find_pads(copy, palm=palm, project=project, mounts=mounts)
+        pads = _found_pads(copy, palm, project, mounts, shown=shown)
         file = grippers / f"{id_}.yaml"
         description = copy.name if copy.parent == grippers else f"../robots/{copy.name}"
         lines = [
@@ -142,9 +146,6 @@ def _drafted(
     except DocumentError as error:
         first = error.findings[0]
         raise DefinitionError(first.message, hint=first.hint) from error
-    except DefinitionError as error:
-        message = error.message.removeprefix(copy.name).lstrip()
-        raise DefinitionError(f"{shown} {message}", hint=error.hint) from error
     speed_m_s, force_n = (float(read.settings[f"gripper.finger.{name}"]) for name in ("speed", "force"))
     assumed = [*notes]
     if speed_m_s > _LARGEST_SPEED_M_S:
@@ -171,6 +172,25 @@ def _drafted(
         cups=cups_of(geometry),
         notes=tuple(assumed),
     )
+
+
+def _found_pads(copy: Path, palm: str | None, project: Path, mounts: Sequence[Pose], *, shown: str) -> FoundPads:
+    try:
+        return find_pads(copy, palm=palm, project=project, mounts=mounts)
+    except DefinitionError as error:
+        message = error.message.removeprefix(copy.name).lstrip()
+        raise DefinitionError(f"{shown} {message}", hint=error.hint) from error
+
+
+def _moved_links(root: ET.Element) -> set[str]:
+    joints = [joint for joint in root.findall("joint") if joint.get("type") != "fixed"]
+    children = [child.get("link", "") for joint in joints if (child := joint.find("child")) is not None]
+    return carried_by(root, children)
+
+
+def _write(root: ET.Element, copy: Path) -> None:
+    ET.indent(root)
+    copy.write_text(ET.tostring(root, encoding="unicode") + "\n", encoding="utf-8")
 
 
 def _mount_lines(mount: Pose) -> Sequence[str]:

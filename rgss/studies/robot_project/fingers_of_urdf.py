@@ -36,7 +36,10 @@ def complete_fingers(urdf: Path, palm: str | None) -> tuple[Note, ...]:
 
 
 def _let_one_finger_follow(driven: Sequence[ET.Element]) -> Iterator[Note]:
-    """Let the second of two driven joints follow the first if their ranges are equal or mirrored."""
+    """Let the second of two driven joints follow the first if their ranges are equal or mirrored.
+
+    The first then has the effort of both motors, which is what both pads together press with.
+    """
     if len(driven) != _FINGERS or driven[0].get("type") != driven[1].get("type"):
         return
     (low, high), other = (_range_of(joint) for joint in driven)
@@ -44,7 +47,14 @@ def _let_one_finger_follow(driven: Sequence[ET.Element]) -> Iterator[Note]:
         return
     leader, follower = (joint.get("name", "") for joint in driven)
     ET.SubElement(driven[1], "mimic", {"joint": leader, "multiplier": "1" if other == (low, high) else "-1"})
-    rationale = f"The URDF drives {leader} and {follower} alike; {follower} follows {leader} here."
+    rationale = f"The URDF drives {leader} and {follower} alike; {follower} follows {leader} here"
+    limits = [limit for joint in driven if (limit := joint.find("limit")) is not None]
+    efforts = [float(limit.get("effort", "0")) for limit in limits]
+    if len(efforts) == _FINGERS and min(efforts) > 0.0:
+        limits[0].set("effort", f"{sum(efforts):.12g}")
+        unit = "N" if driven[0].get("type") == "prismatic" else "N*m"
+        rationale += f", with the effort of both, {sum(efforts):.6g} {unit}"
+    rationale += "."
     yield Note(about="description", rationale=rationale)
 
 
