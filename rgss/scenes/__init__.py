@@ -37,6 +37,7 @@ from rgss.scenes.gripper_file import load_gripper, load_gripper_file
 from rgss.scenes.hands import (
     FoundPads,
     LinkageGripperDocument,
+    MechanismError,
     ParallelGripperDocument,
     VacuumGripperDocument,
     at_object,

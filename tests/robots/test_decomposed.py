@@ -15,6 +15,7 @@ from rgss.studies.robot_project.unfit_shapes import UnfitShapesError, is_any_mes
 from rgss.studies.robot_project.urdf import decompose, has_concave_meshes
 from tests.fixtures.serial_arms import SIX_WITHOUT_DECOMPOSITION as SIX
 from tests.fixtures.serial_arms import serial_urdf
+from tests.scenes.linkage_texts import JAWS
 
 pytestmark = pytest.mark.engine
 
@@ -22,6 +23,8 @@ SHAPE = (
     '<collision><origin xyz="0 0 0.01"/><geometry><mesh filename="{}" scale="0.001 0.001 0.001"/></geometry>'
     "</collision></link>"
 )
+# Another range than that of the first finger, which would let it follow.
+TWICE = '<limit lower="-0.02" upper="0.03" effort="30" velocity="0.1"/>'
 INNER_M, OUTER_M, HEIGHT_M = 0.04, 0.06, 0.05
 
 
@@ -134,6 +137,15 @@ def test_convex_meshes_are_not_divided(arm, tmp_path, search):
     with pytest.raises(DefinitionError, match="no layout 1"):
         write_robot_project(arm, tmp_path / "project")
     assert len(seen) == 1
+
+
+def test_a_gripper_of_two_motors_is_refused_before_any_mesh_is_divided(arm, tmp_path):
+    """No division gives it one driven joint."""
+    (tmp_path / "two.urdf").write_text(JAWS.replace('<mimic joint="left_joint"/>', TWICE), encoding="utf-8")
+    stages = []
+    with pytest.raises(DefinitionError, match=r"^two\.urdf has 2 driven joints \(left_joint, right_joint\)"):
+        write_robot_project(arm, tmp_path / "project", gripper=tmp_path / "two.urdf", on_stage=stages.append)
+    assert stages == []
 
 
 def test_without_the_package_that_divides_them_the_remedy_is_named(arm, tmp_path, search, monkeypatch):

@@ -202,6 +202,17 @@ def test_an_arm_that_points_down_at_none_of_its_places(tmp_path, capsys):
     assert "An arm that cannot turn its tool down needs a scene and a task of its own)" in error
 
 
+def test_an_arm_that_its_urdf_mounts_at_a_tilt(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(writing, "hand_sizes", lambda *arm: itertools.islice(hand_sizes(*arm), 1))
+    tilted = Link("revolute", (0.0, 0.0, 0.2), (0.25, 0.0, 0.0))
+    urdf = tmp_path / "arm.urdf"
+    urdf.write_text(serial_urdf((tilted, *FOUR[1:])), encoding="utf-8")
+    assert main(["init", "--robot", str(urdf), "--tool-axis", "z", str(tmp_path / "new")]) == 2
+    error = " ".join(capsys.readouterr().err.split())
+    reason = "with the gripper along z, its first joint does not turn about a vertical axis on a level base ("
+    assert f"{reason}if the URDF mounts the arm at a tilt, take the tilt out of its base's joint" in error
+
+
 def test_a_layout_that_the_check_refuses_is_not_written(tmp_path, capsys, monkeypatch):
     """Even if the search takes it for valid, as it does where links touch in every configuration of the draft."""
     found = CellSearch.cells

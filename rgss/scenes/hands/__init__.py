@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from rgss.scenes.hands.linkage_fit import at_object
     from rgss.scenes.hands.linkage_gripper import LinkageGripper, pad_limits
     from rgss.scenes.hands.linkage_shape import at_opening
-    from rgss.scenes.hands.pad_search import FoundPads, find_pads
+    from rgss.scenes.hands.pad_search import FoundPads, MechanismError, find_pads
     from rgss.scenes.hands.parallel_gripper import ParallelGripperDocument
     from rgss.scenes.hands.tool_at_object import object_in_hand, tool_with_pads_at
     from rgss.scenes.hands.vacuum_gripper import VacuumGripperDocument, at_top

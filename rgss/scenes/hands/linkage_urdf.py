@@ -104,7 +104,7 @@ def mechanism_problems(root: ET.Element, entry: LinkageGripperDocument) -> Itera
     driven = driven_joints(root)
     if len(driven) != 1:
         listed = f" ({', '.join(driven)})" if driven else ""
-        hint = "let all joints but one follow it with <mimic>, or fix them; 'palm' leaves an arm out"
+        hint = "let all others follow one with <mimic>, or state its sizes (kind: parallel); 'palm' leaves an arm out"
         yield f"has {len(driven)} driven joints{listed}, a gripper has one", ("description",), hint
     yield from _mimic_problems(joints)
     for name in driven:

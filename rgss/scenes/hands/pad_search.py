@@ -24,6 +24,10 @@ _SAME_OPENING_M = 1.0e-3
 _BEFORE_M = 1.0e-5
 
 
+class MechanismError(DefinitionError):
+    """A URDF that is no mechanism with one driven joint, whatever the shapes of its links."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FoundPads:
     """Pads of a gripper.
@@ -51,7 +55,8 @@ def find_pads(urdf: Path, *, palm: str | None, project: Path, mounts: Sequence[P
         mounts: Poses of the palm at the flange to try.
 
     Raises:
-        DefinitionError: The URDF is not a mechanism with one driven joint, or no two of its links close on an object.
+        MechanismError: The URDF is not a mechanism with one driven joint.
+        DefinitionError: No two of its links close on an object.
     """
     root, name = _mechanism(urdf, palm, project)
     reached: list[tuple[float, Pose, list[Linkage]]] = []
@@ -80,22 +85,22 @@ def _mechanism(urdf: Path, palm: str | None, project: Path) -> tuple[ET.Element,
     """Palm and descendants of a URDF with convex collision shapes, and the name of the palm.
 
     Raises:
-        DefinitionError: It is not a mechanism with one driven joint.
+        MechanismError: It is not a mechanism with one driven joint.
     """
     try:
         _, root = parse_urdf(urdf)
     except UrdfError as error:
-        raise DefinitionError(f"{urdf.name} {error.problem}", hint=error.hint) from None
+        raise MechanismError(f"{urdf.name} {error.problem}", hint=error.hint) from None
     entry = LinkageGripperDocument(
         gripper="gripper", kind="linkage", description=urdf.name, palm=palm, pads=("one", "other")
     )
     name = palm_of(root, entry)
     if not name:
-        raise DefinitionError(f"{urdf.name} has a joint that carries its palm", hint="a gripper begins at its palm")
+        raise MechanismError(f"{urdf.name} has a joint that carries its palm", hint="a gripper begins at its palm")
     prune(root, name)
     shaped = [link.get("name", "") for link in root.findall("link") if link.find("collision") is not None]
     if len(shaped) < _PADS:
-        raise DefinitionError(
+        raise MechanismError(
             f"{urdf.name} has no two links with a collision shape below {name!r}",
             hint="a gripper has two fingers with collision shapes",
         )
@@ -107,7 +112,7 @@ def _mechanism(urdf: Path, palm: str | None, project: Path) -> tuple[ET.Element,
         problems += embed_collision_meshes(root, named, CollisionShapes.HULL)
     if problems:
         problem, hint = problems[0]
-        raise DefinitionError(f"{urdf.name} {problem}", hint=hint)
+        raise MechanismError(f"{urdf.name} {problem}", hint=hint)
     return root, name
 
 

@@ -27,6 +27,7 @@ _USED_OF_RANGE = 0.45
 _VERTICAL_COSINE = 0.999
 _BASE_M = 0.6
 
+NOT_VERTICAL = "its first joint does not turn about a vertical axis on a level base"
 NEVER_DOWN = f"the tool points down at none of {len(_RADIUS_SHARES) * len(_HEIGHT_SHARES)} places within its reach"
 """Reason that no smaller hand mends."""
 
@@ -74,7 +75,7 @@ def descent_search(robot: Robot, geometry: GripperGeometry, *, scale: float) -> 
     arm = Arm(level, geometry.grasp_centre)
     first, axis = robot.joints[0], arm.joint_axes()[0][0]
     if first.kind is not JointKind.REVOLUTE or abs(float(axis[2])) < _VERTICAL_COSINE:
-        return DescentSearch(layouts=(), reason="its first joint does not turn about a vertical axis on a level base")
+        return DescentSearch(layouts=(), reason=NOT_VERTICAL)
     turning = replace(first, lower_rad=-math.pi, upper_rad=math.pi)
     inverse = inverse_kinematics(
         Arm(replace(level, joints=(turning, *robot.joints[1:])), geometry.grasp_centre), is_turn_free=True

@@ -94,8 +94,8 @@ def drafted_gripper(
         is_decomposed: True to divide concave collision meshes into convex parts.
 
     Raises:
-        DefinitionError: The URDF is wrong, a file that it names is missing, or it is no mechanism that can be
-            simulated.
+        MechanismError: It is no mechanism with one driven joint.
+        DefinitionError: The URDF is wrong, a file that it names is missing, or no two of its links are pads.
     """
     root, notes = read_arm_urdf(urdf, xacro)
     grippers = project / "scenes" / "grippers"
@@ -179,7 +179,7 @@ def _found_pads(copy: Path, palm: str | None, project: Path, mounts: Sequence[Po
         return find_pads(copy, palm=palm, project=project, mounts=mounts)
     except DefinitionError as error:
         message = error.message.removeprefix(copy.name).lstrip()
-        raise DefinitionError(f"{shown} {message}", hint=error.hint) from error
+        raise type(error)(f"{shown} {message}", hint=error.hint) from error
 
 
 def _moved_links(root: ET.Element) -> set[str]:

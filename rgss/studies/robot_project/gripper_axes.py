@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from rgss.errors import DefinitionError
+from rgss.scenes import MechanismError
 from rgss.studies.robot_project.draft import DraftedRobot
 from rgss.studies.robot_project.drafted_gripper import DraftedGripper, drafted_gripper, drafted_hand
 from rgss.studies.robot_project.unfit_shapes import UnfitShapesError, is_any_mesh_concave
@@ -27,6 +28,7 @@ def axes_of_gripper(
         draft: Drafts the arm with its tool along an axis.
 
     Raises:
+        MechanismError: It is no mechanism with one driven joint.
         UnfitShapesError: There is none; the reason along the most likely one.
     """
     tried = [(axis, _tried(draft_gripper, draft(tool_axis=axis))) for axis in axes]
@@ -43,6 +45,9 @@ def _tried(
 ) -> DraftedGripper | DefinitionError:
     try:
         return draft_gripper(drafted)
+    except MechanismError:
+        # No other axis and no other shapes would mend it.
+        raise
     except DefinitionError as error:
         return error
 

@@ -14,7 +14,7 @@ from pathlib import Path, PurePosixPath
 from rgss.errors import DefinitionError
 from rgss.scenes import GripperGeometry, Robot, load_gripper_file
 from rgss.studies.project import load_project
-from rgss.studies.robot_project.descent_search import NEVER_DOWN, angles_from_vertical_rad
+from rgss.studies.robot_project.descent_search import NEVER_DOWN, NOT_VERTICAL, angles_from_vertical_rad
 from rgss.studies.robot_project.draft import DraftedRobot, drafted_robot
 from rgss.studies.robot_project.drafted_gripper import DraftedGripper
 from rgss.studies.robot_project.first_trial import carries_object, has_scene_errors
@@ -146,10 +146,16 @@ def _write_files(
         if _is_written(project, drafted, search, on_stage=within):
             return drafted.arm.notes if own is None else (*drafted.arm.notes, *own.notes)
         reasons.setdefault(axis, search.reason)
-    found = "; ".join(f"with the gripper along {axis}, {reason}" for axis, reason in reasons.items())
+    found = "; ".join(
+        f"with the gripper along {' or '.join(axis for axis in reasons if reasons[axis] == reason)}, {reason}"
+        for reason in dict.fromkeys(reasons.values())
+    )
     raise UnfitShapesError(
         f"no layout was found in which {id_} grasps a cup on a table with its tool pointing down: {found}",
-        hint=f"is {drafted.flange} the link that carries the gripper (--flange), and one of these its axis out of "
+        hint="if the URDF mounts the arm at a tilt, take the tilt out of its base's joint, and turn the robot in the "
+        "scene (robot: roll, pitch). Another arm without a vertical first axis needs a scene and a task of its own"
+        if set(reasons.values()) == {NOT_VERTICAL}
+        else f"is {drafted.flange} the link that carries the gripper (--flange), and one of these its axis out of "
         "the arm (--tool-axis)? An arm that cannot turn its tool down needs a scene and a task of its own",
         is_concave=is_any_mesh_concave(project),
     )
