@@ -1,8 +1,6 @@
-"""What all tests share: repeatable examples, and what a test run writes down about itself.
+"""What all tests share: repeatable examples, and which tests are read and run.
 
-With ``--junitxml=FILE`` each test that is marked ``@pytest.mark.verifies("SYS-…")`` carries its
-requirements into the file, and the run the digests of what was tested; `rgss trace` and
-`rgss check --evidence` read both.
+What a run writes down about itself is in ``rgss.cli.pytest_plugin``, which projects of users have too.
 """
 
 from __future__ import annotations
@@ -18,9 +16,6 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
-
-# The fixture `record_testsuite_property` reaches no file where tests run in several processes.
-from _pytest.junitxml import xml_key
 from hypothesis import HealthCheck, settings
 
 from rgss.trials.code.kernel_environment import is_in_force, numeric_environment
@@ -30,7 +25,7 @@ from .processor_time import ProcessorTimes, file_of, name_of, slow_tests
 
 PROJECT = Path(__file__).parents[1]
 
-pytest_plugins = ["tests.fixtures.shipped_project"]
+pytest_plugins = ["rgss.cli.pytest_plugin", "tests.fixtures.shipped_project"]
 
 # On a busy machine examples are drawn as slowly as anything else, which is no mistake of a test.
 settings.register_profile(
@@ -99,17 +94,11 @@ def _share(named: str, wanted: str) -> frozenset[Path]:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Note on each marked test which requirements it verifies, and mark those that are known to take long."""
+    """Mark the tests that are known to take long."""
     slow = slow_tests()
     for item in items:
         if name_of(item.nodeid) in slow or file_of(item.nodeid) in slow:
             item.add_marker(pytest.mark.slow)
-        names = dict.fromkeys(str(name) for mark in item.iter_markers("verifies") for name in mark.args)
-        if names:
-            # Here, so that a run of unmarked tests does not wait for the import.
-            from rgss.trace.evidence.junit_file import TEST_ID, VERIFIES
-
-            item.user_properties += [(TEST_ID, item.nodeid), *((VERIFIES, name) for name in names)]
 
 
 @pytest.hookimpl(wrapper=True)
@@ -125,29 +114,6 @@ def pytest_collection(session: pytest.Session) -> Iterator[None]:
     finally:
         gc.enable()
         gc.freeze()
-
-
-@pytest.hookimpl(trylast=True)
-def pytest_sessionstart(session: pytest.Session) -> None:
-    """Note what is tested, where the result is written to a file: by the process that writes it."""
-    report = session.config.stash.get(xml_key, None)
-    if report is None:
-        return
-    from rgss.errors import RgssError
-    from rgss.requirements import load_requirements
-    from rgss.studies import named_sets, qualifier_of
-    from rgss.trace.evidence.software import run_properties
-
-    try:
-        noted = run_properties(PROJECT, load_requirements(PROJECT / "requirements").system)
-        for folder in named_sets(PROJECT):
-            requirements = load_requirements(PROJECT / folder, label_root=folder).system
-            noted = {**noted, **run_properties(PROJECT, requirements, qualifier=qualifier_of(folder))}
-    except RgssError:
-        # A broken project has tests of its own; a run without the note is taken as it is.
-        return
-    for name, value in noted.items():
-        report.add_global_property(name, value)
 
 
 @pytest.fixture(scope="session")

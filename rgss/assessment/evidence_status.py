@@ -9,7 +9,8 @@ from types import MappingProxyType
 
 from rgss.assessment.measuring import VariantMeasures, requirements_with_criteria
 from rgss.assessment.recorded_verdicts import VerdictRecord, study_key
-from rgss.errors import DefinitionError
+from rgss.errors import DefinitionError, EvidenceError
+from rgss.measures import Verdict
 from rgss.requirements import RequirementSet
 from rgss.studies import REQUIREMENTS, Project, named_sets, qualifier_of
 from rgss.trace.evidence import (
@@ -113,6 +114,25 @@ def project_marks(folder: Path, requirement_folder: str = REQUIREMENTS) -> tuple
         if names:
             kept.append(replace(mark, requirements=names))
     return tuple(kept)
+
+
+def failed_tests(project: Project, junit: Path | None = None) -> tuple[str, ...]:
+    """Ids of the requirements of which a marked test of the project failed, by a result that still holds.
+
+    Args:
+        project: The project with its study.
+        junit: The result of a run; by default the file that ``make test`` writes. One that is not there, or cannot be
+            read, says nothing; `rgss trace` and `rgss report` tell the latter.
+    """
+    if junit is None and not (project.folder / JUNIT_FILE).exists():
+        return ()
+    folder = project.study.requirements
+    try:
+        marked = project_marks(project.folder, folder) or ()
+        found = project_tests(project.folder, project.requirements, marked, requirement_folder=folder, junit=junit)
+    except EvidenceError:
+        return ()
+    return tuple(name for name, one in found.items() if one.verdict is Verdict.NOT_MET)
 
 
 def project_tests(

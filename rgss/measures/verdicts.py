@@ -32,6 +32,8 @@ class StaleCause(str, Enum):
     """The source code of rgss for trials."""
     ENGINES = "engines"
     """The version of an engine."""
+    UNRECORDED = "unrecorded"
+    """Unknown: the run of tests did not record what it tested."""
 
 
 def meets(criterion: Criterion, value: float, unit: str) -> bool:

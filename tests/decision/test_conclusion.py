@@ -87,9 +87,18 @@ def test_the_headline_of_a_choice_that_is_shown_feasible(made):
     chosen = made.decision.chosen
     other = concluded(made, standing(chosen, met=("A",)), standing(9999, missed=("B",)))
     assert headline(other) == (
-        f"Variant {chosen} is chosen and shown to meet every requirement: 1 of 2 is shown to meet every requirement; "
-        "0 are open, 1 infeasible."
+        f"Variant {chosen} is chosen and shown to meet every requirement that a measure decides: 1 of 2 is shown to "
+        "meet them all; 0 are open, 1 infeasible."
     )
+    whole = dataclasses.replace(other, conclusion=dataclasses.replace(other.conclusion, unmeasured=()))
+    assert headline(whole).startswith(f"Variant {chosen} is chosen and shown to meet every requirement: 1 of 2 is")
+
+
+def test_a_failed_test_is_told_beside_the_choice(made):
+    other = concluded(made, standing(made.decision.chosen, met=("A",)))
+    other = dataclasses.replace(other, conclusion=dataclasses.replace(other.conclusion, failed_tests=("SYS-1", "A")))
+    assert headline(other).endswith("0 infeasible. Tests of SYS-1, A failed: no design meets them.")
+    assert trade_document(other)["conclusion"]["failed_tests"] == ["SYS-1", "A"]
 
 
 def test_the_headline_of_a_choice_that_is_shown_to_miss(made):
@@ -97,7 +106,7 @@ def test_the_headline_of_a_choice_that_is_shown_to_miss(made):
     other = concluded(made, standing(chosen, missed=("A",)), standing(9999, open=("B",), undecided=("B",)))
     assert headline(other) == (
         f"Variant {chosen} is chosen by its estimates, but shown to miss a requirement: 0 of 2 are shown to meet every "
-        "requirement; 1 is open (by B), 1 infeasible."
+        "requirement that a measure decides; 1 is open (by B), 1 infeasible."
     )
     assert standing_sentence(other) == (
         f"Requirements of variant {chosen}: 0 met; 0 open; 1 missed (A); 1 decided by no measure."

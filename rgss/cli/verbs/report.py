@@ -103,6 +103,7 @@ def run(options: argparse.Namespace) -> int:
             screened=screened,
             portfolio=choose_portfolio(project, served) if served else None,
             assumptions=assumption_outcomes(project, measured, store),
+            junit=options.junit,
         )
         planners = None if options.no_film else _planners(project)
         document = report_document(project, measured, made, store, planners=planners)

@@ -6,8 +6,9 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
+from pathlib import Path
 
-from rgss.assessment import VariantMeasures, requirements_with_criteria
+from rgss.assessment import VariantMeasures, failed_tests, requirements_with_criteria
 from rgss.measures import Verdict, judge
 from rgss.studies import Project
 
@@ -61,11 +62,13 @@ class Conclusion:
         standings: The verdicts on each design, by ascending id.
         chosen: The verdicts on the chosen design; None if nothing is chosen.
         unmeasured: Ids of the system requirements without a criterion.
+        failed_tests: Ids of those of which a marked test of the project failed.
     """
 
     standings: tuple[DesignStanding, ...]
     chosen: DesignStanding | None
     unmeasured: tuple[str, ...]
+    failed_tests: tuple[str, ...] = ()
 
     def count(self, feasibility: Feasibility) -> int:
         """Number of designs with this conclusion."""
@@ -83,13 +86,16 @@ class Conclusion:
         return tuple(sorted(counted, key=lambda requirement: (-counted[requirement], requirement)))
 
 
-def conclusion_of(project: Project, measured: Sequence[VariantMeasures], chosen: int | None) -> Conclusion:
+def conclusion_of(
+    project: Project, measured: Sequence[VariantMeasures], chosen: int | None, junit: Path | None = None
+) -> Conclusion:
     """The verdicts on every design, counted.
 
     Args:
         project: The project, under the suppositions if there are any.
         measured: Every variant with its estimates.
         chosen: Id of the chosen variant; None if nothing is chosen.
+        junit: The result of the project's own tests; None for the file that ``make test`` writes.
     """
     decided = {one.id for one in requirements_with_criteria(project)}
     unmeasured = tuple(one.id for one in project.requirements.system if one.id not in decided)
@@ -98,6 +104,7 @@ def conclusion_of(project: Project, measured: Sequence[VariantMeasures], chosen:
         standings=standings,
         chosen=next((one for one in standings if one.variant == chosen), None),
         unmeasured=unmeasured,
+        failed_tests=failed_tests(project, junit),
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from rgss.assessment import (
     CaseSuccess,
@@ -127,6 +128,7 @@ def decide_study(
     reopened: tuple[int, ...] = (),
     assumptions: tuple[AssumptionOutcome, ...] = (),
     time_limit: float | None = None,
+    junit: Path | None = None,
 ) -> StudyDecision:
     """Decide a study, and analyse the decision; nothing is simulated.
 
@@ -143,6 +145,7 @@ def decide_study(
         reopened: Designs that screening would promote under the suppositions.
         assumptions: The choice under each alternative of each assumption, which needs the evidence store.
         time_limit: Seconds for the runs of a solver over levels, for each decision that is made.
+        junit: The result of the project's own tests; None for the file that ``make test`` writes.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.
@@ -179,6 +182,7 @@ def decide_study(
         what_if=what_if,
         readings=_readings(project, measured, assumptions) if analysed else (),
         assumptions=assumptions,
+        junit=junit,
     )
 
 
@@ -203,6 +207,7 @@ def study_decision(
     what_if: WhatIf | None = None,
     readings: tuple[ReadingOutcome, ...] = (),
     assumptions: tuple[AssumptionOutcome, ...] = (),
+    junit: Path | None = None,
 ) -> StudyDecision:
     """The decision of a study from a choice and its analysis; the arguments are those of `decide_study`.
 
@@ -218,6 +223,7 @@ def study_decision(
         what_if: The effect of suppositions.
         readings: Decision under each reading of the source.
         assumptions: The choice under each alternative of each assumption.
+        junit: The result of the project's own tests.
     """
     return StudyDecision(
         study=project.study.id,
@@ -225,7 +231,7 @@ def study_decision(
         variants=len(measured),
         trials=sum(len(entry.records) for entry in measured),
         decision=decision,
-        conclusion=conclusion_of(project, measured, decision.chosen),
+        conclusion=conclusion_of(project, measured, decision.chosen, junit),
         comparison=side_by_side(project, measured, decision),
         gains=gains_over_runner_up(decision),
         closest_limits=closest_limits(problem, decision.chosen),

@@ -25,15 +25,20 @@ def headline(made: StudyDecision) -> str:
     shown = found.count(Feasibility.FEASIBLE)
     open_, infeasible = found.count(Feasibility.OPEN), found.count(Feasibility.INFEASIBLE)
     by = f" (by {', '.join(found.open_by)})" if found.open_by else ""
+    every = "every requirement that a measure decides" if found.unmeasured else "every requirement"
+    is_feasible = found.chosen is not None and found.chosen.feasibility is Feasibility.FEASIBLE
     counts = (
-        f"{shown} of {count} {'is' if shown == 1 else 'are'} shown to meet every requirement; "
+        f"{shown} of {count} {'is' if shown == 1 else 'are'} shown to meet {'them all' if is_feasible else every}; "
         f"{open_} {'is' if open_ == 1 else 'are'} open{by}, {infeasible} infeasible."
     )
+    if found.failed_tests:
+        them = "it" if len(found.failed_tests) == 1 else "them"
+        counts += f" Tests of {', '.join(found.failed_tests)} failed: no design meets {them}."
     if made.decision.chosen is None or found.chosen is None:
         basis = basis_text(shown_feasible=made.shown_feasible)
         return f"No variant is chosen: none meets every requirement by its {basis}; {counts}"
     words = {
-        Feasibility.FEASIBLE: "is chosen and shown to meet every requirement",
+        Feasibility.FEASIBLE: f"is chosen and shown to meet {every}",
         Feasibility.OPEN: "is chosen by its estimates, which do not show yet that it meets every requirement",
         Feasibility.INFEASIBLE: "is chosen by its estimates, but shown to miss a requirement",
     }[found.chosen.feasibility]

@@ -7,11 +7,12 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.trace.evidence.digest import verification_digest
     from rgss.trace.evidence.evidence_state import EvidenceState, TrialVerdicts
-    from rgss.trace.evidence.junit_file import TestEnd, read_junit
+    from rgss.trace.evidence.junit_file import TEST_ID, VERIFIES, TestEnd, read_junit
     from rgss.trace.evidence.software import (
         JUNIT_FILE,
         SoftwareEvidence,
         TestEvidence,
+        run_properties,
         software_digest,
         software_evidence,
     )

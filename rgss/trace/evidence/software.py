@@ -26,7 +26,7 @@ REQUIREMENT_PREFIX = "rgss.requirement."
 """With a requirement's id, name of the property that holds its digest at the time of the run."""
 
 _LARGEST_BYTES = 256 * 1024 * 1024
-TESTED_FOLDERS = ("rgss", "tests", "designs", "scenes", "studies")
+TESTED_FOLDERS = ("rgss", "src", "tests", "designs", "scenes", "studies")
 TESTED_FILES = ("requirements.lock", "pyproject.toml")
 MEASURES_FILE = "measures.yaml"
 _SUFFIXES = frozenset({".py", ".yaml", ".csv", ".urdf", ".json"})
@@ -149,7 +149,8 @@ def run_properties(project: Path, requirements: Iterable[Requirement], *, qualif
 def software_digest(project: Path) -> str:
     """SHA-256 of the inputs of a project's tests: code, tests, measures, designs, scenes, studies, lock.
 
-    Requirements are not included; each has its own digest.
+    Code is what lies in the project's folder, in ``src`` or in a package of the folder. Requirements are not included;
+    each has its own digest.
 
     Args:
         project: The project's folder.
@@ -185,7 +186,9 @@ def _tested(project: Path) -> list[Path]:
     # Those of the default set, and those of each set in a folder of its own.
     default = project / "requirements"
     found += [path for path in (default / MEASURES_FILE, *default.glob(f"*/{MEASURES_FILE}")) if path.is_file()]
-    for folder in TESTED_FOLDERS:
+    found += project.glob("*.py")
+    packages = {path.parent.name for path in project.glob("*/__init__.py")}
+    for folder in packages.union(TESTED_FOLDERS):
         found += [path for path in (project / folder).rglob("*") if path.suffix in _SUFFIXES and path.is_file()]
     return sorted(found)
 
@@ -200,9 +203,11 @@ def _is_tested(requirement: Requirement, marks: Mapping[str, object]) -> bool:
 
 
 def _causes(requirement: Requirement, report: JUnitReport, software: str, qualifier: str) -> Iterable[StaleCause]:
-    """Changes since the run; a run without recorded digests counts as current."""
-    noted = report.properties.get(f"{REQUIREMENT_PREFIX}{qualifier}{requirement.id}")
-    if noted is not None and noted != verification_digest(requirement):
+    """Changes since the run; what a run without digests tested is unknown."""
+    if SOFTWARE not in report.properties:
+        yield StaleCause.UNRECORDED
+        return
+    if report.properties.get(f"{REQUIREMENT_PREFIX}{qualifier}{requirement.id}") != verification_digest(requirement):
         yield StaleCause.REQUIREMENT
-    if report.properties.get(SOFTWARE, software) != software:
+    if report.properties[SOFTWARE] != software:
         yield StaleCause.CODE

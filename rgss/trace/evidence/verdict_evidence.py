@@ -104,14 +104,17 @@ class TraceEvidence:
     def verdict(self, requirement: Requirement) -> Verdict | None:
         """Verdict of the evidence on a requirement.
 
-        A criterion is judged on the shown variant; without one the tests decide.
+        A criterion is judged on the shown variant; without one the tests decide. A marked test that failed outweighs
+        what trials show.
 
         Returns:
             The verdict; None where no variant is shown and the variants do not agree.
         """
+        software = self._software(requirement.id)
+        if software is not None and (requirement.criterion is None or software.verdict is Verdict.NOT_MET):
+            return software.verdict
         if requirement.criterion is None:
-            software = self._software(requirement.id)
-            return Verdict.NOT_RUN if software is None else software.verdict
+            return Verdict.NOT_RUN
         verdicts = self._verdicts(requirement.id)
         if self.shown is not None:
             return verdicts.get(self.shown.variant, Verdict.NOT_RUN)

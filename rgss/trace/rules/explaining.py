@@ -112,8 +112,9 @@ understood; `wording.ears-keyword` notes them.
 ## Verdicts
 
 `rgss measure` gives a verdict on each requirement with a criterion for each variant;
-`rgss measure --verdicts` lists them. The verdict on a requirement that is verified by test follows
-from the tests that are marked with it.
+`rgss measure --verdicts` lists them. The verdict on a requirement without a criterion that is verified
+by test follows from the tests that are marked with it. A marked test that failed outweighs what trials
+show of a requirement with a criterion, in `rgss trace` and on the report.
 
 | verdict | by trials | by tests |
 |---|---|---|
@@ -133,6 +134,8 @@ A verdict becomes stale when a digest differs, and the cause is named:
 
 Recorded verdicts are in `.rgss/verdicts.json` beside the evidence. A verdict that was never
 recorded cannot be older than its requirement; a recorded one that its evidence contradicts is a
-finding. A test run that `pytest --junitxml=FILE` writes contains the digests of the tested code and
-of each requirement, and is stale once one of them differs.
+finding. A test run that `pytest --junitxml=FILE` writes where rgss is installed contains the digests
+of the tested code (in the project's folder, in `src`, or in a package of the folder) and of each
+requirement, and is stale once one of them differs. A run without them is stale as *unrecorded*:
+nobody knows what it tested.
 """

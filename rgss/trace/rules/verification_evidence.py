@@ -72,6 +72,8 @@ def _variants(ids: Sequence[int], total: int) -> str:
 
 
 def _causes(causes: Sequence[StaleCause]) -> str:
+    if StaleCause.UNRECORDED in causes:
+        return "the run did not record what it tested"
     names = [f"the {cause.value}" for cause in causes]
     verb = "has" if len(names) == 1 and causes[0] is not StaleCause.ENGINES else "have"
     return f"{' and '.join(names) or 'something'} {verb} changed since"

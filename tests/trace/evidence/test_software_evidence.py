@@ -43,7 +43,10 @@ def mark(name, *requirements):
     )
 
 
-def report(ends, **properties):
+def report(ends, *requirements, software="now", **properties):
+    """A run of the tests of some requirements, with the digests that it recorded."""
+    recorded = {f"{REQUIREMENT_PREFIX}{one.id}": verification_digest(one) for one in requirements}
+    properties = {SOFTWARE: software, **recorded, **properties} if requirements else properties
     tests = [RunTest(id=f"tests/test_it.py::{name}", requirements=(), end=end) for name, end in ends.items()]
     return JUnitReport(tests=tuple(tests), properties=properties)
 
@@ -65,7 +68,7 @@ MARKS = (mark("test_a", "SYS-1"), mark("test_b", "SYS-1", "SYS-2"), mark("test_c
     ],
 )
 def test_verdicts(requirement, ends, verdict):
-    found = software_evidence([requirement], MARKS, report(ends), software="now")["SYS-1"]
+    found = software_evidence([requirement], MARKS, report(ends, requirement), software="now")["SYS-1"]
 
     assert (found.verdict, found.causes) == (verdict, ())
 
@@ -95,10 +98,21 @@ def test_a_marked_test_may_inspect_or_demonstrate(project, method):
     project.edit("system.yaml", "analysis", method)
     project.edit("system.yaml", CRITERION, "    success: The gripper lifts a cup.\n")
     requirements = load_requirements(project.folder).system
-    ran = report({"test_a": PASSED, "test_b": PASSED})
+    ran = report({"test_a": PASSED, "test_b": PASSED}, *requirements)
 
     assert software_evidence(requirements, MARKS, ran, software="now")["SYS-1"].verdict is Verdict.MET
     assert dict(software_evidence(requirements, (), ran, software="now")) == {}
+
+
+def test_what_a_run_without_digests_tested_is_unknown(requirement):
+    """As another program than pytest writes it, or pytest without the plugin of rgss."""
+    ran = report({"test_a": PASSED, "test_b": PASSED})
+    found = software_evidence([requirement], MARKS, ran, software="now")["SYS-1"]
+    assert (found.verdict, found.causes) == (Verdict.STALE, (StaleCause.UNRECORDED,))
+    # A requirement that the run did not know.
+    partly = report({"test_a": PASSED, "test_b": PASSED}, **{SOFTWARE: "now"})
+    found = software_evidence([requirement], MARKS, partly, software="now")["SYS-1"]
+    assert (found.verdict, found.causes) == (Verdict.STALE, (StaleCause.REQUIREMENT,))
 
 
 @pytest.mark.parametrize(
@@ -134,9 +148,10 @@ def test_what_was_never_run_is_not_stale(requirement):
 
 
 def test_the_digest_is_of_what_tests_run_on(tmp_path):
-    tested = ("rgss/a.py", "tests/test_a.py", "designs/d.yaml", "requirements/measures.yaml")
+    own = ("logger.py", "src/own/log.py", "package/__init__.py", "package/inner/deep.py")
+    tested = ("rgss/a.py", "tests/test_a.py", "designs/d.yaml", "requirements/measures.yaml", *own)
     for name in (*tested, "requirements/system.yaml"):
-        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("1\n", encoding="utf-8")
     digests = [software_digest(tmp_path)]
 
@@ -212,12 +227,14 @@ def test_marked_tests_of_this_project_verify_what_is_there():
         ({"test_a": FAILED, "test_b": FAILED}, {}, "error: 'SYS-1' is not met: tests/test_it.py::test_a and 1 more"),
         ({"test_a": PASSED, "test_b": FAILED}, {}, "error: 'SYS-1' is not met: tests/test_it.py::test_b failed"),
         ({"test_a": PASSED, "test_b": PASSED}, {SOFTWARE: "then"}, "warning: 'SYS-1' was tested before: the code has"),
+        ({"test_a": PASSED, "test_b": PASSED}, None, "warning: 'SYS-1' was tested before: the run did not record what"),
         ({"test_a": PASSED, "test_b": PASSED}, {}, None),
     ],
 )  # fmt: skip
 def test_findings_on_tests(project, requirement, ends, causes, text):
     marks = (*MARKS[:1], mark("test_b", "SYS-1"))
-    evidence = software_evidence([requirement], marks, report(ends, **causes), software="now")
+    ran = report(ends) if causes is None else report(ends, requirement, **causes)
+    evidence = software_evidence([requirement], marks, ran, software="now")
     project.evidence, project.marked = EvidenceState(software=evidence), marks
     findings = project.findings()
 

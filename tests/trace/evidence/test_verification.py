@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from rgss.measures import StaleCause, Verdict
 from rgss.requirements import VerificationMethod
+from rgss.trace.evidence import SoftwareEvidence, TestEnd, TestEvidence
 from rgss.trace.evidence.verdict_evidence import TraceEvidence
 from rgss.trace.evidence.verification import verification_matrix
 
@@ -45,6 +48,21 @@ def test_tests_decide_where_there_is_no_criterion(model, story):
     assert [test.test for test in rows["SYS-2"].tests] == ["tests/test_gripper.py::test_it_opens[fast]"]
     assert (rows["SYS-3"].verdict, rows["SYS-3"].has_gap) == (Verdict.NOT_RUN, True)
     assert (rows["SYS-4"].verdict, rows["SYS-4"].success, rows["SYS-4"].trials) == (Verdict.NOT_RUN, "", ())
+
+
+def test_a_failed_test_outweighs_what_trials_show(model, story):
+    evidence = story.evidence()
+    for end, causes, verdict in (
+        (TestEnd.FAILED, (), Verdict.NOT_MET),
+        (TestEnd.FAILED, (StaleCause.CODE,), Verdict.MET),
+        (TestEnd.PASSED, (), Verdict.MET),
+        (None, (), Verdict.MET),
+    ):
+        test = TestEvidence(requirement="SYS-1", test="tests/test_gripper.py::test_it_lifts", end=end)
+        of_tests = SoftwareEvidence(requirement="SYS-1", tests=(test,), marks=(), causes=causes)
+        state = replace(evidence.state, software={**evidence.state.software, "SYS-1": of_tests})
+        row = rows_of(model, replace(evidence, state=state))["SYS-1"]
+        assert (row.verdict, row.has_gap) == (verdict, verdict is not Verdict.MET)
 
 
 def test_each_row_says_where_its_requirement_stands(model, story):

@@ -26,6 +26,7 @@ def conclusion_to_json(made: StudyDecision) -> Plain:
         "counts": {kind.value: found.count(kind) for kind in Feasibility},
         "open_by": list(found.open_by),
         "unmeasured": list(found.unmeasured),
+        "failed_tests": list(found.failed_tests),
         "chosen": None if found.chosen is None else _standing(found.chosen),
         "variants": [{"variant": one.variant, "feasibility": one.feasibility.value} for one in found.standings],
         "uncertainty": _uncertainty(made),
