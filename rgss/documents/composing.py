@@ -30,7 +30,9 @@ MOST_VALUES = 250_000
 
 # Printable characters of YAML. A byte order mark is allowed only at the start.
 _NOT_PRINTABLE = re.compile(r"[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
-_LONE_SURROGATE = re.compile(r"[\ud800-\udfff]")
+_SURROGATE = re.compile(r"[\ud800-\udfff]")
+# JSON escapes a character beyond the basic plane as a pair.
+_SURROGATE_PAIR = re.compile(r"[\ud800-\udbff][\udc00-\udfff]")
 _INTEGER = re.compile(r"[+-]?(0|[1-9][0-9]{0,17})")
 _FLOAT = re.compile(
     r"[+-]?(((0|[1-9][0-9]*)\.[0-9]*|\.[0-9]+)([eE][+-]?[0-9]{1,3})?|(0|[1-9][0-9]*)[eE][+-]?[0-9]{1,3})"
@@ -198,12 +200,18 @@ class Composer:
         if event.anchor is not None or event.tag is not None:
             self._refuse_extras(event)
         if isinstance(event, ScalarEvent):
-            if event.style == '"' and _LONE_SURROGATE.search(event.value):
-                self._report("character", "half a surrogate pair is not a character", self._at(event), "remove it")
-            return _resolve(event.value, event.style), mark
+            return _resolve(self._text_of(event), event.style), mark
         if isinstance(event, SequenceStartEvent):
             return self._compose_sequence(mark, depth)
         return self._compose_mapping(mark, depth)
+
+    def _text_of(self, event: ScalarEvent) -> str:
+        text = str(event.value)
+        if event.style == '"' and _SURROGATE.search(text):
+            text = _SURROGATE_PAIR.sub(lambda pair: pair[0].encode("utf-16", "surrogatepass").decode("utf-16"), text)
+            if _SURROGATE.search(text):
+                self._report("character", "half a surrogate pair is not a character", self._at(event), "remove it")
+        return text
 
     def _refuse_extras(self, event: Any) -> None:
         if event.anchor is not None:
@@ -249,7 +257,7 @@ class Composer:
             self._refuse_extras(event)
             if event.value == "<<" and not event.style:
                 self._report("merge-key", "merge key << is refused", self._at(event), "write the keys out")
-            return str(event.value)
+            return self._text_of(event)
         if not isinstance(event, AliasEvent):
             self._report("key", "a key must be a text", self._at(event), "write one word or a quoted text")
         stand_in = f"<key at {self._at(event)}>"

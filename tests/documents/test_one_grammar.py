@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -49,6 +50,8 @@ REFUSED = {
     "escaped number beyond Unicode": 'a: "\\U00110000"',
     "escaped number beyond 32 bits": 'a: "\\UFFFFFFFF"',
     "half of a surrogate pair": 'a: "\\ud800"',
+    "half of a surrogate pair in a key": '"a\\ud800": 1',
+    "half of a surrogate pair beside a whole one": 'a: "\\ud83e\\udd16\\udd16"',
     "unknown escape": 'a: "\\q"',
     "byte order mark in the middle": "a: 1\nb: \ufeff2",
     "open flow": "a: [b",
@@ -84,6 +87,7 @@ READ = {
     "per cent in the text": "a: 5 %\nb: 'x\n  %y'",
     "block scalars": "a: |2-\n    x\n   y\nb: >+\n  p\n\n  q\n\nc: 1",
     "escapes": 'a: "\\x41\\u00e9\\U0001F916\\N\\_\\/\\\n  b"',
+    "an escaped surrogate pair": '{"a\\ud83e\\udd16": "\\ud83e\\udd16 b"}',
     "words with signs": "a: [-b, b-, b#c, b:c, 'd'':e', a/b]\nc: -d\ne: f#g\nh:: i",
     "empty values": "a:\nb: []\nc: {}\nd: ''\ne: {f, g: }",
     "a version": "%YAML 1.1\n---\na: 1",
@@ -104,6 +108,12 @@ def reading_of(text: str, folder: Path) -> object:
     except DocumentError as error:
         return [str(finding) for finding in error.findings]
     return repr(document.data), dict(document.values), dict(document.keys)
+
+
+def test_an_escaped_surrogate_pair_is_one_character(tmp_path):
+    """As JSON writes what lies beyond the basic plane."""
+    (tmp_path / "f.yaml").write_text(json.dumps({"🤖": "𝄞 b"}), encoding="utf-8")
+    assert read_document(tmp_path / "f.yaml", label="f.yaml").data == {"🤖": "𝄞 b"}
 
 
 def both_readings(text: str, folder: Path) -> tuple[object, object]:

@@ -132,7 +132,7 @@ def impact_to_html(impact: Impact, report: TraceReport) -> str:
             group("Blocks and behaviours", impact.elements),
             group("Measures", impact.measures),
             group("Verdicts to renew", list(verdicts_by_id), verdicts),
-            group("Trials that they depend on", impact.trials),
+            group("Trials of the shown variant that they depend on", impact.trials),
             group("Tests to run again", impact.tests),
             group("Reviews to renew", impact.reviews),
         ],

@@ -61,8 +61,7 @@ def metric_rows(report: TraceReport) -> list[dict[str, Any]]:
             "covered": metric.covered,
             "total": metric.total,
             "share": metric.share,
-            # Rounded down, so that only complete coverage reads 100 %.
-            "percent": f"{int(metric.share * 1000) / 10:g} %",
+            "percent": f"{metric.percent:g} %",
             "required": metric.required,
             "gap": metric.required and bool(metric.missing),
             "missing": metric.missing[:_MOST_MISSING],

@@ -40,7 +40,7 @@ def coverage_table(report: TraceReport) -> Table:
                 metric.title,
                 metric.covered,
                 metric.total,
-                f"{metric.share:.1%}",
+                f"{metric.percent:.1f}%",
                 "yes" if metric.required else "no",
                 " ".join(metric.missing),
             )

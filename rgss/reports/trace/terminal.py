@@ -126,7 +126,7 @@ def impact_lines(impact: Impact) -> list[str]:
         ("Blocks and behaviours", impact.elements),
         ("Measures", impact.measures),
         ("Verdicts to renew", verdicts),
-        ("Trials that they depend on", [key[:KEY_DIGITS] for key in impact.trials]),
+        ("Trials of the shown variant that they depend on", [key[:KEY_DIGITS] for key in impact.trials]),
         ("Tests to run again", impact.tests),
         ("Reviews to renew", impact.reviews),
     )

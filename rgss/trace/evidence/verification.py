@@ -56,10 +56,11 @@ def verification_matrix(model: TraceModel, evidence: TraceEvidence) -> tuple[Ver
 
 
 def success_criterion(requirement: Requirement) -> str:
-    """Criterion or success condition of a requirement, in words; empty while that is open."""
+    """Criterion or success condition of a requirement, or why it has none, in words; empty while that is open."""
     if requirement.criterion is not None:
         return str(requirement.criterion)
-    return requirement.success or requirement.criterion_exemption or ""
+    exemption = requirement.criterion_exemption
+    return requirement.success or (f"none: {exemption}" if exemption else "")
 
 
 def _row(model: TraceModel, evidence: TraceEvidence, requirement: Requirement) -> VerificationRow:

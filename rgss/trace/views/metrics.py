@@ -47,6 +47,11 @@ class CoverageMetric:
         """The covered share, from 0 to 1; 1 where there is nothing to cover."""
         return self.covered / self.total if self.total else 1.0
 
+    @property
+    def percent(self) -> float:
+        """The share in per cent, rounded down to a tenth, so that only complete coverage reads 100 %."""
+        return self.covered * 1000 // self.total / 10 if self.total else 100.0
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TraceMatrices:
