@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore, TrialRecord
 from rgss.findings import shown
-from rgss.guard.decision import decision_of, explained_by_noise, p_values
+from rgss.guard.decision import as_before, decision_of, explained_by_noise, p_values
 from rgss.guard.inputs import inputs_of_trials, origin_of_trials
 from rgss.guard.runs import (
     Records,
@@ -275,7 +275,14 @@ class _Comparing:
         now = decision_of(trials, records)
         explained: Mapping[str, float] = {} if now == before else explained_by_noise(trials, records, before, now)
         by_luck = p_values(trials.project, before, now)
-        return decision_changes(before, now, explained=explained, by_luck=by_luck, error_rate=self._guard.error_rate)
+        return decision_changes(
+            before,
+            now,
+            explained=explained,
+            by_luck=by_luck,
+            unmoved=as_before(trials.project, before, now),
+            error_rate=self._guard.error_rate,
+        )
 
     def _order(self, subject: Subject) -> tuple[str, str, int]:
         place = self._phases.index(subject.phase) if subject.phase in self._phases else -1

@@ -127,6 +127,33 @@ def p_values(project: Project, before: DecisionState, now: DecisionState) -> dic
     return found
 
 
+def as_before(project: Project, before: DecisionState, now: DecisionState) -> frozenset[str]:
+    """Parts of the decision of which every value is that of the baseline, so that no seed can have changed them.
+
+    Args:
+        project: The study.
+        before: The former decision.
+        now: The present decision.
+
+    Returns:
+        ``chosen``, ``pareto`` and ``verdict N REQUIREMENT``, as far as they have their former values.
+    """
+    kept = {
+        (variant, measure)
+        for variant in before.measures.keys() & now.measures.keys()
+        for measure in before.measures[variant].keys() & now.measures[variant].keys()
+        if before.measures[variant][measure] == now.measures[variant][measure]
+    }
+    known = {(variant, measure) for variant, row in now.measures.items() for measure in row}
+    whole = {"chosen", "pareto"} if kept >= known and before.measures.keys() == now.measures.keys() else set()
+    return frozenset(whole) | {
+        f"verdict {variant} {requirement.id}"
+        for requirement in requirements_with_criteria(project)
+        for variant in now.verdicts
+        if requirement.criterion is not None and (variant, requirement.criterion.measure) in kept
+    }
+
+
 def _by_seed(project: Project, measured: VariantMeasures, names: Sequence[str]) -> dict[str, tuple[float | None, ...]]:
     rows = [_judged(project, measured.variant, [record])[0] for record in measured.records]
     return {name: tuple(row[name].value if name in row else None for row in rows) for name in names}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from rgss.regression.baseline import Baseline, BaselineRun, DecisionState
 from rgss.regression.comparing import WHOLE_TRIAL
@@ -145,6 +145,7 @@ def decision_changes(
     explained: Mapping[str, float],
     error_rate: float,
     by_luck: Mapping[str, float] | None = None,
+    unmoved: Collection[str] = (),
 ) -> tuple[tuple[Failing, ...], tuple[str, ...]]:
     """Changes of the decision.
 
@@ -161,6 +162,8 @@ def decision_changes(
         error_rate: The share below which noise explains nothing; also of false alarms, if there are p-values.
         by_luck: P-values of what ``chosen``, ``pareto`` and each ``verdict N REQUIREMENT`` rests on, adjusted for
             there being many; without one, what moved is taken to have moved.
+        unmoved: Those of them of which every value is that of the baseline. No seed explains that they changed: a
+            requirement, a weight or the code that decides did.
 
     Returns:
         What fails, and what is only reported.
@@ -190,9 +193,13 @@ def decision_changes(
             else:
                 moves.append((f"verdict {variant} {requirement}", text))
     for what, text in moves:
-        p_value = (by_luck or {}).get("pareto" if what.startswith("pareto ") else what, 0.0)
+        rests_on = "pareto" if what.startswith("pareto ") else what
+        p_value = (by_luck or {}).get(rests_on, 0.0)
         share = explained.get(what, 0.0)
-        if p_value > error_rate:
+        if rests_on in unmoved:
+            why = "every value is that of the baseline, so that a requirement, a weight or what decides has changed"
+            failing.append(Failing(trouble=FailureCause.UNSTABLE, text=f"{text}; {why}"))
+        elif p_value > error_rate:
             notes.append(f"{text}; the seeds do not show that it is more than their luck (p = {p_value:.2f})")
         elif share > error_rate:
             notes.append(f"{text}; within the noise, which has it as it was in {share:.0%} of the resamples")

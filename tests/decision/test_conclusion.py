@@ -10,6 +10,7 @@ from rgss.assessment.measuring import measure_variants
 from rgss.decision.choosing import trade_problem
 from rgss.decision.robustness import robustness
 from rgss.decision.study_decision import Conclusion, DesignStanding, Feasibility, decide_study
+from rgss.decision.study_decision.conclusion import conclusion_of
 from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
 from rgss.reports.decision.conclusion import headline, rule_sentence, standing_sentence, uncertainty_sentences
 from rgss.tradeoff.robustness import Rival
@@ -99,6 +100,17 @@ def test_a_failed_test_is_told_beside_the_choice(made):
     other = dataclasses.replace(other, conclusion=dataclasses.replace(other.conclusion, failed_tests=("SYS-1", "A")))
     assert headline(other).endswith("0 infeasible. Tests of SYS-1, A failed: no design meets them.")
     assert trade_document(other)["conclusion"]["failed_tests"] == ["SYS-1", "A"]
+
+
+def test_a_requirement_whose_test_failed_is_missed_by_every_design(shipped, measured, monkeypatch):
+    """One with a criterion, which all designs meet by it, and one without."""
+    monkeypatch.setattr("rgss.decision.study_decision.conclusion.failed_tests", lambda *_: ("SYS-004", "SYS-003"))
+    found = conclusion_of(shipped, measured, measured[0].variant.id)
+    assert found.failed_tests == ("SYS-004", "SYS-003")
+    for one in found.standings:
+        assert {"SYS-004", "SYS-003"} <= set(one.missed)
+        assert not {"SYS-004", "SYS-003"} & {*one.met, *one.open, *one.not_run, *one.undecided}
+        assert one.feasibility is Feasibility.INFEASIBLE
 
 
 def test_the_headline_of_a_choice_that_is_shown_to_miss(made):

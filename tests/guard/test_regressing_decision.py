@@ -63,6 +63,25 @@ def test_the_decision_over_several_designs_is_guarded(compared):
     assert not any("variant 31: the verdict" in text for text in said)
 
 
+@pytest.mark.parametrize("replicates", [4, 8])
+def test_no_seed_explains_a_decision_whose_values_are_those_of_the_baseline(compared, replicates):
+    """As where a threshold or a weight was edited: here the baseline has the decision of another threshold."""
+    section = SECTION.replace('"57", replicates: 4', f'"28,31,57", replicates: {replicates}').replace(
+        "cap: 6", "cap: 8"
+    )
+
+    def of_another_threshold(baseline):
+        verdicts = {**baseline.decision.verdicts, "57": {**baseline.decision.verdicts["57"], "SYS-005": "met"}}
+        return replace(baseline, decision=replace(baseline.decision, chosen=57, verdicts=verdicts))
+
+    report = compared(section, before=section, baseline_of=of_another_threshold)
+    why = "; every value is that of the baseline, so that a requirement, a weight or what decides has changed"
+    assert troubles(report) == [
+        f"unstable: decision: variant 57 was chosen, now variant 28{why}",
+        f"unstable: variant 57: the verdict on SYS-005 was met and is inconclusive{why}",
+    ]
+
+
 def test_with_enough_seeds_only_what_all_of_them_show_makes_a_decision_unstable(compared):
     """A slow planner is seen with every seed; searches that were slow with one are luck."""
     section = SECTION.replace('"57", replicates: 4', '"28,31,57", replicates: 8').replace("cap: 6", "cap: 8")

@@ -48,7 +48,7 @@ class DesignStanding:
 
     @property
     def feasibility(self) -> Feasibility:
-        """Feasible, infeasible or open; requirements without a criterion do not count."""
+        """Feasible, infeasible or open; of requirements without a criterion only those count of which a test failed."""
         if self.missed:
             return Feasibility.INFEASIBLE
         return Feasibility.OPEN if self.undecided else Feasibility.FEASIBLE
@@ -99,16 +99,19 @@ def conclusion_of(
     """
     decided = {one.id for one in requirements_with_criteria(project)}
     unmeasured = tuple(one.id for one in project.requirements.system if one.id not in decided)
-    standings = tuple(_standing(project, entry, unmeasured) for entry in measured)
+    failed = failed_tests(project, junit)
+    standings = tuple(_standing(project, entry, unmeasured, failed) for entry in measured)
     return Conclusion(
         standings=standings,
         chosen=next((one for one in standings if one.variant == chosen), None),
         unmeasured=unmeasured,
-        failed_tests=failed_tests(project, junit),
+        failed_tests=failed,
     )
 
 
-def _standing(project: Project, entry: VariantMeasures, unmeasured: tuple[str, ...]) -> DesignStanding:
+def _standing(
+    project: Project, entry: VariantMeasures, unmeasured: tuple[str, ...], failed: tuple[str, ...]
+) -> DesignStanding:
     found: dict[Verdict, list[str]] = {verdict: [] for verdict in Verdict}
     for requirement in requirements_with_criteria(project):
         if requirement.criterion is None:
@@ -118,14 +121,16 @@ def _standing(project: Project, entry: VariantMeasures, unmeasured: tuple[str, .
         verdict = judge(requirement.criterion, entry.estimates[requirement.criterion.measure], stale=stale)
         if verdict is Verdict.NOT_RUN and entry.records:
             verdict = Verdict.INCONCLUSIVE
+        if requirement.id in failed:
+            verdict = Verdict.NOT_MET
         found[verdict].append(requirement.id)
     without = (*found[Verdict.NOT_RUN], *found[Verdict.STALE])
     return DesignStanding(
         variant=entry.variant.id,
         met=tuple(found[Verdict.MET]),
         open=tuple(found[Verdict.INCONCLUSIVE]),
-        missed=tuple(found[Verdict.NOT_MET]),
-        not_run=(*without, *unmeasured),
+        missed=(*found[Verdict.NOT_MET], *(one for one in unmeasured if one in failed)),
+        not_run=(*without, *(one for one in unmeasured if one not in failed)),
         undecided=(*found[Verdict.INCONCLUSIVE], *without),
         stale=tuple(found[Verdict.STALE]),
     )

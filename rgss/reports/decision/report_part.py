@@ -47,6 +47,7 @@ def decision_part(made: StudyDecision) -> Plain:
         "counts": {"alternatives": decision.counts.alternatives, "feasible": decision.counts.feasible},
         "demands": dict(decision.demands),
         "headline": headline(made),
+        "failed_tests": list(made.conclusion.failed_tests),
         "standing": [
             line
             for line in (

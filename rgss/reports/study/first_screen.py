@@ -35,8 +35,10 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         return None
     place = document["variants"]["id"].index(chosen)
     requirements = [one for one in document["requirements"] if one["measure"]]
-    open_ = [one for one in requirements if entry_at(one["verdict"], place) in _OPEN]
-    missed = [one for one in requirements if entry_at(one["verdict"], place) == "not_met"]
+    failed = [one for one in document["requirements"] if one["id"] in decision["failed_tests"]]
+    judged = [one for one in requirements if one not in failed]
+    open_ = [one for one in judged if entry_at(one["verdict"], place) in _OPEN]
+    missed = [one for one in judged if entry_at(one["verdict"], place) == "not_met"]
     units = {measure["id"]: measure for measure in document["measures"]}
     weights = {measure: one["weight"] or 0.0 for measure, one in units.items()}
     # Missed and open requirements come first, then those with the greatest weights.
@@ -49,9 +51,12 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         "chosen": chosen,
         "tied": [one for one in decision["ties"] if one != chosen],
         "near": decision["near_ties"],
-        "met": len(requirements) - len(open_) - len(missed),
+        "met": len(judged) - len(open_) - len(missed),
         "open": [{"id": one["id"], "text": one["text"]} for one in open_],
-        "missed": [{"id": one["id"], "text": one["text"]} for one in missed],
+        "missed": [
+            *({"id": one["id"], "text": one["text"]} for one in missed),
+            *({"id": one["id"], "text": f"{one['text']} Its test failed."} for one in failed),
+        ],
         "bullets": bullets[:MOST_BULLETS],
         "more_limits": max(0, len(bullets) - MOST_BULLETS),
         "changes": list(_changes(decision)),

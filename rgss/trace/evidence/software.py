@@ -13,7 +13,7 @@ from rgss.errors import EvidenceError
 from rgss.measures import StaleCause, Verdict
 from rgss.requirements import Requirement, VerificationMethod
 from rgss.trace.evidence.digest import verification_digest
-from rgss.trace.evidence.junit_file import JUnitReport, TestEnd
+from rgss.trace.evidence.junit_file import JUnitReport, RunTest, TestEnd
 from rgss.trace.evidence.test_marks import MarkedTest
 
 JUNIT_FILE = ".rgss/junit.xml"
@@ -91,7 +91,8 @@ def software_evidence(
     """Join marks and results.
 
     A test that is marked in the source, but is not in the result, was not run. A test in the result whose mark has been
-    removed from the source is ignored.
+    removed from the source is ignored. One whose mark the source does not show, such as that of a class with another
+    name, counts while the result holds.
 
     Args:
         requirements: The system requirements; those with a criterion are skipped.
@@ -111,22 +112,29 @@ def software_evidence(
     for mark in marked:
         for name in mark.requirements:
             marks.setdefault(name, []).append(mark)
-    return MappingProxyType(
-        {
-            requirement.id: SoftwareEvidence(
-                requirement=requirement.id,
-                tests=tuple(
-                    TestEvidence(requirement=requirement.id, test=test, end=end)
-                    for mark in marks.get(requirement.id, ())
-                    for test, end in runs.get(mark.id, [(mark.id, None)])
-                ),
-                marks=tuple(marks.get(requirement.id, ())),
-                causes=() if report is None else tuple(_causes(requirement, report, software, qualifier)),
-            )
-            for requirement in requirements
-            if _is_tested(requirement, marks)
-        }
-    )
+    known = {mark.id for mark in marked}
+    found = {}
+    for requirement in requirements:
+        causes = () if report is None else tuple(_causes(requirement, report, software, qualifier))
+        hidden: list[RunTest] = []
+        if report is not None and not causes:
+            hidden = [
+                test
+                for test in report.tests
+                if test.function not in known and f"{qualifier}{requirement.id}" in test.requirements
+            ]
+        own = marks.get(requirement.id, [])
+        if not _is_tested(requirement, is_marked=bool(own or hidden)):
+            continue
+        ends = [(test, end) for mark in own for test, end in runs.get(mark.id, [(mark.id, None)])]
+        ends += [(test.id, test.end) for test in hidden]
+        found[requirement.id] = SoftwareEvidence(
+            requirement=requirement.id,
+            tests=tuple(TestEvidence(requirement=requirement.id, test=test, end=end) for test, end in ends),
+            marks=tuple(own),
+            causes=causes,
+        )
+    return MappingProxyType(found)
 
 
 def run_properties(project: Path, requirements: Iterable[Requirement], *, qualifier: str = "") -> Mapping[str, str]:
@@ -193,13 +201,13 @@ def _tested(project: Path) -> list[Path]:
     return sorted(found)
 
 
-def _is_tested(requirement: Requirement, marks: Mapping[str, object]) -> bool:
+def _is_tested(requirement: Requirement, *, is_marked: bool) -> bool:
     """True if tests decide: it is verified by test, or marked tests inspect or demonstrate it."""
     method = requirement.verification
     if method is VerificationMethod.TEST:
         return True
     by_hand = method in (VerificationMethod.INSPECTION, VerificationMethod.DEMONSTRATION)
-    return by_hand and requirement.criterion is None and requirement.id in marks
+    return by_hand and requirement.criterion is None and is_marked
 
 
 def _causes(requirement: Requirement, report: JUnitReport, software: str, qualifier: str) -> Iterable[StaleCause]:

@@ -137,5 +137,5 @@ recorded cannot be older than its requirement; a recorded one that its evidence 
 finding. A test run that `pytest --junitxml=FILE` writes where rgss is installed contains the digests
 of the tested code (in the project's folder, in `src`, or in a package of the folder) and of each
 requirement, and is stale once one of them differs. A run without them is stale as *unrecorded*:
-nobody knows what it tested.
+nobody knows what it tested. Of a test with parameters the sets that were run count.
 """

@@ -44,6 +44,7 @@ DOCUMENT = {
         "chosen": 2,
         "ties": [2],
         "near_ties": [1],
+        "failed_tests": [],
         "modelling": {
             "rows": [
                 {"cells": ["prices", "as stated", "1.5", "nothing is feasible", "yes"], "changes": True},
@@ -72,6 +73,15 @@ def test_what_is_open_comes_first_and_then_what_weighs_most():
     assert shown["open"] == [{"id": "R2", "text": "R2 in words."}, {"id": "R4", "text": "R4 in words."}]
     assert shown["missed"] == []
     assert shown["more_limits"] == 0
+
+
+def test_a_requirement_whose_test_failed_is_missed_whatever_its_measure_says():
+    shown = first_screen_content(changed(failed_tests=["R3", "R5"]))
+    assert shown["missed"] == [
+        {"id": "R3", "text": "R3 in words. Its test failed."},
+        {"id": "R5", "text": "R5 in words. Its test failed."},
+    ]
+    assert shown["met"] == 1
 
 
 def test_limits_without_a_chart_are_counted():

@@ -79,6 +79,24 @@ def test_without_a_run_or_a_mark_nothing_is_known(requirement):
     assert (unmarked.verdict, unmarked.tests) == (Verdict.NOT_RUN, ())
 
 
+def test_a_mark_that_the_source_does_not_show_counts_while_the_run_holds(requirement):
+    """As of a unittest.TestCase with another name, or in the parameters of a test."""
+    shown = RunTest(id="tests/test_it.py::test_a", requirements=("SYS-1",), end=PASSED)
+    hidden = RunTest(id="tests/test_it.py::CaseOfIt::test_h[1]", requirements=("SYS-1", "SYS-2"), end=FAILED)
+    noted = report({}, requirement).properties
+    ran = JUnitReport(tests=(shown, hidden), properties=noted)
+
+    found = software_evidence([requirement], MARKS[:1], ran, software="now")["SYS-1"]
+    assert [(test.test, test.end) for test in found.tests] == [(shown.id, PASSED), (hidden.id, FAILED)]
+    assert found.verdict is Verdict.NOT_MET
+    # Nothing says that the mark is still there.
+    stale = software_evidence([requirement], MARKS[:1], ran, software="later")["SYS-1"]
+    assert [test.test for test in stale.tests] == [shown.id]
+    # That of another set of requirements.
+    other = software_evidence([requirement], MARKS[:1], ran, software="now", qualifier="bench/")["SYS-1"]
+    assert [test.test for test in other.tests] == [shown.id]
+
+
 def test_each_test_is_told_with_its_end(requirement):
     found = software_evidence([requirement], MARKS, report({"test_b[x]": FAILED}), software="now")["SYS-1"]
 
