@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from rgss.exchange.attributes import ATTRIBUTES, Part
     from rgss.exchange.comparison import ChangeKind, ElementChange, ImportDefaults, compare, not_as_planned
     from rgss.exchange.content import Content, content_of, part_of
+    from rgss.exchange.foreign_measures import with_measures_compared
     from rgss.exchange.journal import contents_of, has_journal, importing, undone, was_interrupted
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -64,7 +64,16 @@ def _imported(folder: Path, options: argparse.Namespace) -> int:
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
     from rgss.errors import DocumentError
-    from rgss.exchange import compare, content_of, contents_of, planned, rehearsed, with_absent_links, written
+    from rgss.exchange import (
+        compare,
+        content_of,
+        contents_of,
+        planned,
+        rehearsed,
+        with_absent_links,
+        with_measures_compared,
+        written,
+    )
     from rgss.studies import FOLDERS, load_project
 
     contents = contents_of(folder)
@@ -74,6 +83,7 @@ def _imported(folder: Path, options: argparse.Namespace) -> int:
     own = content_of(project.requirements)
     if options.format == "reqif":
         foreign = with_absent_links(own, foreign, remove=options.remove)
+        foreign = with_measures_compared(foreign, {one.id: one.definition for one in project.measures.measures})
     changes = compare(own, foreign, assumed)
     files: Sequence[FileChange] = planned(
         folder, project.requirements, changes, remove=options.remove, contents=contents

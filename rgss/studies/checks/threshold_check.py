@@ -1,17 +1,20 @@
-"""Findings about thresholds beyond the values that a measure can have."""
+"""Findings about thresholds beyond the values that a measure can have, or that exclude each other."""
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 
 from rgss.findings import Finding, Severity
 from rgss.measures import Range, estimate_ranges
-from rgss.requirements import Comparison, Criterion
+from rgss.requirements import Comparison, Criterion, Statistic
 from rgss.studies.project import Project
+
+_ORDER = {Statistic.LOW: 0, Statistic.VALUE: 1, Statistic.HIGH: 2}
 
 
 def threshold_findings(project: Project) -> Iterator[Finding]:
-    """Report criteria that no value of their measure can meet, and warn of those that every value meets.
+    """Report criteria that no value of their measure can meet, alone or together; warn of those that each one meets.
 
     The bounds are those that the measure declares, and those that follow from its definition.
 
@@ -36,6 +39,35 @@ def threshold_findings(project: Project) -> Iterator[Finding]:
             (*place.location, "criterion", "threshold"),
             severity=Severity.WARNING if is_met else Severity.ERROR,
             hint="correct the threshold, or the bounds of the measure",
+        )
+    yield from _contradictions(project)
+
+
+def _contradictions(project: Project) -> Iterator[Finding]:
+    """Pairs of criteria on one measure of which the one asks for more than the other allows."""
+    judged = [
+        (requirement, requirement.criterion)
+        for requirement in project.requirements.system
+        if requirement.criterion is not None
+    ]
+    for (earlier, one), (later, other) in itertools.combinations(judged, 2):
+        if one.measure != other.measure or one.comparison.is_lower_bound == other.comparison.is_lower_bound:
+            continue
+        least, most = (one, other) if one.comparison.is_lower_bound else (other, one)
+        # The lower end of an interval is at most the value, and that at most the upper end.
+        if _ORDER[least.statistic] > _ORDER[most.statistic]:
+            continue
+        unit = project.measures.measure(one.measure).unit
+        if most.comparison.holds(least.threshold_in(unit), most.threshold_in(unit)) and least.comparison.holds(
+            most.threshold_in(unit), least.threshold_in(unit)
+        ):
+            continue
+        place = project.requirements.places[later.id]
+        yield place.document.finding(
+            "study.contradiction",
+            f"{later.id} demands {other}, and {earlier.id} demands {one}: no design can meet both",
+            (*place.location, "criterion", "threshold"),
+            hint="correct one of the thresholds",
         )
 
 

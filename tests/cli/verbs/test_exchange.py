@@ -16,6 +16,7 @@ import yaml
 from rgss.cli.main import main
 from rgss.exchange import importing
 from rgss.requirements import load_requirements
+from rgss.studies import load_project
 
 DEFAULTS = ("--default", "source=The supplier", "--default", "priority=low", "--default", "owner=gripper engineer")
 
@@ -256,6 +257,29 @@ def test_an_import_that_takes_nothing_says_why(rgss, untouched, exports, tmp_pat
     assert (told.status, told.errors) == (1, "")
     assert told.output.splitlines()[-1] == "Nothing of the file was imported: the notes above say why."
     assert "not imported: they have no id or no text" in told.output
+
+
+def test_a_changed_measure_is_not_read_and_is_told(rgss, untouched, exports, tmp_path):
+    text = (exports / "rgss.reqif").read_text(encoding="utf-8")
+    definition = "Acceleration of the manipulator's tool while it carries the object."
+    (own,) = [one for one in load_project(untouched).measures.measures if one.id == "t_e"]
+    assert text.count(own.definition) == 1
+    assert definition not in own.definition
+    path = tmp_path / "foreign.reqif"
+    path.write_text(text.replace(own.definition, definition), encoding="utf-8")
+    told = rgss("import", "reqif", path, "--project", untouched)
+    assert (told.status, told.errors) == (1, "")
+    loss, last = told.output.splitlines()
+    assert loss == (
+        f"{path}:1:1: warning: the definition of measure 't_e' is another one than the project's (an import reads no "
+        "measures; change measures.yaml) [exchange.measure]"
+    )
+    assert last == "No changes."
+
+    path.write_text(re.sub(r'THE-VALUE="t_e"', 'THE-VALUE="t_new"', text), encoding="utf-8")
+    told = rgss("import", "reqif", path, "--project", untouched)
+    assert "measure 't_new' is none of the project's" in told.output
+    assert told.status == 1
 
 
 def test_what_a_text_loses_is_a_finding(rgss, folder, exports, tmp_path):

@@ -14,7 +14,9 @@ from openpyxl import load_workbook
 from rgss.evidence import EvidenceStore
 from rgss.reports.trace.formats import TRACE_FORMATS
 from rgss.reports.trace.json_document import json_schema
+from rgss.requirements import load_requirements
 from rgss.studies.project import load_project
+from rgss.trace.evidence import run_properties
 
 TABLES = ["coverage", "gaps", "stakeholder-moe", "system-stakeholder", "system-architecture", "verification"]
 ENDINGS = ", ".join(one.suffix for one in TRACE_FORMATS)
@@ -177,8 +179,11 @@ def test_results_of_tests_decide(rgss, folder, tmp_path):
     mark = '@pytest.mark.verifies("SYS-001")'
     (tests / "test_a.py").write_text(f"import pytest\n\n\n{mark}\ndef test_a():\n    pass\n", encoding="utf-8")
     junit = tmp_path / "junit.xml"
+    noted = run_properties(folder, load_requirements(folder / "requirements").system)
+    of_run = "".join(f'<property name="{name}" value="{value}"/>' for name, value in noted.items())
     junit.write_text(
-        '<testsuites><testsuite name="pytest"><testcase classname="tests.test_a" name="test_a"><properties>'
+        f'<testsuites><testsuite name="pytest"><properties>{of_run}</properties>'
+        '<testcase classname="tests.test_a" name="test_a"><properties>'
         '<property name="rgss.test" value="tests/test_a.py::test_a"/>'
         '<property name="rgss.verifies" value="SYS-001"/></properties></testcase></testsuite></testsuites>',
         encoding="utf-8",

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from rgss.findings import Severity
+from rgss.requirements import Comparison, Statistic
 from rgss.studies.checks import threshold_findings
 from rgss.studies.project import load_project
 
@@ -68,3 +70,50 @@ def test_a_threshold_beyond_the_bounds_is_found(found, measure, comparison, thre
 )
 def test_a_threshold_at_a_bound_is_none(found, measure, comparison, threshold):
     assert found(measure, comparison, threshold) == []
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "is_found"),
+    [
+        (("value", ">=", 0.5), ("value", "<=", 0.4), True),
+        (("value", "<=", 0.4), ("value", ">=", 0.5), True),
+        (("value", ">=", 0.4), ("value", "<=", 0.4), False),
+        (("value", ">", 0.4), ("value", "<=", 0.4), True),
+        (("value", ">=", 0.4), ("value", "<=", 0.5), False),
+        (("value", ">=", 0.5), ("value", ">=", 0.4), False),
+        # The interval lies about the value: its lower end below, its upper end above.
+        (("low", ">=", 0.5), ("value", "<=", 0.4), True),
+        (("low", ">=", 0.5), ("high", "<=", 0.4), True),
+        (("value", ">=", 0.5), ("high", "<=", 0.4), True),
+        (("high", ">=", 0.5), ("value", "<=", 0.4), False),
+        (("value", ">=", 0.5), ("low", "<=", 0.4), False),
+        (("high", ">=", 0.5), ("low", "<=", 0.4), False),
+    ],
+)
+def test_criteria_that_exclude_each_other_are_found(folder, one, other, is_found):
+    project = load_project(folder)
+    judged = [item for item in project.requirements.system if item.criterion is not None][:2]
+    made = {
+        item.id: replace(
+            item.criterion,
+            measure="S",
+            statistic=Statistic(statistic),
+            comparison=Comparison(comparison),
+            threshold=threshold,
+            unit="1",
+        )
+        for item, (statistic, comparison, threshold) in zip(judged, (one, other), strict=True)
+    }
+    system = tuple(
+        replace(item, criterion=made[item.id]) if item.id in made else item
+        for item in project.requirements.system
+        if item.id in made or item.criterion is None or item.criterion.measure != "S"
+    )
+    changed = replace(project, requirements=replace(project.requirements, system=system))
+    found = list(threshold_findings(changed))
+    assert [finding.rule for finding in found] == ["study.contradiction"] * is_found
+    if is_found:
+        first, second = (item.id for item in judged)
+        assert found[0].message == (
+            f"{second} demands {made[second]}, and {first} demands {made[first]}: no design can meet both"
+        )
