@@ -130,6 +130,8 @@ def p_values(project: Project, before: DecisionState, now: DecisionState) -> dic
 def as_before(project: Project, before: DecisionState, now: DecisionState) -> frozenset[str]:
     """Parts of the decision of which every value is that of the baseline, so that no seed can have changed them.
 
+    A measure that decides only now has no value in the baseline; that it decides is a change of the study.
+
     Args:
         project: The study.
         before: The former decision.
@@ -138,20 +140,24 @@ def as_before(project: Project, before: DecisionState, now: DecisionState) -> fr
     Returns:
         ``chosen``, ``pareto`` and ``verdict N REQUIREMENT``, as far as they have their former values.
     """
-    kept = {
+    known = {
         (variant, measure)
         for variant in before.measures.keys() & now.measures.keys()
         for measure in before.measures[variant].keys() & now.measures[variant].keys()
-        if before.measures[variant][measure] == now.measures[variant][measure]
     }
-    known = {(variant, measure) for variant, row in now.measures.items() for measure in row}
-    whole = {"chosen", "pareto"} if kept >= known and before.measures.keys() == now.measures.keys() else set()
+    kept = {pair for pair in known if _values(before, pair) == _values(now, pair)}
+    whole = {"chosen", "pareto"} if kept == known and before.measures.keys() == now.measures.keys() else set()
     return frozenset(whole) | {
         f"verdict {variant} {requirement.id}"
         for requirement in requirements_with_criteria(project)
         for variant in now.verdicts
         if requirement.criterion is not None and (variant, requirement.criterion.measure) in kept
     }
+
+
+def _values(state: DecisionState, pair: tuple[str, str]) -> tuple[float | None, ...]:
+    variant, measure = pair
+    return tuple(state.measures[variant][measure])
 
 
 def _by_seed(project: Project, measured: VariantMeasures, names: Sequence[str]) -> dict[str, tuple[float | None, ...]]:

@@ -165,6 +165,9 @@ def _evidence(row: VerificationRow) -> str:
     parts = [] if row.estimate is None or row.estimate.value is None else [estimate_in_words(row.estimate)]
     counts = Counter(end_in_words(test) for test in row.tests)
     parts += [f"{count} {'test' if count == 1 else 'tests'} {end}" for end, count in counts.items()]
+    if row.estimate is None and row.tally:
+        # Without a choice no variant is shown, and all are judged.
+        parts.insert(0, f"trials of {sum(count for _, count in row.tally)} variants")
     return "; ".join(parts) or "none"
 
 
