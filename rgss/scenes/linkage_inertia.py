@@ -8,6 +8,7 @@ Algorithms*, 2008, section 6.2).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from functools import lru_cache
 
@@ -29,7 +30,9 @@ def reflected_inertias(linkage: Linkage) -> Mapping[int, float]:
     poses = linkage.link_poses((linkage.opened + linkage.closed) / 2)
     return {
         index: link.multiplier**2
-        * sum(_about_axis(link, poses[index], linkage.links[part], poses[part]) for part in _carried_by(linkage, index))
+        * math.fsum(
+            _about_axis(link, poses[index], linkage.links[part], poses[part]) for part in _carried_by(linkage, index)
+        )
         for index, link in enumerate(linkage.links)
         if link.kind is not None
     }

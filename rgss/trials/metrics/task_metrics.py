@@ -125,8 +125,8 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="grip_margin_min",
         unit="1",
-        meaning="least ratio of friction available to friction needed while the object is carried; of a suction cup, "
-        "least factor by which the load could grow before the seal breaks",
+        meaning="least ratio of friction available to friction needed for the weight, not for torques, while the "
+        "object is carried; of a suction cup, least factor by which the load could grow before the seal breaks",
         better=Direction.HIGHER,
         trial=Aggregation.LEAST,
         fidelities=WITH_CONTACT,

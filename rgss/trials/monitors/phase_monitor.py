@@ -17,6 +17,7 @@ from rgss.trials.monitors.release_monitor import PlacedObjectMonitor, Violation
 from rgss.trials.plants import ControlSettings
 
 _FEWEST_FINGERS = 2
+_TILT_ALLOWANCE_RAD = math.radians(2.0)
 
 
 class PhaseMonitor:
@@ -67,6 +68,8 @@ class PhaseMonitor:
         self._has_cup = world.gripper.geometry.cup is not None
         self._friction = world.gripper.grip_coefficient(world.scene.workpiece.friction)
         self._mass_kg = world.scene.workpiece.mass_kg
+        # A planned path may use the whole tilt, and the hand gives a little.
+        self._largest_tilt_rad = world.scene.task.largest_carry_tilt_rad + _TILT_ALLOWANCE_RAD
         self._step_s = world.settings.step_s
         self._window = max(1, round(control.force_window_s * world.settings.rate_hz))
         self._forces_n: deque[float] = deque(maxlen=self._window)
@@ -114,7 +117,7 @@ class PhaseMonitor:
             self._check_grip(contacts.finger_forces_n, load_m_s2)
             slip_m = self._grasp.after_step()
             if slip_m is not None:
-                self._check_slip(slip_m)
+                self._check_hold(slip_m)
         return contacts
 
     def finish(self) -> None:
@@ -122,7 +125,7 @@ class PhaseMonitor:
         if self._placed is not None:
             self.note(self._placed.finish())
         if self._grasp is not None:
-            self._check_slip(self._grasp.finish())
+            self._check_hold(self._grasp.finish())
 
     def fail(self, failure: Failure, detail: str) -> None:
         """Record a failure, unless one is recorded."""
@@ -204,6 +207,14 @@ class PhaseMonitor:
             return None
         return self._friction * math.fsum(window) / self._window / (self._mass_kg * load_m_s2)
 
-    def _check_slip(self, slip_m: float) -> None:
+    def _check_hold(self, slip_m: float) -> None:
+        """Displacement in the hand, and tilt: an object may turn about the line between the pads without one."""
         if slip_m > self._control.largest_slip_m:
             self.fail(Failure.OBJECT_DROPPED, f"the object slipped {slip_m * 1e3:.1f} mm in the gripper")
+        tilt_rad = self._world.workpiece_pose().tilt_rad
+        if tilt_rad > self._largest_tilt_rad:
+            self.fail(
+                Failure.OBJECT_DROPPED,
+                f"the object tilted by {math.degrees(tilt_rad):.0f} deg in the gripper, more than the "
+                f"{math.degrees(self._world.scene.task.largest_carry_tilt_rad):g} deg of the task",
+            )
