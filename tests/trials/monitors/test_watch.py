@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -25,7 +26,8 @@ QUIET = Contacts(
     pressing_links=(),
 )
 TOOL = Pose(position_m=(0.1, 0.2, 0.3), quaternion_xyzw=(1.0, 0.0, 0.0, 0.0))
-HELD = Pose(position_m=(0.0, 0.0, 0.01))
+# The tool points down, and the object stands upright in it.
+HELD = Pose(position_m=(0.0, 0.0, 0.01), quaternion_xyzw=(1.0, 0.0, 0.0, 0.0))
 
 
 class ScriptedWorld:
@@ -232,21 +234,36 @@ def test_slip_is_the_displacement_in_the_gripper(world):
     seen(world, watch, contacts(9.0, 9.0), steps=looked)
     assert watch.metrics()["slip_m"] == pytest.approx(0.0, abs=1e-12)
 
-    world.workpiece = moved @ Pose(position_m=(0.0, 0.004, 0.013))
+    world.workpiece = moved @ replace(HELD, position_m=(0.0, 0.004, 0.013))
     seen(world, watch, contacts(9.0, 9.0), steps=looked)
     assert watch.metrics()["slip_m"] == pytest.approx(0.005)
     assert watch.failure is None
 
-    world.workpiece = moved @ Pose(position_m=(0.0, 0.0, 0.0305))
+    world.workpiece = moved @ replace(HELD, position_m=(0.0, 0.0, 0.0305))
     assert seen(world, watch, contacts(9.0, 9.0), steps=looked) == (
         Failure.OBJECT_DROPPED,
         "the object slipped 20.5 mm in the gripper",
     )
 
 
+@pytest.mark.parametrize(("tilt_deg", "is_dropped"), [(0.0, False), (46.9, False), (47.1, True), (91.0, True)])
+def test_a_carried_object_is_tilted_by_no_more_than_the_task_allows(world, tilt_deg, is_dropped):
+    """45 deg, and 2 deg more; by a turn in the hand or of the hand."""
+    turned = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (0.0, math.radians(tilt_deg), 0.0))
+    for watch in (watch_of(world, carried=True), watch_of(world, carried=False)):
+        is_carried = watch.metrics()["slip_m"] is not None
+        world.workpiece = TOOL @ HELD @ turned
+        found, told = seen(world, watch, contacts(9.0, 9.0), steps=4)
+        if is_carried and is_dropped:
+            assert found is Failure.OBJECT_DROPPED
+            assert told == f"the object tilted by {tilt_deg:.0f} deg in the gripper, more than the 45 deg of the task"
+        else:
+            assert told.count("tilted") == 0
+
+
 def test_the_object_is_looked_at_when_the_phase_ends(world):
     watch = watch_of(world, carried=True)
-    world.workpiece = TOOL @ Pose(position_m=(0.0, 0.003, 0.01))
+    world.workpiece = TOOL @ replace(HELD, position_m=(0.0, 0.003, 0.01))
     seen(world, watch, contacts(9.0, 9.0))
     assert watch.metrics()["slip_m"] == 0.0
 
