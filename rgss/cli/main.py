@@ -8,6 +8,7 @@ import gc
 import importlib
 import keyword
 import os
+import signal
 import sys
 from collections.abc import Sequence
 from contextlib import AbstractContextManager, nullcontext
@@ -93,6 +94,9 @@ def _run(arguments: Sequence[str] | None) -> int:
         _print_error(f"rgss: {error}")
         return BAD_INPUT
     except KeyboardInterrupt:
+        if arguments is None:
+            # A second Ctrl-C cuts off neither message nor end; another program that calls this keeps its handler.
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
         stores = getattr(options, "stores_trials", False) or getattr(options, "run", False)
         _print_error("rgss: interrupted; finished trials are stored" if stores else "rgss: interrupted")
         _report_interrupted_import(options)

@@ -77,6 +77,18 @@ def test_an_interrupt_before_the_work_begins_is_one_line():
     assert (process.returncode, output, errors) == (130, "", "rgss: interrupted\n")
 
 
+def test_a_second_interrupt_cuts_off_nothing():
+    """It comes while the message is printed, and once more while the interpreter ends."""
+    script = (
+        "import atexit, os, signal, sys; from rgss.cli import main as module; again = lambda: os.kill(os.getpid(), "
+        "signal.SIGINT); signal.signal(signal.SIGINT, signal.default_int_handler); own = module._print_error; "
+        "module._print_error = lambda text: (again(), own(text)); atexit.register(again); "
+        "module.command_line = again; sys.exit(module.main())"
+    )
+    ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", "rgss: interrupted\n")
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [

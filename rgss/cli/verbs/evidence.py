@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rgss.cli.options import add_fidelity, add_replicates, chosen_project
+from rgss.cli.options import add_fidelity, add_replicates, chosen_project, with_sweep_options
 
 if TYPE_CHECKING:
     from rgss.cli.evidence import EvidencePlace
@@ -107,5 +107,6 @@ def _export(options: argparse.Namespace, store: EvidencePlace) -> int:
         return CLEAN
     announce(f"{count} {plural('trial', count)} written to {options.file}", options.file)
     if missing:
-        print(f"{missing} more {'has' if missing == 1 else 'have'} no evidence yet; 'rgss sweep' makes it.")
+        sweep = with_sweep_options("'rgss sweep'", options)
+        print(f"{missing} more {'has' if missing == 1 else 'have'} no evidence yet; {sweep} makes it.")
     return CLEAN

@@ -260,12 +260,15 @@ def test_an_export_of_a_study_has_its_trials_alone(rgss, spoilt, tmp_path):
     assert other.seed == 4
     assert exported() == ([f"216 trials written to {target}"], 216)
     assert exported("studies/pick_place.yaml") == (
-        [f"215 trials written to {target}", "1 more has no evidence yet; 'rgss sweep' makes it."],
+        [
+            f"215 trials written to {target}",
+            "1 more has no evidence yet; 'rgss sweep studies/pick_place.yaml' makes it.",
+        ],
         215,
     )
     assert exported("--replicates", "4")[1] == 216
     assert exported("--fidelity", "kinematic") == (
-        [f"0 trials written to {target}", "216 more have no evidence yet; 'rgss sweep' makes it."],
+        [f"0 trials written to {target}", "216 more have no evidence yet; 'rgss sweep --fidelity kinematic' makes it."],
         0,
     )
     told = rgss("evidence", "export", "--json", target, "studies/pick_place.yaml", "--project", spoilt).document
