@@ -116,16 +116,23 @@ def project_marks(folder: Path, requirement_folder: str = REQUIREMENTS) -> tuple
     return tuple(kept)
 
 
-def failed_tests(project: Project, junit: Path | None = None) -> tuple[str, ...]:
+def result_of_tests(project: Project) -> Path | None:
+    """The result of the project's own tests that ``pytest --junitxml=.rgss/junit.xml`` wrote; None if there is none.
+
+    Args:
+        project: The project.
+    """
+    path = project.folder / JUNIT_FILE
+    return path if path.exists() else None
+
+
+def failed_tests(project: Project, junit: Path) -> tuple[str, ...]:
     """Ids of the requirements of which a marked test of the project failed, by a result that still holds.
 
     Args:
         project: The project with its study.
-        junit: The result of a run; by default the file that ``make test`` writes. One that is not there, or cannot be
-            read, says nothing; `rgss trace` and `rgss report` tell the latter.
+        junit: The result of a run. One that cannot be read says nothing; `rgss trace` and `rgss report` tell that.
     """
-    if junit is None and not (project.folder / JUNIT_FILE).exists():
-        return ()
     folder = project.study.requirements
     try:
         marked = project_marks(project.folder, folder) or ()

@@ -58,7 +58,7 @@ def _project_lines(folder: Path, project: Project) -> Iterator[str]:
 
 
 def _evidence_lines(project: Project) -> Iterator[str]:
-    from rgss.assessment import read_record
+    from rgss.assessment import read_record, result_of_tests
     from rgss.cli.output import shown_path
     from rgss.decision import measure_survivors
     from rgss.evidence import EvidenceStore
@@ -79,6 +79,9 @@ def _evidence_lines(project: Project) -> Iterator[str]:
     from rgss.decision.study_decision import decide_study
     from rgss.reports.decision import headline
 
-    yield headline(decide_study(project, measured, evidence=label, analysed=False, screened=screened))
+    made = decide_study(
+        project, measured, evidence=label, analysed=False, screened=screened, junit=result_of_tests(project)
+    )
+    yield headline(made)
     yield "Next: rgss trade    the reasons, how certain they are, and what would change the decision"
     yield "      rgss report   all of it on one page"

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from rgss.assessment import VariantMeasures, read_record
+from rgss.assessment import VariantMeasures, read_record, result_of_tests
 from rgss.decision import ScreeningResult, measure_survivors
 from rgss.decision.study_decision import StudyDecision, decide_study
 from rgss.errors import DocumentError, RgssError
@@ -124,7 +124,14 @@ class StudyObserver:
         whole = [entry for entry in measured if not entry.missing]
         if whole:
             try:
-                made = decide_study(project, whole, evidence=self._label, analysed=False, screened=screened)
+                made = decide_study(
+                    project,
+                    whole,
+                    evidence=self._label,
+                    analysed=False,
+                    screened=screened,
+                    junit=result_of_tests(project),
+                )
             except RgssError as error:
                 problem = str(error)
         found = live_study_document(

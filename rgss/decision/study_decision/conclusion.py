@@ -95,11 +95,11 @@ def conclusion_of(
         project: The project, under the suppositions if there are any.
         measured: Every variant with its estimates.
         chosen: Id of the chosen variant; None if nothing is chosen.
-        junit: The result of the project's own tests; None for the file that ``make test`` writes.
+        junit: The result of the project's own tests; None to judge by measures alone.
     """
     decided = {one.id for one in requirements_with_criteria(project)}
     unmeasured = tuple(one.id for one in project.requirements.system if one.id not in decided)
-    failed = failed_tests(project, junit)
+    failed = () if junit is None else failed_tests(project, junit)
     standings = tuple(_standing(project, entry, unmeasured, failed) for entry in measured)
     return Conclusion(
         standings=standings,

@@ -145,7 +145,7 @@ def decide_study(
         reopened: Designs that screening would promote under the suppositions.
         assumptions: The choice under each alternative of each assumption, which needs the evidence store.
         time_limit: Seconds for the runs of a solver over levels, for each decision that is made.
-        junit: The result of the project's own tests; None for the file that ``make test`` writes.
+        junit: The result of the project's own tests; None to judge by measures alone.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.

@@ -25,7 +25,8 @@ def headline(made: StudyDecision) -> str:
     shown = found.count(Feasibility.FEASIBLE)
     open_, infeasible = found.count(Feasibility.OPEN), found.count(Feasibility.INFEASIBLE)
     by = f" (by {', '.join(found.open_by)})" if found.open_by else ""
-    every = "every requirement that a measure decides" if found.unmeasured else "every requirement"
+    by_tests = " or a test" if found.failed_tests else ""
+    every = f"every requirement that a measure{by_tests} decides" if found.unmeasured else "every requirement"
     is_feasible = found.chosen is not None and found.chosen.feasibility is Feasibility.FEASIBLE
     counts = (
         f"{shown} of {count} {'is' if shown == 1 else 'are'} shown to meet {'them all' if is_feasible else every}; "

@@ -13,6 +13,8 @@ from rgss.decision.robustness.effect_findings import MeasureEffects
 from rgss.reports.decision.markdown import BEGIN, END
 from rgss.reports.decision.text import effects_lines
 from rgss.reports.decision.words import amount, ids_text, moved_limit, moves_text, variants_text
+from rgss.requirements import load_requirements
+from rgss.trace.evidence import run_properties
 from rgss.trace.views import share_in_words
 from rgss.tradeoff.robustness.sampled_effects import SampledIndex
 
@@ -314,3 +316,31 @@ def test_effects_of_sampled_designs():
     assert re.search(r"^fingers +90 % +80 % – 95 %$", text, re.MULTILINE)
     assert re.search(r"^d7 +0 % +0 % – 0 %$", text, re.MULTILINE)
     assert "Effects on S: not computed, since R" in text
+
+
+def test_a_failed_test_of_the_project_is_told_on_the_page(rgss, with_evidence, tmp_path, monkeypatch):
+    """By the file that pytest writes into the project; without one, requirements without a criterion are not judged."""
+    folder = tmp_path / "project"
+    shutil.copytree(with_evidence, folder)
+    plain = rgss("trade", "--brief", "--json", "--project", folder).document["conclusion"]
+    (folder / "tests").mkdir()
+    mark = '@pytest.mark.verifies("SYS-003")'
+    (folder / "tests/test_a.py").write_text(f"import pytest\n\n\n{mark}\ndef test_a():\n    pass\n", encoding="utf-8")
+    noted = run_properties(folder, load_requirements(folder / "requirements").system)
+    of_run = "".join(f'<property name="{name}" value="{value}"/>' for name, value in noted.items())
+    (folder / ".rgss/junit.xml").write_text(
+        f'<testsuites><testsuite name="pytest"><properties>{of_run}</properties><testcase classname="tests.test_a" '
+        'name="test_a"><properties><property name="rgss.test" value="tests/test_a.py::test_a"/></properties>'
+        '<failure message="no"/></testcase></testsuite></testsuites>',
+        encoding="utf-8",
+    )
+    told = rgss("trade", "--brief", "--json", "--project", folder).document["conclusion"]
+
+    assert (plain["failed_tests"], told["failed_tests"]) == ([], ["SYS-003"])
+    assert "SYS-003" in plain["chosen"]["not_run"]
+    assert "SYS-003" in told["chosen"]["missed"]
+    assert told["counts"] == {"feasible": 0, "open": 0, "infeasible": 72}
+    assert "Tests of SYS-003 failed: no design meets it." in told["headline"]
+    assert "0 of 72 are shown to meet every requirement that a measure or a test decides" in told["headline"]
+    monkeypatch.chdir(folder)
+    assert told["headline"] in " ".join(rgss().output.split())

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from rgss.assessment import failed_tests, project_marks
+from rgss.assessment import failed_tests, project_marks, result_of_tests
 from rgss.assessment.evidence_status import project_tests
 from rgss.measures import StaleCause, Verdict
 from rgss.studies import load_project
@@ -53,8 +53,15 @@ def evidence(folder):
     return project_tests(folder, project.requirements, project_marks(folder) or ())["SYS-003"]
 
 
+def failed(folder):
+    project = load_project(folder)
+    assert result_of_tests(project) == folder / JUNIT
+    return failed_tests(project, folder / JUNIT)
+
+
 def test_a_result_holds_until_the_tested_code_or_the_requirement_changes(folder):
     assert evidence(folder).verdict is Verdict.NOT_RUN
+    assert result_of_tests(load_project(folder)) is None
     status, output = run(folder, f"--junitxml={JUNIT}")
     assert status == 0, output
     assert evidence(folder).verdict is Verdict.MET
@@ -66,10 +73,10 @@ def test_a_result_holds_until_the_tested_code_or_the_requirement_changes(folder)
     status, output = run(folder, f"--junitxml={JUNIT}")
     assert status == 1, output
     assert evidence(folder).verdict is Verdict.NOT_MET
-    assert failed_tests(load_project(folder)) == ("SYS-003",)
+    assert failed(folder) == ("SYS-003",)
 
     (folder / "logger.py").write_text("LOGS = True\n", encoding="utf-8")
-    assert failed_tests(load_project(folder)) == ()
+    assert failed(folder) == ()
 
 
 def test_a_run_from_the_folder_of_the_tests_names_them_as_the_project_does(folder):
@@ -83,7 +90,7 @@ def test_a_run_without_the_plugin_is_stale(folder):
     status, output = run(folder, f"--junitxml={JUNIT}", "-p", "no:rgss.cli.pytest_plugin")
     assert status == 0, output
     assert (evidence(folder).verdict, evidence(folder).causes) == (Verdict.STALE, (StaleCause.UNRECORDED,))
-    assert failed_tests(load_project(folder)) == ()
+    assert failed(folder) == ()
 
 
 def test_outside_of_a_project_nothing_is_noted(folder, tmp_path_factory):
@@ -107,4 +114,4 @@ def test_a_broken_project_does_not_stop_its_tests(folder):
 def test_a_result_that_cannot_be_read_fails_nothing(folder):
     (folder / ".rgss").mkdir()
     (folder / JUNIT).write_text("no XML", encoding="utf-8")
-    assert failed_tests(load_project(folder)) == ()
+    assert failed(folder) == ()
