@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -112,17 +112,11 @@ def software_evidence(
     for mark in marked:
         for name in mark.requirements:
             marks.setdefault(name, []).append(mark)
-    known = {mark.id for mark in marked}
+    unseen = {} if report is None else _unseen(report, {mark.id for mark in marked})
     found = {}
     for requirement in requirements:
         causes = () if report is None else tuple(_causes(requirement, report, software, qualifier))
-        hidden: list[RunTest] = []
-        if report is not None and not causes:
-            hidden = [
-                test
-                for test in report.tests
-                if test.function not in known and f"{qualifier}{requirement.id}" in test.requirements
-            ]
+        hidden = [] if causes else unseen.get(f"{qualifier}{requirement.id}", [])
         own = marks.get(requirement.id, [])
         if not _is_tested(requirement, is_marked=bool(own or hidden)):
             continue
@@ -135,6 +129,16 @@ def software_evidence(
             causes=causes,
         )
     return MappingProxyType(found)
+
+
+def _unseen(report: JUnitReport, marked: Collection[str]) -> Mapping[str, list[RunTest]]:
+    """Tests of a run by the requirements that they were marked with, of those whose marks the source does not show."""
+    found: dict[str, list[RunTest]] = {}
+    for test in report.tests:
+        if test.requirements and test.function not in marked:
+            for name in test.requirements:
+                found.setdefault(name, []).append(test)
+    return found
 
 
 def run_properties(project: Path, requirements: Iterable[Requirement], *, qualifier: str = "") -> Mapping[str, str]:
