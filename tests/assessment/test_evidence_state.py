@@ -11,6 +11,7 @@ from rgss.errors import EvidenceError
 from rgss.measures import StaleCause, Verdict
 from rgss.studies.project import load_project
 from rgss.trace import check_trace
+from rgss.trace.evidence import run_properties
 
 TEST = """\
 import pytest
@@ -70,6 +71,11 @@ def test_a_project_with_tests(folder):
     result = folder / ".rgss" / "junit.xml"
     result.parent.mkdir()
     result.write_text(PASSED, encoding="utf-8")
+    assert evidence_state(project, measured).software["SYS-018"].causes == (StaleCause.UNRECORDED,)
+    noted = run_properties(folder, project.requirements.system)
+    of_run = "".join(f'<property name="{name}" value="{value}"/>' for name, value in noted.items())
+    passed = PASSED.replace("<testsuite>", f"<testsuite><properties>{of_run}</properties>")
+    result.write_text(passed, encoding="utf-8")
     state = evidence_state(project, measured)
     assert state.software["SYS-018"].verdict is Verdict.MET
     findings = check_trace(project.requirements, project.measure_traces, marked=project_marks(folder), evidence=state)
@@ -79,5 +85,6 @@ def test_a_project_with_tests(folder):
     other = folder / "other.xml"
     with pytest.raises(EvidenceError, match="there is no test result"):
         evidence_state(project, measured, junit=other)
-    other.write_text(PASSED.replace("/>", "><failure/></testcase>", 1), encoding="utf-8")
+    failed = passed.replace('name="test_it"/>', 'name="test_it"><failure/></testcase>')
+    other.write_text(failed, encoding="utf-8")
     assert evidence_state(project, measured, junit=other).software["SYS-018"].verdict is Verdict.NOT_MET
