@@ -33,14 +33,14 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         config: The configuration of the run.
         items: The tests.
     """
-    for item in items:
-        names = dict.fromkeys(str(name) for mark in item.iter_markers("verifies") for name in mark.args)
-        project = _project(config) if names else None
-        if project is None:
-            continue
-        # Here, so that a run of unmarked tests does not wait for the import.
-        from rgss.trace.evidence import TEST_ID, VERIFIES
+    marked = {item: names for item in items if (names := _requirements_of(item))}
+    project = _project(config) if marked else None
+    if project is None:
+        return
+    # Here, so that a run of unmarked tests does not wait for the import.
+    from rgss.trace.evidence import TEST_ID, VERIFIES
 
+    for item, names in marked.items():
         item.user_properties += [(TEST_ID, _id_in(project, item)), *((VERIFIES, name) for name in names)]
 
 
@@ -57,6 +57,10 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         return
     for name, value in _digests(project).items():
         report.add_global_property(name, value)
+
+
+def _requirements_of(item: pytest.Item) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(str(name) for mark in item.iter_markers("verifies") for name in mark.args))
 
 
 def _project(config: pytest.Config) -> Path | None:

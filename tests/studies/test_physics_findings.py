@@ -58,10 +58,7 @@ def test_the_reference_study_has_no_light_body(folder):
 
 
 def test_a_cup_of_half_a_gram_needs_a_finer_step(folder):
-    path = folder / "scenes/restaurant.yaml"
-    text = path.read_text(encoding="utf-8")
-    (line,) = [line for line in text.splitlines() if line.strip().startswith("mass:")][:1]
-    change(folder, "scenes/restaurant.yaml", line, line.split(":")[0] + ": 500 mg")
+    change(folder, "scenes/restaurant.yaml", "\n  mass: 0.25 kg", "\n  mass: 500 mg")
     found = tuple(light_body_findings(load_project(folder)))
     assert found
     for finding in found:

@@ -95,7 +95,7 @@ def software_evidence(
     name, counts while the result holds.
 
     Args:
-        requirements: The system requirements; those with a criterion are skipped.
+        requirements: The system requirements.
         marked: The marks in the source.
         report: The result of the last run; None if there is none.
         software: Present `software_digest` of the project.
@@ -112,7 +112,8 @@ def software_evidence(
     for mark in marked:
         for name in mark.requirements:
             marks.setdefault(name, []).append(mark)
-    unseen = {} if report is None else _unseen(report, {mark.id for mark in marked})
+    shown = {(mark.id, f"{qualifier}{name}") for name, own in marks.items() for mark in own}
+    unseen = {} if report is None else _unseen(report, shown)
     found = {}
     for requirement in requirements:
         causes = () if report is None else tuple(_causes(requirement, report, software, qualifier))
@@ -131,12 +132,12 @@ def software_evidence(
     return MappingProxyType(found)
 
 
-def _unseen(report: JUnitReport, marked: Collection[str]) -> Mapping[str, list[RunTest]]:
-    """Tests of a run by the requirements that they were marked with, of those whose marks the source does not show."""
+def _unseen(report: JUnitReport, shown: Collection[tuple[str, str]]) -> Mapping[str, list[RunTest]]:
+    """Tests of a run by the requirements that they were marked with, without the marks that the source shows."""
     found: dict[str, list[RunTest]] = {}
     for test in report.tests:
-        if test.requirements and test.function not in marked:
-            for name in test.requirements:
+        for name in test.requirements:
+            if (test.function, name) not in shown:
                 found.setdefault(name, []).append(test)
     return found
 

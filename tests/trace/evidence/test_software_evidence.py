@@ -89,6 +89,11 @@ def test_a_mark_that_the_source_does_not_show_counts_while_the_run_holds(require
     found = software_evidence([requirement], MARKS[:1], ran, software="now")["SYS-1"]
     assert [(test.test, test.end) for test in found.tests] == [(shown.id, PASSED), (hidden.id, FAILED)]
     assert found.verdict is Verdict.NOT_MET
+    # A set of parameters has a further mark, beside that of the function.
+    further = replace(shown, requirements=("SYS-2", "SYS-1"))
+    ran_so = JUnitReport(tests=(further,), properties=noted)
+    beside = software_evidence([requirement], (mark("test_a", "SYS-2"),), ran_so, software="now")["SYS-1"]
+    assert [(test.test, test.end) for test in beside.tests] == [(shown.id, PASSED)]
     # Nothing says that the mark is still there.
     stale = software_evidence([requirement], MARKS[:1], ran, software="later")["SYS-1"]
     assert [test.test for test in stale.tests] == [shown.id]
