@@ -10,7 +10,6 @@ from types import MappingProxyType
 from rgss.assessment.measuring import VariantMeasures, requirements_with_criteria
 from rgss.assessment.recorded_verdicts import VerdictRecord, study_key
 from rgss.errors import DefinitionError, EvidenceError
-from rgss.measures import Verdict
 from rgss.requirements import RequirementSet
 from rgss.studies import REQUIREMENTS, Project, named_sets, qualifier_of
 from rgss.trace.evidence import (
@@ -116,30 +115,22 @@ def project_marks(folder: Path, requirement_folder: str = REQUIREMENTS) -> tuple
     return tuple(kept)
 
 
-def result_of_tests(project: Project) -> Path | None:
-    """The result of the project's own tests that ``pytest --junitxml=.rgss/junit.xml`` wrote; None if there is none.
+def failed_tests(project: Project) -> tuple[str, ...]:
+    """Ids of the requirements of which a marked test failed, by the project's own result, if that still holds.
 
     Args:
-        project: The project.
+        project: The project with its study. A result that is not there, or cannot be read, says nothing; `rgss trace`
+            and `rgss report` tell the latter.
     """
-    path = project.folder / JUNIT_FILE
-    return path if path.exists() else None
-
-
-def failed_tests(project: Project, junit: Path) -> tuple[str, ...]:
-    """Ids of the requirements of which a marked test of the project failed, by a result that still holds.
-
-    Args:
-        project: The project with its study.
-        junit: The result of a run. One that cannot be read says nothing; `rgss trace` and `rgss report` tell that.
-    """
+    if not (project.folder / JUNIT_FILE).exists():
+        return ()
     folder = project.study.requirements
     try:
         marked = project_marks(project.folder, folder) or ()
-        found = project_tests(project.folder, project.requirements, marked, requirement_folder=folder, junit=junit)
+        found = project_tests(project.folder, project.requirements, marked, requirement_folder=folder)
     except EvidenceError:
         return ()
-    return tuple(name for name, one in found.items() if one.verdict is Verdict.NOT_MET)
+    return EvidenceState(software=found).failed_tests
 
 
 def project_tests(

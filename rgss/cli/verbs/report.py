@@ -66,7 +66,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write the page; 1 if no variant meets every requirement, or if a choice is not proven best."""
-    from rgss.assessment import evidence_state, read_record, require_complete, result_of_tests
+    from rgss.assessment import evidence_state, read_record, require_complete
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import path_in_project, shown_path
     from rgss.cli.pictures import ordered_look, trial_pictures
@@ -103,7 +103,7 @@ def run(options: argparse.Namespace) -> int:
             screened=screened,
             portfolio=choose_portfolio(project, served) if served else None,
             assumptions=assumption_outcomes(project, measured, store),
-            junit=options.junit or result_of_tests(project),
+            failed_tests=state.failed_tests,
         )
         planners = None if options.no_film else _planners(project)
         document = report_document(project, measured, made, store, planners=planners)

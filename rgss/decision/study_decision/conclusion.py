@@ -6,9 +6,8 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
-from pathlib import Path
 
-from rgss.assessment import VariantMeasures, failed_tests, requirements_with_criteria
+from rgss.assessment import VariantMeasures, requirements_with_criteria
 from rgss.measures import Verdict, judge
 from rgss.studies import Project
 
@@ -87,7 +86,7 @@ class Conclusion:
 
 
 def conclusion_of(
-    project: Project, measured: Sequence[VariantMeasures], chosen: int | None, junit: Path | None = None
+    project: Project, measured: Sequence[VariantMeasures], chosen: int | None, failed: tuple[str, ...] = ()
 ) -> Conclusion:
     """The verdicts on every design, counted.
 
@@ -95,11 +94,10 @@ def conclusion_of(
         project: The project, under the suppositions if there are any.
         measured: Every variant with its estimates.
         chosen: Id of the chosen variant; None if nothing is chosen.
-        junit: The result of the project's own tests; None to judge by measures alone.
+        failed: Ids of the requirements of which a marked test of the project failed.
     """
     decided = {one.id for one in requirements_with_criteria(project)}
     unmeasured = tuple(one.id for one in project.requirements.system if one.id not in decided)
-    failed = () if junit is None else failed_tests(project, junit)
     standings = tuple(_standing(project, entry, unmeasured, failed) for entry in measured)
     return Conclusion(
         standings=standings,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from rgss.assessment import (
     CaseSuccess,
@@ -128,7 +127,7 @@ def decide_study(
     reopened: tuple[int, ...] = (),
     assumptions: tuple[AssumptionOutcome, ...] = (),
     time_limit: float | None = None,
-    junit: Path | None = None,
+    failed_tests: tuple[str, ...] = (),
 ) -> StudyDecision:
     """Decide a study, and analyse the decision; nothing is simulated.
 
@@ -145,7 +144,7 @@ def decide_study(
         reopened: Designs that screening would promote under the suppositions.
         assumptions: The choice under each alternative of each assumption, which needs the evidence store.
         time_limit: Seconds for the runs of a solver over levels, for each decision that is made.
-        junit: The result of the project's own tests; None to judge by measures alone.
+        failed_tests: Ids of the requirements of which a marked test of the project failed.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.
@@ -182,7 +181,7 @@ def decide_study(
         what_if=what_if,
         readings=_readings(project, measured, assumptions) if analysed else (),
         assumptions=assumptions,
-        junit=junit,
+        failed_tests=failed_tests,
     )
 
 
@@ -207,7 +206,7 @@ def study_decision(
     what_if: WhatIf | None = None,
     readings: tuple[ReadingOutcome, ...] = (),
     assumptions: tuple[AssumptionOutcome, ...] = (),
-    junit: Path | None = None,
+    failed_tests: tuple[str, ...] = (),
 ) -> StudyDecision:
     """The decision of a study from a choice and its analysis; the arguments are those of `decide_study`.
 
@@ -223,7 +222,7 @@ def study_decision(
         what_if: The effect of suppositions.
         readings: Decision under each reading of the source.
         assumptions: The choice under each alternative of each assumption.
-        junit: The result of the project's own tests.
+        failed_tests: Ids of the requirements of which a marked test of the project failed.
     """
     return StudyDecision(
         study=project.study.id,
@@ -231,7 +230,7 @@ def study_decision(
         variants=len(measured),
         trials=sum(len(entry.records) for entry in measured),
         decision=decision,
-        conclusion=conclusion_of(project, measured, decision.chosen, junit),
+        conclusion=conclusion_of(project, measured, decision.chosen, failed_tests),
         comparison=side_by_side(project, measured, decision),
         gains=gains_over_runner_up(decision),
         closest_limits=closest_limits(problem, decision.chosen),

@@ -61,3 +61,8 @@ class EvidenceState:
 
     trials: Mapping[str, TrialVerdicts] = field(default_factory=lambda: MappingProxyType({}))
     software: Mapping[str, SoftwareEvidence] | None = None
+
+    @property
+    def failed_tests(self) -> tuple[str, ...]:
+        """Ids of the requirements of which a marked test failed, by a result that still holds."""
+        return tuple(name for name, one in (self.software or {}).items() if one.verdict is Verdict.NOT_MET)

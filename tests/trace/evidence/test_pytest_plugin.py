@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from rgss.assessment import failed_tests, project_marks, result_of_tests
+from rgss.assessment import failed_tests, project_marks
 from rgss.assessment.evidence_status import project_tests
 from rgss.measures import StaleCause, Verdict
 from rgss.studies import load_project
@@ -54,14 +54,12 @@ def evidence(folder):
 
 
 def failed(folder):
-    project = load_project(folder)
-    assert result_of_tests(project) == folder / JUNIT
-    return failed_tests(project, folder / JUNIT)
+    return failed_tests(load_project(folder))
 
 
 def test_a_result_holds_until_the_tested_code_or_the_requirement_changes(folder):
     assert evidence(folder).verdict is Verdict.NOT_RUN
-    assert result_of_tests(load_project(folder)) is None
+    assert failed(folder) == ()
     status, output = run(folder, f"--junitxml={JUNIT}")
     assert status == 0, output
     assert evidence(folder).verdict is Verdict.MET
