@@ -122,9 +122,7 @@ def fit_joint(recording: Recording, joint: str) -> ServoFit:
     found = problem.solved(found)
     jacobian, residuals = problem.jacobian(found), problem.residuals(found)
     correlation = problem.autocorrelation(residuals)
-    half, alike = _half_widths(
-        jacobian, residuals, correlation, np.array([PARAMETER_ENDS[name][2] for name in problem.names])
-    )
+    half, alike = _half_widths(jacobian, residuals, correlation, problem.least)
     parameters = [_parameter(problem.names, index, found, half, alike) for index in range(len(problem.names))]
     if recording.control is ServoControl.VELOCITY:
         reason = "under velocity control the position gain has no effect"

@@ -48,7 +48,7 @@ def servo_motion(
     commanded_rad: Array,
     commanded_rad_s: Array,
     *,
-    start: tuple[float, float] = (0.0, 0.0),
+    start: tuple[float | Array, float | Array] = (0.0, 0.0),
     commands: CommandedPositions = CommandedPositions.HELD,
     longest_step_s: float = LONGEST_STEP_S,
 ) -> ServoMotion:
@@ -63,7 +63,7 @@ def servo_motion(
         times_s: Times of the samples, rising, shape (times,).
         commanded_rad: Commanded positions, shape (times,).
         commanded_rad_s: Commanded speeds, shape (times,).
-        start: Position (rad) and speed (rad/s) at the first sample.
+        start: Position (rad) and speed (rad/s) at the first sample, each one for all or of shape (servos,).
         commands: Course of the commanded positions between samples.
         longest_step_s: Bound of the step.
     """
@@ -78,7 +78,7 @@ def servo_motion(
     else:
         targets = np.array([mean_commands(times_s, commanded_rad, edges - each.delay_s) for each in servos])
     loop = VelocityLoop(servos, step_s)
-    q, v = np.full(len(servos), start[0]), np.full(len(servos), start[1])
+    q, v = (np.array(np.broadcast_to(each, len(servos)), dtype=np.float64) for each in start)
     positions, velocities = np.empty((steps + 1, len(servos))), np.empty((steps + 1, len(servos)))
     positions[0], velocities[0] = q, v
     for index in range(steps):

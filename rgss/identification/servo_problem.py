@@ -30,8 +30,21 @@ PARAMETER_ENDS = {
 """Lower end, upper end and least scale of each parameter."""
 
 
+_START_SCALES = (1.0e-3, 1.0e-2)
+"""Scales of the position (rad) and the speed (rad/s) at the start of a segment."""
+
+
 class ServoProblem:
-    """Residuals of a servo, and their derivatives by central differences."""
+    """Residuals of a servo, and their derivatives by central differences.
+
+    The parameters are those of the servo; under position control the position at the start of each segment follows,
+    and the speed of each that does not start at rest. They are measured with noise as the other samples are, so that
+    taking them as known would make intervals too narrow.
+
+    Attributes:
+        names: The parameters of the servo, which come first.
+        least: Least scale of every parameter.
+    """
 
     def __init__(
         self,
@@ -43,9 +56,17 @@ class ServoProblem:
         self._commands = commands
         self._positions = control is ServoControl.POSITION
         self.names = tuple(name for name in _PARAMETERS if self._positions or name != "position_gain_hz2")
-        self._lower, self._upper, self._least = (
-            np.array(values) for values in zip(*(PARAMETER_ENDS[n] for n in self.names), strict=True)
-        )
+        self._begun = [_start(segment) for segment in self._segments]
+        # Of each further parameter: its segment, and 0 for the position or 1 for the speed.
+        self._of_starts = [
+            (index, part)
+            for part in (0, 1)
+            for index, segment in enumerate(self._segments)
+            if self._positions and (part == 0 or _samples_at_rest(segment) == 1)
+        ]
+        ends = [PARAMETER_ENDS[name] for name in self.names]
+        ends += [(-math.inf, math.inf, _START_SCALES[part]) for _, part in self._of_starts]
+        self._lower, self._upper, self.least = (np.array(values) for values in zip(*ends, strict=True))
         self._weights = (1.0, 1.0)
         self._longest_step_s = _SEARCH_STEP_S
 
@@ -55,7 +76,8 @@ class ServoProblem:
 
     def servo(self, values: Array) -> JointServo:
         """The servo with parameters, each within its ends."""
-        return JointServo(**dict(zip(self.names, np.clip(values, self._lower, self._upper).tolist(), strict=True)))
+        within = np.clip(values, self._lower, self._upper)[: len(self.names)].tolist()
+        return JointServo(**dict(zip(self.names, within, strict=True)))
 
     def residuals(self, values: Array) -> Array:
         """Weighted residuals, shape (residuals,)."""
@@ -64,32 +86,27 @@ class ServoProblem:
 
     def jacobian(self, values: Array) -> Array:
         """Derivatives of the residuals, shape (residuals, parameters)."""
-        steps = 1.0e-4 * np.maximum(np.abs(values), self._least)
+        steps = 1.0e-4 * np.maximum(np.abs(values), self.least)
+        groups = self._independent()
         ahead, behind = (
-            [
-                np.clip(values + sign * step * unit, self._lower, self._upper)
-                for step, unit in zip(steps, np.eye(len(values)), strict=True)
-            ]
+            [np.clip(values + sign * np.where(group, steps, 0.0), self._lower, self._upper) for group in groups]
             for sign in (1.0, -1.0)
         )
         found = self._many([*ahead, *behind])
-        spans = [
-            float(one.sum() - other.sum())
-            for one, other in zip(
-                np.array(ahead) * np.eye(len(values)), np.array(behind) * np.eye(len(values)), strict=True
-            )
-        ]
-        columns = [
-            (one - other) / span
-            for one, other, span in zip(found[: len(values)], found[len(values) :], spans, strict=True)
-        ]
-        return np.column_stack(columns)
+        columns = np.zeros((len(found[0]), len(values)))
+        for index, group in enumerate(groups):
+            change = found[index] - found[len(groups) + index]
+            for column in np.flatnonzero(group).tolist():
+                span = float(ahead[index][column] - behind[index][column])
+                columns[:, column] = np.where(self._rows_of(column), change, 0.0) / span
+        return columns
 
     def solved(self, begin: Array | None = None) -> Array:
         """The best parameters from several starts, or from one that is given."""
         from scipy.optimize import least_squares
 
-        starts = _starts(self.names) if begin is None else [begin]
+        of_starts = np.array([self._begun[index][part] for index, part in self._of_starts])
+        starts = [np.append(each, of_starts) for each in _starts(self.names)] if begin is None else [begin]
         costs = [float(np.sum(each**2)) for each in self._many(starts)]
         order = sorted(range(len(starts)), key=lambda index: costs[index])[:2]
         found = [
@@ -98,7 +115,7 @@ class ServoProblem:
                 np.clip(starts[index], self._lower, self._upper),
                 jac=self.jacobian,
                 bounds=(self._lower, self._upper),
-                x_scale=np.maximum(np.abs(starts[index]), self._least),
+                x_scale=np.maximum(np.abs(starts[index]), self.least),
                 xtol=1e-9,
                 ftol=1e-10,
                 gtol=1e-10,
@@ -141,6 +158,23 @@ class ServoProblem:
         correlations = [float(np.sum(residuals[lag:] * residuals[:-lag])) / total for lag in range(1, LAGS + 1)]
         return count * (count + 2.0) * math.fsum(r * r / (count - k) for k, r in enumerate(correlations, start=1))
 
+    def _independent(self) -> list[NDArray[np.bool_]]:
+        """Parameters that may be changed at once, since no residual depends on two of them."""
+        count = len(self.names)
+        of_servo = [np.arange(len(self.least)) == index for index in range(count)]
+        parts = np.array([-1] * count + [part for _, part in self._of_starts])
+        return [*of_servo, *(parts == part for part in (0, 1) if part in parts)]
+
+    def _rows_of(self, column: int) -> NDArray[np.bool_]:
+        """The residuals that depend on a parameter: those of its segment for a start, otherwise all."""
+        lengths = [len(segment.times_s) for segment in self._segments]
+        of_segment = np.repeat(np.arange(len(lengths)), lengths)
+        rows = np.concatenate([of_segment, of_segment]) if self._positions else of_segment
+        if column < len(self.names):
+            return np.ones(len(rows), dtype=np.bool_)
+        found: NDArray[np.bool_] = rows == self._of_starts[column - len(self.names)][0]
+        return found
+
     def _unweighted(self, values: Array) -> tuple[Array, Array]:
         both = self._compared([values])[0]
         return np.concatenate([speeds for speeds, _ in both]), np.concatenate([positions for _, positions in both])
@@ -159,14 +193,14 @@ class ServoProblem:
         """Fitted minus measured speeds and positions of each segment, for each set of parameters."""
         servos = [self.servo(values) for values in many]
         found: list[list[tuple[Array, Array]]] = [[] for _ in servos]
-        for segment in self._segments:
+        for number, segment in enumerate(self._segments):
             series = segment.excited
             motion = servo_motion(
                 servos,
                 segment.times_s,
                 series.commanded_rad,
                 series.commanded_rad_s,
-                start=_start(segment),
+                start=self._starts_of(number, many),
                 commands=self._commands,
                 longest_step_s=self._longest_step_s,
             )
@@ -179,6 +213,14 @@ class ServoProblem:
                 )
         return found
 
+    def _starts_of(self, number: int, many: Sequence[Array]) -> tuple[float | Array, float | Array]:
+        """Position and speed at the start of a segment, for each set of parameters."""
+        found: list[float | Array] = list(self._begun[number])
+        for index, (segment, part) in enumerate(self._of_starts, start=len(self.names)):
+            if segment == number:
+                found[part] = np.array([values[index] for values in many])
+        return found[0], found[1]
+
 
 _PARAMETERS = ("position_gain_hz2", "velocity_gain_hz", "delay_s", "viscous_hz", "coulomb_rad_s2")
 
@@ -186,9 +228,14 @@ _PARAMETERS = ("position_gain_hz2", "velocity_gain_hz", "delay_s", "viscous_hz",
 def _start(segment: Segment) -> tuple[float, float]:
     """Position and speed before the first command: the mean of the samples at rest, else the first sample."""
     series = segment.excited
-    moving = np.flatnonzero(np.abs(series.commanded_rad_s) > 0.0)
-    rest = max(1, int(moving[0]))
+    rest = _samples_at_rest(segment)
     return float(series.measured_rad[:rest].mean()), 0.0 if rest > 1 else float(series.measured_rad_s[0])
+
+
+def _samples_at_rest(segment: Segment) -> int:
+    """Number of samples before the first command, at least one."""
+    moving = np.flatnonzero(np.abs(segment.excited.commanded_rad_s) > 0.0)
+    return max(1, int(moving[0]))
 
 
 def _starts(names: Sequence[str]) -> list[Array]:
