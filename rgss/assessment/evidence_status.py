@@ -15,9 +15,11 @@ from rgss.studies import REQUIREMENTS, Project, named_sets, qualifier_of
 from rgss.trace.evidence import (
     JUNIT_FILE,
     EvidenceState,
+    FailedVerifications,
     MarkedTest,
     SoftwareEvidence,
     TrialVerdicts,
+    evidence_of_records,
     marked_tests,
     read_junit,
     software_digest,
@@ -57,6 +59,7 @@ def evidence_state(
         software=None
         if marked is None
         else project_tests(project.folder, project.requirements, marked, requirement_folder=folder, junit=junit),
+        records=evidence_of_records(project.requirements, project.folder),
     )
 
 
@@ -115,22 +118,22 @@ def project_marks(folder: Path, requirement_folder: str = REQUIREMENTS) -> tuple
     return tuple(kept)
 
 
-def failed_tests(project: Project) -> tuple[str, ...]:
-    """Ids of the requirements of which a marked test failed, by the project's own result, if that still holds.
+def failed_verifications(project: Project) -> FailedVerifications:
+    """The requirements that are not met by the project's own tests, or by a verification record, that still holds.
 
     Args:
-        project: The project with its study. A result that is not there, or cannot be read, says nothing; `rgss trace`
-            and `rgss report` tell the latter.
+        project: The project with its study. A result of tests that is not there, or cannot be read, says nothing;
+            `rgss trace` and `rgss report` tell the latter.
     """
-    if not (project.folder / JUNIT_FILE).exists():
-        return ()
-    folder = project.study.requirements
-    try:
-        marked = project_marks(project.folder, folder) or ()
-        found = project_tests(project.folder, project.requirements, marked, requirement_folder=folder)
-    except EvidenceError:
-        return ()
-    return EvidenceState(software=found).failed_tests
+    records = evidence_of_records(project.requirements, project.folder)
+    folder, tests = project.study.requirements, None
+    if (project.folder / JUNIT_FILE).exists():
+        try:
+            marked = project_marks(project.folder, folder) or ()
+            tests = project_tests(project.folder, project.requirements, marked, requirement_folder=folder)
+        except EvidenceError:
+            tests = None
+    return EvidenceState(software=tests, records=records).failed
 
 
 def project_tests(

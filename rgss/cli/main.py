@@ -37,6 +37,7 @@ VERBS = (
     "confirm",
     "regress",
     "identify",
+    "verify",
     "trace",
     "report",
     "serve",

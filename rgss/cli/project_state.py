@@ -58,7 +58,7 @@ def _project_lines(folder: Path, project: Project) -> Iterator[str]:
 
 
 def _evidence_lines(project: Project) -> Iterator[str]:
-    from rgss.assessment import failed_tests, read_record
+    from rgss.assessment import failed_verifications, read_record
     from rgss.cli.output import shown_path
     from rgss.decision import measure_survivors
     from rgss.evidence import EvidenceStore
@@ -80,7 +80,7 @@ def _evidence_lines(project: Project) -> Iterator[str]:
     from rgss.reports.decision import headline
 
     made = decide_study(
-        project, measured, evidence=label, analysed=False, screened=screened, failed_tests=failed_tests(project)
+        project, measured, evidence=label, analysed=False, screened=screened, failed=failed_verifications(project)
     )
     yield headline(made)
     yield "Next: rgss trade    the reasons, how certain they are, and what would change the decision"

@@ -32,6 +32,8 @@ class StaleCause(str, Enum):
     """The source code of rgss for trials."""
     ENGINES = "engines"
     """The version of an engine."""
+    FILES = "files"
+    """A file that a verification record rests on: its content, or that it is there."""
     UNRECORDED = "unrecorded"
     """Unknown: the run of tests did not record what it tested."""
 

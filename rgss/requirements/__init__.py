@@ -34,7 +34,14 @@ from rgss.requirements.comparison import RELATIVE_TOLERANCE, ZERO_TOLERANCE, Com
 from rgss.requirements.content import Element, content_digest_of
 from rgss.requirements.criterion import Criterion, CriterionFile, Statistic
 from rgss.requirements.exemption import Exemption
-from rgss.requirements.files import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
+from rgss.requirements.files import (
+    ArchitectureFile,
+    ReviewsFile,
+    RulesFile,
+    StakeholderFile,
+    SystemFile,
+    VerificationsFile,
+)
 from rgss.requirements.links import LinkKind, TraceLink
 from rgss.requirements.loading import load_requirements
 from rgss.requirements.needs import StakeholderNeed
@@ -43,3 +50,4 @@ from rgss.requirements.requirement_set import Place, RequirementSet, nearest
 from rgss.requirements.review import Review
 from rgss.requirements.rule_settings import RuleSetting
 from rgss.requirements.structure import Connector, Port, PortDirection, ValueProperty
+from rgss.requirements.verification_record import RecordedResult, VerificationRecord

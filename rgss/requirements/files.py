@@ -11,6 +11,7 @@ from rgss.requirements.needs import StakeholderNeed
 from rgss.requirements.requirement import Requirement
 from rgss.requirements.review import Review
 from rgss.requirements.rule_settings import RuleSetting
+from rgss.requirements.verification_record import VerificationRecord
 
 
 class StakeholderFile(DocumentModel):
@@ -48,3 +49,9 @@ class ReviewsFile(DocumentModel):
     """The file ``reviews.yaml``, written by a review."""
 
     reviews: dict[Identifier, Review]
+
+
+class VerificationsFile(DocumentModel):
+    """The file ``verifications.yaml``, written by ``rgss verify``."""
+
+    verifications: dict[Identifier, VerificationRecord]

@@ -16,7 +16,14 @@ from rgss.requirements.checks import (
     declared_needs,
     declared_requirements,
 )
-from rgss.requirements.files import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
+from rgss.requirements.files import (
+    ArchitectureFile,
+    ReviewsFile,
+    RulesFile,
+    StakeholderFile,
+    SystemFile,
+    VerificationsFile,
+)
 from rgss.requirements.hints import Hints
 from rgss.requirements.reading import FolderReader
 from rgss.requirements.references import Declaration, ElementKind, check_references
@@ -27,7 +34,7 @@ def load_requirements(folder: Path, *, label_root: str = "requirements") -> Requ
     """Read stakeholder requirements, system requirements and architecture of a project.
 
     ``stakeholder``, ``system`` and ``architecture`` are each a file ``….yaml`` or a folder of such files, read in the
-    order of their names. ``rules.yaml`` and ``reviews.yaml`` are optional.
+    order of their names. ``rules.yaml``, ``reviews.yaml`` and ``verifications.yaml`` are optional.
 
     Args:
         folder: The folder.
@@ -45,6 +52,7 @@ def load_requirements(folder: Path, *, label_root: str = "requirements") -> Requ
     architecture = reader.part("architecture", ArchitectureFile)
     rules = reader.optional("rules.yaml", RulesFile)
     reviews = reader.optional("reviews.yaml", ReviewsFile)
+    records = reader.optional("verifications.yaml", VerificationsFile)
 
     declarations: list[Declaration] = []
     for needs in stakeholder.documents:
@@ -77,13 +85,15 @@ def load_requirements(folder: Path, *, label_root: str = "requirements") -> Requ
         ),
         reviews=MappingProxyType({} if reviews is None else reviews.value.reviews),
         review_places=_places(reviews, "reviews"),
+        records=MappingProxyType({} if records is None else records.value.verifications),
+        record_places=_places(records, "verifications"),
         settings=MappingProxyType({} if rules is None else rules.value.rules),
         setting_places=_places(rules, "rules"),
     )
 
 
 def _places(
-    loaded: LoadedDocument[RulesFile] | LoadedDocument[ReviewsFile] | None, key: str
+    loaded: LoadedDocument[RulesFile] | LoadedDocument[ReviewsFile] | LoadedDocument[VerificationsFile] | None, key: str
 ) -> MappingProxyType[str, Place]:
     if loaded is None:
         return MappingProxyType({})

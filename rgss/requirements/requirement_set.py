@@ -17,6 +17,7 @@ from rgss.requirements.needs import StakeholderNeed
 from rgss.requirements.requirement import Requirement
 from rgss.requirements.review import Review
 from rgss.requirements.rule_settings import RuleSetting
+from rgss.requirements.verification_record import VerificationRecord
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,6 +69,8 @@ class RequirementSet:
         places: Place of each element's declaration, by its id.
         reviews: The reviews by id of the element, which may have been removed.
         review_places: Place of each review.
+        records: The verification records by id of the requirement, which may have been removed.
+        record_places: Place of each verification record.
         settings: Settings of rules by id, which may be unknown.
         setting_places: Place of each setting.
     """
@@ -78,6 +81,8 @@ class RequirementSet:
     places: Mapping[str, Place]
     reviews: Mapping[str, Review] = field(default_factory=lambda: MappingProxyType({}))
     review_places: Mapping[str, Place] = field(default_factory=lambda: MappingProxyType({}))
+    records: Mapping[str, VerificationRecord] = field(default_factory=lambda: MappingProxyType({}))
+    record_places: Mapping[str, Place] = field(default_factory=lambda: MappingProxyType({}))
     settings: Mapping[str, RuleSetting] = field(default_factory=lambda: MappingProxyType({}))
     setting_places: Mapping[str, Place] = field(default_factory=lambda: MappingProxyType({}))
     _by_id: Mapping[str, Element] = field(init=False, repr=False, compare=False)

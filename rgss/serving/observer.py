@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from rgss.assessment import VariantMeasures, failed_tests, read_record
+from rgss.assessment import VariantMeasures, failed_verifications, read_record
 from rgss.decision import ScreeningResult, measure_survivors
 from rgss.decision.study_decision import StudyDecision, decide_study
 from rgss.errors import DocumentError, RgssError
@@ -130,7 +130,7 @@ class StudyObserver:
                     evidence=self._label,
                     analysed=False,
                     screened=screened,
-                    failed_tests=failed_tests(project),
+                    failed=failed_verifications(project),
                 )
             except RgssError as error:
                 problem = str(error)

@@ -14,7 +14,14 @@ from rgss.documents import DocumentModel, json_schema, read_document
 from rgss.errors import DefinitionError
 from rgss.identification import ExcitationDocument
 from rgss.measures import MeasuresDocument
-from rgss.requirements import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
+from rgss.requirements import (
+    ArchitectureFile,
+    ReviewsFile,
+    RulesFile,
+    StakeholderFile,
+    SystemFile,
+    VerificationsFile,
+)
 from rgss.scenes import (
     CalibrationDocument,
     GripperDocument,
@@ -82,6 +89,12 @@ DOCUMENT_KINDS = (
     DocumentKind(id="measures", title="Measures", model=MeasuresDocument, place="requirements/measures.yaml"),
     DocumentKind(id="rules", title="Settings of rules", model=RulesFile, place="requirements/rules.yaml"),
     DocumentKind(id="reviews", title="Reviews", model=ReviewsFile, place="requirements/reviews.yaml"),
+    DocumentKind(
+        id="verifications",
+        title="Verification records",
+        model=VerificationsFile,
+        place="requirements/verifications.yaml",
+    ),
     DocumentKind(id="design-space", title="Design space", model=DesignSpaceModel, place="designs/"),
     DocumentKind(id="catalogue", title="Catalogue of components", model=CatalogueModel, place="designs/"),
     DocumentKind(id="scene", title="Scene", model=SceneDocument, place="scenes/"),

@@ -31,6 +31,7 @@ _KIND_OF_KEY: Mapping[str, str] = {
     "measures": "measures",
     "rules": "rules",
     "reviews": "reviews",
+    "verifications": "verifications",
     "blocks": "architecture",
     "behaviours": "architecture",
 }

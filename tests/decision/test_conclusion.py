@@ -13,6 +13,7 @@ from rgss.decision.study_decision import Conclusion, DesignStanding, Feasibility
 from rgss.decision.study_decision.conclusion import conclusion_of
 from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
 from rgss.reports.decision.conclusion import headline, rule_sentence, standing_sentence, uncertainty_sentences
+from rgss.trace.evidence import FailedVerifications
 from rgss.tradeoff.robustness import Rival
 
 
@@ -97,16 +98,38 @@ def test_the_headline_of_a_choice_that_is_shown_feasible(made):
 
 def test_a_failed_test_is_told_beside_the_choice(made):
     other = concluded(made, standing(made.decision.chosen, met=("A",)))
-    other = dataclasses.replace(other, conclusion=dataclasses.replace(other.conclusion, failed_tests=("SYS-1", "A")))
+    other = dataclasses.replace(
+        other, conclusion=dataclasses.replace(other.conclusion, failed=FailedVerifications(tests=("SYS-1", "A")))
+    )
     assert headline(other).endswith("0 infeasible. Tests of SYS-1, A failed: no design meets them.")
     assert trade_document(other)["conclusion"]["failed_tests"] == ["SYS-1", "A"]
 
 
+@pytest.mark.parametrize(
+    ("failed", "deciding", "told"),
+    [
+        (FailedVerifications(records=("A",)), "a measure or a record", "By verification record A is not met, by no"),
+        (
+            FailedVerifications(tests=("A",), records=("A", "B")),
+            "a measure, a test or a record",
+            "Tests of A failed: no design meets it. By verification record A, B are not met, by no",
+        ),
+    ],
+)
+def test_what_a_verification_record_says_is_not_met_is_told_beside_the_choice(made, failed, deciding, told):
+    other = concluded(made, standing(made.decision.chosen, missed=("A",)))
+    other = dataclasses.replace(other, conclusion=dataclasses.replace(other.conclusion, failed=failed))
+    assert f"every requirement that {deciding} decides" in headline(other)
+    assert headline(other).endswith(f"{told} design.")
+    assert trade_document(other)["conclusion"]["failed_records"] == list(failed.records)
+
+
 def test_a_requirement_whose_test_failed_is_missed_by_every_design(shipped, measured):
     """One with a criterion, which all designs meet by it, and one without."""
-    assert conclusion_of(shipped, measured, None).failed_tests == ()
-    found = conclusion_of(shipped, measured, measured[0].variant.id, ("SYS-004", "SYS-003"))
-    assert found.failed_tests == ("SYS-004", "SYS-003")
+    assert conclusion_of(shipped, measured, None).failed == FailedVerifications()
+    failed = FailedVerifications(tests=("SYS-004",), records=("SYS-003", "SYS-004"))
+    found = conclusion_of(shipped, measured, measured[0].variant.id, failed)
+    assert (found.failed, failed.requirements) == (failed, ("SYS-004", "SYS-003"))
     for one in found.standings:
         assert {"SYS-004", "SYS-003"} <= set(one.missed)
         assert not {"SYS-004", "SYS-003"} & {*one.met, *one.open, *one.not_run, *one.undecided}

@@ -29,6 +29,7 @@ from rgss.requirements import (
     SystemFile,
     VerificationMethod,
     VerificationPhase,
+    VerificationsFile,
     load_requirements,
 )
 
@@ -58,6 +59,7 @@ def test_the_examples_are_one_project(project):
     assert {behaviour.kind for behaviour in project.architecture.behaviours} == set(BehaviourKind)
     assert set(project.settings) == {"wording.R7", "wording.R19", "trace.idle-element"}
     assert set(project.reviews) == {"SYS-1"}
+    assert set(project.records) == {"SYS-2"}
 
 
 def test_they_state_every_relation(project):
@@ -66,7 +68,7 @@ def test_they_state_every_relation(project):
 
 def test_every_key_is_shown(examples):
     shown = set(re.findall(r"\b(\w+):", "\n".join(examples.values())))
-    files = (ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile)
+    files = (ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile, VerificationsFile)
     schemas = [TypeAdapter(file).json_schema() for file in files]
     models = [schema for whole in schemas for schema in (whole, *whole["$defs"].values()) if "properties" in schema]
     assert len(models) >= 20

@@ -66,7 +66,10 @@ def test_a_file_that_cannot_be_guessed(project):
         (
             "requirements/zzz.yaml",
             "warning",
-            "requirements/ has stakeholder, system, architecture, measures, rules, reviews, each with the ending .yaml",
+            (
+                "requirements/ has stakeholder, system, architecture, measures, rules, reviews, verifications, "
+                "each with the ending .yaml"
+            ),
         ),
     ]
 

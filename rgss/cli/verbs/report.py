@@ -103,7 +103,7 @@ def run(options: argparse.Namespace) -> int:
             screened=screened,
             portfolio=choose_portfolio(project, served) if served else None,
             assumptions=assumption_outcomes(project, measured, store),
-            failed_tests=state.failed_tests,
+            failed=state.failed,
         )
         planners = None if options.no_film else _planners(project)
         document = report_document(project, measured, made, store, planners=planners)

@@ -19,6 +19,7 @@ DOCUMENTS = (
     "measures",
     "rules",
     "reviews",
+    "verifications",
     "design-space",
     "catalogue",
     "scene",

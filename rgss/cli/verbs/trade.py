@@ -78,7 +78,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Decide; 1 if no variant meets every requirement, a choice is not proven best, or a part is not computed."""
-    from rgss.assessment import failed_tests, read_record
+    from rgss.assessment import failed_verifications, read_record
     from rgss.cli.assumption_trials import known_assumptions, scenario_measures
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import path_in_project, shown_path
@@ -130,7 +130,7 @@ def run(options: argparse.Namespace) -> int:
         reopened=more,
         assumptions=assumptions,
         time_limit=time_limit,
-        failed_tests=failed_tests(project),
+        failed=failed_verifications(project),
     )
     _print(options, made, text)
     return CLEAN if made.is_final else FINDINGS

@@ -10,6 +10,9 @@ from enum import Enum
 from rgss.assessment import VariantMeasures, requirements_with_criteria
 from rgss.measures import Verdict, judge
 from rgss.studies import Project
+from rgss.trace.evidence import FailedVerifications
+
+_NONE_FAILED = FailedVerifications()
 
 
 class Feasibility(str, Enum):
@@ -47,7 +50,7 @@ class DesignStanding:
 
     @property
     def feasibility(self) -> Feasibility:
-        """Feasible, infeasible or open; of requirements without a criterion only those count of which a test failed."""
+        """Feasible, infeasible or open; of requirements without a criterion only those count that are missed."""
         if self.missed:
             return Feasibility.INFEASIBLE
         return Feasibility.OPEN if self.undecided else Feasibility.FEASIBLE
@@ -61,13 +64,13 @@ class Conclusion:
         standings: The verdicts on each design, by ascending id.
         chosen: The verdicts on the chosen design; None if nothing is chosen.
         unmeasured: Ids of the system requirements without a criterion.
-        failed_tests: Ids of those of which a marked test of the project failed.
+        failed: Requirements that tests or verification records show are not met.
     """
 
     standings: tuple[DesignStanding, ...]
     chosen: DesignStanding | None
     unmeasured: tuple[str, ...]
-    failed_tests: tuple[str, ...] = ()
+    failed: FailedVerifications = _NONE_FAILED
 
     def count(self, feasibility: Feasibility) -> int:
         """Number of designs with this conclusion."""
@@ -86,7 +89,10 @@ class Conclusion:
 
 
 def conclusion_of(
-    project: Project, measured: Sequence[VariantMeasures], chosen: int | None, failed: tuple[str, ...] = ()
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    chosen: int | None,
+    failed: FailedVerifications = _NONE_FAILED,
 ) -> Conclusion:
     """The verdicts on every design, counted.
 
@@ -94,16 +100,16 @@ def conclusion_of(
         project: The project, under the suppositions if there are any.
         measured: Every variant with its estimates.
         chosen: Id of the chosen variant; None if nothing is chosen.
-        failed: Ids of the requirements of which a marked test of the project failed.
+        failed: Requirements that tests or verification records show are not met.
     """
     decided = {one.id for one in requirements_with_criteria(project)}
     unmeasured = tuple(one.id for one in project.requirements.system if one.id not in decided)
-    standings = tuple(_standing(project, entry, unmeasured, failed) for entry in measured)
+    standings = tuple(_standing(project, entry, unmeasured, failed.requirements) for entry in measured)
     return Conclusion(
         standings=standings,
         chosen=next((one for one in standings if one.variant == chosen), None),
         unmeasured=unmeasured,
-        failed_tests=failed,
+        failed=failed,
     )
 
 

@@ -30,8 +30,11 @@ from rgss.decision.study_decision.suppositions import WhatIf, decision_side
 from rgss.decision.what_if import Scenario, measured_in
 from rgss.measures import ModelGap, model_gaps
 from rgss.studies import Project
+from rgss.trace.evidence import FailedVerifications
 from rgss.tradeoff import Decision, DecisionStatus, Overlap, PortfolioDecision, SharedPart, SolverRun, TradeProblem
 from rgss.tradeoff.elicitation import ElicitedWeights
+
+_NONE_FAILED = FailedVerifications()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -127,7 +130,7 @@ def decide_study(
     reopened: tuple[int, ...] = (),
     assumptions: tuple[AssumptionOutcome, ...] = (),
     time_limit: float | None = None,
-    failed_tests: tuple[str, ...] = (),
+    failed: FailedVerifications = _NONE_FAILED,
 ) -> StudyDecision:
     """Decide a study, and analyse the decision; nothing is simulated.
 
@@ -144,7 +147,7 @@ def decide_study(
         reopened: Designs that screening would promote under the suppositions.
         assumptions: The choice under each alternative of each assumption, which needs the evidence store.
         time_limit: Seconds for the runs of a solver over levels, for each decision that is made.
-        failed_tests: Ids of the requirements of which a marked test of the project failed.
+        failed: Requirements that tests or verification records show are not met.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.
@@ -181,7 +184,7 @@ def decide_study(
         what_if=what_if,
         readings=_readings(project, measured, assumptions) if analysed else (),
         assumptions=assumptions,
-        failed_tests=failed_tests,
+        failed=failed,
     )
 
 
@@ -206,7 +209,7 @@ def study_decision(
     what_if: WhatIf | None = None,
     readings: tuple[ReadingOutcome, ...] = (),
     assumptions: tuple[AssumptionOutcome, ...] = (),
-    failed_tests: tuple[str, ...] = (),
+    failed: FailedVerifications = _NONE_FAILED,
 ) -> StudyDecision:
     """The decision of a study from a choice and its analysis; the arguments are those of `decide_study`.
 
@@ -222,7 +225,7 @@ def study_decision(
         what_if: The effect of suppositions.
         readings: Decision under each reading of the source.
         assumptions: The choice under each alternative of each assumption.
-        failed_tests: Ids of the requirements of which a marked test of the project failed.
+        failed: Requirements that tests or verification records show are not met.
     """
     return StudyDecision(
         study=project.study.id,
@@ -230,7 +233,7 @@ def study_decision(
         variants=len(measured),
         trials=sum(len(entry.records) for entry in measured),
         decision=decision,
-        conclusion=conclusion_of(project, measured, decision.chosen, failed_tests),
+        conclusion=conclusion_of(project, measured, decision.chosen, failed),
         comparison=side_by_side(project, measured, decision),
         gains=gains_over_runner_up(decision),
         closest_limits=closest_limits(problem, decision.chosen),

@@ -25,16 +25,20 @@ def headline(made: StudyDecision) -> str:
     shown = found.count(Feasibility.FEASIBLE)
     open_, infeasible = found.count(Feasibility.OPEN), found.count(Feasibility.INFEASIBLE)
     by = f" (by {', '.join(found.open_by)})" if found.open_by else ""
-    by_tests = " or a test" if found.failed_tests else ""
-    every = f"every requirement that a measure{by_tests} decides" if found.unmeasured else "every requirement"
+    others = [name for name, ids in (("a test", found.failed.tests), ("a record", found.failed.records)) if ids]
+    deciding = " or ".join([", ".join(["a measure", *others[:-1]]), *others[-1:]])
+    every = f"every requirement that {deciding} decides" if found.unmeasured else "every requirement"
     is_feasible = found.chosen is not None and found.chosen.feasibility is Feasibility.FEASIBLE
     counts = (
         f"{shown} of {count} {'is' if shown == 1 else 'are'} shown to meet {'them all' if is_feasible else every}; "
         f"{open_} {'is' if open_ == 1 else 'are'} open{by}, {infeasible} infeasible."
     )
-    if found.failed_tests:
-        them = "it" if len(found.failed_tests) == 1 else "them"
-        counts += f" Tests of {', '.join(found.failed_tests)} failed: no design meets {them}."
+    if found.failed.tests:
+        them = "it" if len(found.failed.tests) == 1 else "them"
+        counts += f" Tests of {', '.join(found.failed.tests)} failed: no design meets {them}."
+    if found.failed.records:
+        are = "is" if len(found.failed.records) == 1 else "are"
+        counts += f" By verification record {', '.join(found.failed.records)} {are} not met, by no design."
     if made.decision.chosen is None or found.chosen is None:
         basis = basis_text(shown_feasible=made.shown_feasible)
         return f"No variant is chosen: none meets every requirement by its {basis}; {counts}"

@@ -47,7 +47,8 @@ def decision_part(made: StudyDecision) -> Plain:
         "counts": {"alternatives": decision.counts.alternatives, "feasible": decision.counts.feasible},
         "demands": dict(decision.demands),
         "headline": headline(made),
-        "failed_tests": list(made.conclusion.failed_tests),
+        "failed_tests": list(made.conclusion.failed.tests),
+        "failed_records": list(made.conclusion.failed.records),
         "standing": [
             line
             for line in (

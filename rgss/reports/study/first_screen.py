@@ -35,7 +35,11 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         return None
     place = document["variants"]["id"].index(chosen)
     requirements = [one for one in document["requirements"] if one["measure"]]
-    failed = [one for one in document["requirements"] if one["id"] in decision["failed_tests"]]
+    by_record = [one for one in document["requirements"] if one["id"] in decision["failed_records"]]
+    by_test = [
+        one for one in document["requirements"] if one["id"] in decision["failed_tests"] and one not in by_record
+    ]
+    failed = [*by_test, *by_record]
     judged = [one for one in requirements if one not in failed]
     open_ = [one for one in judged if entry_at(one["verdict"], place) in _OPEN]
     missed = [one for one in judged if entry_at(one["verdict"], place) == "not_met"]
@@ -55,7 +59,8 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         "open": [{"id": one["id"], "text": one["text"]} for one in open_],
         "missed": [
             *({"id": one["id"], "text": one["text"]} for one in missed),
-            *({"id": one["id"], "text": f"{one['text']} Its test failed."} for one in failed),
+            *({"id": one["id"], "text": f"{one['text']} Its test failed."} for one in by_test),
+            *({"id": one["id"], "text": f"{one['text']} Its verification record says so."} for one in by_record),
         ],
         "bullets": bullets[:MOST_BULLETS],
         "more_limits": max(0, len(bullets) - MOST_BULLETS),

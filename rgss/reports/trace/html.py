@@ -134,6 +134,7 @@ def impact_to_html(impact: Impact, report: TraceReport) -> str:
             group("Verdicts to renew", list(verdicts_by_id), verdicts),
             group("Trials of the shown variant that they depend on", impact.trials),
             group("Tests to run again", impact.tests),
+            group("Verification records to renew", impact.records),
             group("Reviews to renew", impact.reviews),
         ],
     )

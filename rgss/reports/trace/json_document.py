@@ -12,7 +12,7 @@ from typing import Any
 
 from rgss.measures import Estimate
 from rgss.reports.trace.report import MatrixPart, TraceReport
-from rgss.trace.evidence import TraceEvidence, TrialEvidence, VerificationRow
+from rgss.trace.evidence import RecordEvidence, TraceEvidence, TrialEvidence, VerificationRow
 from rgss.trace.views import Chain, ChainStep, Impact
 
 SCHEMA = "rgss-trace-1"
@@ -94,6 +94,7 @@ def impact_to_json(impact: Impact) -> dict[str, Any]:
         ],
         "trials": list(impact.trials),
         "tests": list(impact.tests),
+        "records": list(impact.records),
         "reviews": list(impact.reviews),
     }
 
@@ -156,7 +157,21 @@ def _verification(row: VerificationRow) -> dict[str, Any]:
         "measured": None if row.estimate is None else _estimate(row.estimate),
         "trials": [trial.key for trial in row.trials],
         "tests": [{"id": test.test, "end": None if test.end is None else test.end.value} for test in row.tests],
+        "record": None if row.record is None else _record(row.record),
         "variants": {verdict.value: count for verdict, count in row.tally},
+    }
+
+
+def _record(found: RecordEvidence) -> dict[str, Any]:
+    record = found.record
+    return {
+        "result": record.result.value,
+        "by": record.by,
+        "date": record.date,
+        "note": record.note,
+        "files": list(record.files),
+        "stale_causes": [cause.value for cause in found.causes],
+        "changed_files": list(found.changed),
     }
 
 

@@ -11,7 +11,7 @@ from rgss.reports.trace.report import MatrixPart, TraceReport
 from rgss.reports.trace.tables import matrix_note, tally_in_words
 from rgss.requirements import Behaviour, Block, LinkKind, Requirement, StakeholderNeed
 from rgss.trace.evidence import VerificationRow
-from rgss.trace.views import end_in_words, estimate_in_words, value_in_words, verdict_in_words
+from rgss.trace.views import end_in_words, estimate_in_words, record_in_words, value_in_words, verdict_in_words
 
 MOST_CELLS, WIDEST_GRID = 30_000, 160
 """Most cells or columns of a matrix that is shown as a grid, not as a list of links."""
@@ -223,6 +223,7 @@ def _verification_row(row: VerificationRow) -> dict[str, Any]:
         "tests": [{"id": test.test, "end": end_in_words(test)} for test in row.tests],
         "tests_summary": f"{len(row.tests)} {'test' if len(row.tests) == 1 else 'tests'}: "
         + ", ".join(f"{count} {end}" for end, count in counts.items()),
+        "record": "" if row.record is None else record_in_words(row.record),
         "verdict": "differing" if row.verdict is None else row.verdict.value,
         "verdict_sign": _SIGNS[row.verdict],
         "verdict_words": verdict_in_words(row.verdict, row.causes),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rgss.reports.tables import Cell, Table
 from rgss.reports.trace.report import MatrixPart, TraceReport
 from rgss.trace.evidence import KEY_DIGITS, TestEvidence, TrialEvidence, VerificationRow
-from rgss.trace.views import Chain, Impact, end_in_words, estimate_in_words, verdict_in_words
+from rgss.trace.views import Chain, Impact, end_in_words, estimate_in_words, record_in_words, verdict_in_words
 
 LINKED = "x"
 """Cell of a matrix whose row and column are linked."""
@@ -151,6 +151,7 @@ def impact_table(impact: Impact) -> Table:
         ("verdict to renew", tuple(verdict.requirement for verdict in impact.verdicts)),
         ("trial that a verdict depends on", impact.trials),
         ("test to run again", impact.tests),
+        ("verification record to renew", impact.records),
         ("review to renew", impact.reviews),
     )
     notes = {
@@ -171,11 +172,13 @@ def impact_table(impact: Impact) -> Table:
 
 
 def evidence_in_words(row: VerificationRow) -> str:
-    """Evidence of a verdict: trials by key with their command, tests by id."""
+    """Evidence of a verdict: trials by key with their command, tests by id, the verification record."""
     parts = [_trial_in_words(trial) for trial in row.trials]
     if not parts and row.estimate is not None and row.estimate.n == 0 and row.estimate.value is not None:
         parts.append(f"computed from the design of variant {row.variant}")
-    return "; ".join([*parts, *(_test_in_words(test) for test in row.tests)])
+    parts += [_test_in_words(test) for test in row.tests]
+    parts += [] if row.record is None else [f"record: {record_in_words(row.record)}"]
+    return "; ".join(parts)
 
 
 def tally_in_words(row: VerificationRow) -> str:

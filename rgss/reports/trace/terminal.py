@@ -128,6 +128,7 @@ def impact_lines(impact: Impact) -> list[str]:
         ("Verdicts to renew", verdicts),
         ("Trials of the shown variant that they depend on", [key[:KEY_DIGITS] for key in impact.trials]),
         ("Tests to run again", impact.tests),
+        ("Verification records to renew", impact.records),
         ("Reviews to renew", impact.reviews),
     )
     lines = [_safe(f"Impact of a change to {impact.id} ({impact.kind.value})")]
@@ -165,6 +166,7 @@ def _evidence(row: VerificationRow) -> str:
     parts = [] if row.estimate is None or row.estimate.value is None else [estimate_in_words(row.estimate)]
     counts = Counter(end_in_words(test) for test in row.tests)
     parts += [f"{count} {'test' if count == 1 else 'tests'} {end}" for end, count in counts.items()]
+    parts += [] if row.record is None else [f"record of {row.record.record.date}"]
     if row.estimate is None and row.tally:
         # Without a choice no variant is shown, and all are judged.
         parts.insert(0, f"trials of {sum(count for _, count in row.tally)} variants")

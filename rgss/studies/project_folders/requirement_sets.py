@@ -15,7 +15,7 @@ REQUIREMENTS = "requirements"
 """The set of every study that names no other."""
 
 REQUIREMENT_PARTS = ("stakeholder", "system", "architecture")
-SINGLE_FILES = ("measures", "rules", "reviews")
+SINGLE_FILES = ("measures", "rules", "reviews", "verifications")
 
 
 def measures_of(folder: str) -> str:

@@ -6,8 +6,10 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.trace.evidence.digest import verification_digest
-    from rgss.trace.evidence.evidence_state import EvidenceState, TrialVerdicts
+    from rgss.trace.evidence.evidence_state import EvidenceState, FailedVerifications, TrialVerdicts
     from rgss.trace.evidence.junit_file import TEST_ID, VERIFIES, TestEnd, read_junit
+    from rgss.trace.evidence.record_evidence import RecordEvidence, evidence_of_records
+    from rgss.trace.evidence.record_writing import new_record, with_record, write_records
     from rgss.trace.evidence.software import (
         JUNIT_FILE,
         SoftwareEvidence,

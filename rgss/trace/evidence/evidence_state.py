@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from rgss.measures import StaleCause, Verdict
+from rgss.trace.evidence.record_evidence import RecordEvidence
 from rgss.trace.evidence.software import SoftwareEvidence
 
 
@@ -51,18 +52,41 @@ class TrialVerdicts:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class FailedVerifications:
+    """Requirements that no design meets, as other evidence than trials shows.
+
+    Attributes:
+        tests: Ids of those of which a marked test of the project failed.
+        records: Ids of those that a verification record says are not met.
+    """
+
+    tests: tuple[str, ...] = ()
+    records: tuple[str, ...] = ()
+
+    @property
+    def requirements(self) -> tuple[str, ...]:
+        """Ids of all of them, each once."""
+        return tuple(dict.fromkeys((*self.tests, *self.records)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class EvidenceState:
     """Evidence of a project.
 
     Attributes:
         trials: Verdicts of each requirement with a criterion, by id.
         software: Test evidence of each requirement verified by test, by id; None if the project has no tests.
+        records: Verification record of each requirement that has one, by id.
     """
 
     trials: Mapping[str, TrialVerdicts] = field(default_factory=lambda: MappingProxyType({}))
     software: Mapping[str, SoftwareEvidence] | None = None
+    records: Mapping[str, RecordEvidence] = field(default_factory=lambda: MappingProxyType({}))
 
     @property
-    def failed_tests(self) -> tuple[str, ...]:
-        """Ids of the requirements of which a marked test failed, by a result that still holds."""
-        return tuple(name for name, one in (self.software or {}).items() if one.verdict is Verdict.NOT_MET)
+    def failed(self) -> FailedVerifications:
+        """The requirements that are not met by a result of tests, or by a record, that still holds."""
+        return FailedVerifications(
+            tests=tuple(name for name, one in (self.software or {}).items() if one.verdict is Verdict.NOT_MET),
+            records=tuple(name for name, one in self.records.items() if one.verdict is Verdict.NOT_MET),
+        )

@@ -11,10 +11,13 @@ from rgss.evidence.records import Metric
 from rgss.measures import Estimate, StaleCause, Verdict
 from rgss.requirements import Requirement
 from rgss.trace.evidence.evidence_state import EvidenceState
+from rgss.trace.evidence.record_evidence import RecordEvidence
 from rgss.trace.evidence.software import SoftwareEvidence, TestEvidence
 
 KEY_DIGITS = 12
 """How much of a trial's key names it; `rgss replay` takes it."""
+
+_WORST_FIRST = (Verdict.NOT_MET, Verdict.STALE, Verdict.NOT_RUN, Verdict.INCONCLUSIVE, Verdict.MET)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,18 +104,22 @@ class TraceEvidence:
         software = self.state.software or {}
         return {test.test: test for one in software.values() for test in one.tests}
 
+    def record(self, requirement_id: str) -> RecordEvidence | None:
+        """The verification record of a requirement; None without one."""
+        return self.state.records.get(requirement_id)
+
     def verdict(self, requirement: Requirement) -> Verdict | None:
         """Verdict of the evidence on a requirement.
 
-        A criterion is judged on the shown variant; without one the tests decide. A marked test that failed outweighs
-        what trials show.
+        A criterion is judged on the shown variant; without one the tests and the verification record decide, the
+        worst of them. A marked test that failed, and a record that says not met, outweigh what trials show.
 
         Returns:
             The verdict; None where no variant is shown and the variants do not agree.
         """
-        software = self._software(requirement.id)
-        if software is not None and (requirement.criterion is None or software.verdict is Verdict.NOT_MET):
-            return software.verdict
+        other = self._beside_trials(requirement.id)
+        if other is not None and (requirement.criterion is None or other is Verdict.NOT_MET):
+            return other
         if requirement.criterion is None:
             return Verdict.NOT_RUN
         verdicts = self._verdicts(requirement.id)
@@ -127,7 +134,9 @@ class TraceEvidence:
             return ()
         software, trials = self._software(requirement.id), self.state.trials.get(requirement.id)
         if requirement.criterion is None:
-            return () if software is None else software.causes
+            record = self.record(requirement.id)
+            found = {*(() if software is None else software.causes), *(() if record is None else record.causes)}
+            return tuple(cause for cause in StaleCause if cause in found)
         if trials is None:
             return ()
         return trials.all_causes if self.shown is None else trials.causes.get(self.shown.variant, ())
@@ -138,11 +147,21 @@ class TraceEvidence:
         return tuple((verdict, counts[verdict]) for verdict in Verdict if counts[verdict])
 
     def has_evidence(self, requirement: Requirement) -> bool:
-        """True if there is evidence that holds now: trials, the design, or a test that was run."""
+        """True if there is evidence that holds now: trials, the design, a test that was run, or a record."""
         verdict = self.verdict(requirement)
         if requirement.criterion is not None:
             return verdict not in (Verdict.NOT_RUN, Verdict.STALE)
-        return verdict is not Verdict.STALE and any(test.end is not None for test in self.tests(requirement.id))
+        if verdict is Verdict.STALE:
+            return False
+        return self.record(requirement.id) is not None or any(
+            test.end is not None for test in self.tests(requirement.id)
+        )
+
+    def _beside_trials(self, requirement_id: str) -> Verdict | None:
+        """Verdict of tests and record, the worst of both; None without either."""
+        software, record = self._software(requirement_id), self.record(requirement_id)
+        found = {one.verdict for one in (software, record) if one is not None}
+        return next((verdict for verdict in _WORST_FIRST if verdict in found), None)
 
     def _verdicts(self, requirement_id: str) -> Mapping[int, Verdict]:
         trials = self.state.trials.get(requirement_id)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from rgss.measures import Estimate, StaleCause, Verdict
 from rgss.requirements import Requirement
+from rgss.trace.evidence.record_evidence import RecordEvidence
 from rgss.trace.evidence.software import TestEvidence
 from rgss.trace.evidence.verdict_evidence import TraceEvidence, TrialEvidence
 from rgss.trace.model import TraceModel
@@ -25,6 +26,7 @@ class VerificationRow:
         variant: The shown variant; None if a test decides or there is none.
         trials: The trials that decide.
         tests: The tests that verify it.
+        record: Its verification record; None without one.
         tally: Number of variants by verdict, best first; empty if tests decide.
     """
 
@@ -37,6 +39,7 @@ class VerificationRow:
     variant: int | None
     trials: tuple[TrialEvidence, ...]
     tests: tuple[TestEvidence, ...]
+    record: RecordEvidence | None
     tally: tuple[tuple[Verdict, int], ...]
 
     @property
@@ -77,5 +80,6 @@ def _row(model: TraceModel, evidence: TraceEvidence, requirement: Requirement) -
         variant=None if shown is None else shown.variant,
         trials=shown.deciding_trials(measure) if shown is not None and measure is not None else (),
         tests=evidence.tests(requirement.id),
+        record=evidence.record(requirement.id),
         tally=evidence.tally(requirement.id),
     )

@@ -113,15 +113,17 @@ understood; `wording.ears-keyword` notes them.
 
 `rgss measure` gives a verdict on each requirement with a criterion for each variant;
 `rgss measure --verdicts` lists them. The verdict on a requirement without a criterion that is verified
-by test follows from the tests that are marked with it. A marked test that failed outweighs what trials
-show of a requirement with a criterion, in `rgss trace` and on the report.
+by test follows from the tests that are marked with it; what a person inspected, demonstrated, analysed
+or tested follows from its record (`rgss verify`). Of tests and record the worst decides. A marked test
+that failed, and a record of *not met*, outweigh what trials show of a requirement with a criterion, in
+`rgss trace`, in the decision and on the report; a test that passed, or a record of *met*, does not.
 
-| verdict | by trials | by tests |
-|---|---|---|
-| met, not met | the estimate and its whole interval lie on one side of the threshold | all passed; one failed |
-| inconclusive | the interval straddles the threshold, is unknown, or no trial gave a value | |
-| not run | no trial of the variant was run | a marked test was not run |
-| stale | something changed since the evidence | something changed since the run |
+| verdict | by trials | by tests | by a record |
+|---|---|---|---|
+| met, not met | the estimate and its whole interval lie on one side of the threshold | all passed; one failed | found |
+| inconclusive | the interval straddles the threshold, is unknown, or no trial gave a value | | found |
+| not run | no trial of the variant was run | a marked test was not run | |
+| stale | something changed since the evidence | something changed since the run | something changed since |
 
 A verdict becomes stale when a digest differs, and the cause is named:
 
@@ -137,5 +139,6 @@ recorded cannot be older than its requirement; a recorded one that its evidence 
 finding. A test run that `pytest --junitxml=FILE` writes where rgss is installed contains the digests
 of the tested code (in the project's folder, in `src`, or in a package of the folder) and of each
 requirement, and is stale once one of them differs. A run without them is stale as *unrecorded*:
-nobody knows what it tested. Of a test with parameters the sets that were run count.
+nobody knows what it tested. Of a test with parameters the sets that were run count. A verification
+record contains the digests of the requirement and of the files that it rests on (*files*).
 """

@@ -12,7 +12,7 @@ from rgss.trace.rules.rule import MarkRule, Violation
 
 
 def _unmarked(model: TraceModel, marked: tuple[MarkedTest, ...]) -> Iterator[Violation]:
-    verified = {name for test in marked for name in test.requirements}
+    verified = {name for test in marked for name in test.requirements} | set(model.requirements.records)
     for requirement in model.requirements.system:
         if requirement.verification is VerificationMethod.TEST and requirement.id not in verified:
             message = f"system requirement {requirement.id!r} is verified by test, but no test is marked with it"
@@ -36,7 +36,7 @@ RULES: tuple[MarkRule, ...] = (
         severity=Severity.ERROR,
         explanation=(
             "Where the project has tests of its own, each requirement that is verified by test has a test that is "
-            "marked with it; a planned test that is never written verifies nothing."
+            "marked with it, or a verification record; a planned test that is never written verifies nothing."
         ),
         check=_unmarked,
     ),

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from rgss.findings import Severity
 from rgss.measures import StaleCause, Verdict
+from rgss.requirements import VerificationMethod
 from rgss.trace.evidence import EvidenceState, TestEnd
 from rgss.trace.model import TraceModel
 from rgss.trace.rules.rule import EvidenceRule, Violation
@@ -28,6 +29,36 @@ def _none(_: TraceModel, evidence: EvidenceState) -> Iterator[Violation]:
             )
 
 
+def _unrecorded(model: TraceModel, evidence: EvidenceState) -> Iterator[Violation]:
+    decided = {name for name, software in (evidence.software or {}).items() if software.tests} | set(evidence.records)
+    for requirement in model.requirements.system:
+        method, name = requirement.verification, requirement.id
+        if method is None or requirement.criterion is not None or name in decided:
+            continue
+        # Where the project has tests of its own, trace.no-test asks for one.
+        if method is not VerificationMethod.TEST or evidence.software is None:
+            message = f"{name!r} is verified by {method.value}, and nothing records it"
+            hint = f"rgss verify {name} --result met --by NAME --on DATE, or mark a test with it"
+            yield Violation(subject=name, message=message, hint=hint, at=("verification",))
+
+
+def _not_met_by_record(_: TraceModel, evidence: EvidenceState) -> Iterator[Violation]:
+    for name, found in evidence.records.items():
+        if found.verdict is Verdict.NOT_MET:
+            message = f"{name!r} is not met, as {found.record.by} found on {found.record.date}"
+            hint = f"mend it, then 'rgss verify {name}'"
+            yield Violation(subject=name, message=message, hint=hint, at=("verification",))
+
+
+def _of_nothing(model: TraceModel, _: EvidenceState) -> Iterator[Violation]:
+    known = {requirement.id for requirement in model.requirements.system}
+    for name, place in model.requirements.record_places.items():
+        if name not in known:
+            message = f"there is no system requirement {name!r} that this would be the verification of"
+            hint = "the next 'rgss verify' removes it"
+            yield Violation(subject=place, message=message, hint=hint, at=(), at_key=True)
+
+
 def _stale(_: TraceModel, evidence: EvidenceState) -> Iterator[Violation]:
     for name, trials in evidence.trials.items():
         old_ones = trials.variants(Verdict.STALE)
@@ -42,6 +73,12 @@ def _stale(_: TraceModel, evidence: EvidenceState) -> Iterator[Violation]:
             yield Violation(
                 subject=name, message=message, hint="pytest --junitxml=.rgss/junit.xml", at=("verification",)
             )
+    for name, found in evidence.records.items():
+        if found.verdict is Verdict.STALE:
+            files = f" ({', '.join(found.changed)})" if found.changed else ""
+            message = f"{name!r} was verified by {found.record.by} before: {_causes(found.causes)}{files}"
+            hint = f"verify it again, then 'rgss verify {name}'"
+            yield Violation(subject=name, message=message, hint=hint, at=("verification",))
 
 
 def _contradiction(_: TraceModel, evidence: EvidenceState) -> Iterator[Violation]:
@@ -75,7 +112,7 @@ def _causes(causes: Sequence[StaleCause]) -> str:
     if StaleCause.UNRECORDED in causes:
         return "the run did not record what it tested"
     names = [f"the {cause.value}" for cause in causes]
-    verb = "has" if len(names) == 1 and causes[0] is not StaleCause.ENGINES else "have"
+    verb = "has" if len(names) == 1 and causes[0] not in (StaleCause.ENGINES, StaleCause.FILES) else "have"
     return f"{' and '.join(names) or 'something'} {verb} changed since"
 
 
@@ -94,7 +131,8 @@ RULES: tuple[EvidenceRule, ...] = (
         severity=Severity.WARNING,
         explanation=(
             "Evidence is no older than what it is evidence for: the requirement, the definition of its measure and "
-            "of all below it, the model, the code, the engines. Age is determined by digests of content, not by clocks."
+            "of all below it, the model, the code, the engines, the files of a verification record. Digests of content "
+            "determine age, not clocks."
         ),
         check=_stale,
     ),
@@ -112,5 +150,27 @@ RULES: tuple[EvidenceRule, ...] = (
         severity=Severity.ERROR,
         explanation="Each test that is marked with a requirement passes; one that fails shows that it is not met.",
         check=_failed,
+    ),
+    EvidenceRule(
+        id="evidence.no-record",
+        severity=Severity.WARNING,
+        explanation=(
+            "A requirement that neither a criterion nor a marked test decides has a verification record ('rgss "
+            "verify'): what a person found who inspected, demonstrated, analysed or tested it."
+        ),
+        check=_unrecorded,
+    ),
+    EvidenceRule(
+        id="evidence.failed-record",
+        severity=Severity.ERROR,
+        explanation="No verification record that still holds says that its requirement is not met.",
+        check=_not_met_by_record,
+    ),
+    EvidenceRule(
+        id="evidence.unknown-record",
+        of_elements=False,
+        severity=Severity.WARNING,
+        explanation="A verification record is of a system requirement that is there.",
+        check=_of_nothing,
     ),
 )

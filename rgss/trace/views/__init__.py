@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from rgss.trace.views.figures import (
         end_in_words,
         estimate_in_words,
+        record_in_words,
         rounded_away,
         share_in_words,
         value_in_words,

@@ -14,10 +14,11 @@ from rgss.trace.views.figures import (
     end_in_words,
     estimate_in_words,
     metric_in_words,
+    record_in_words,
     value_in_words,
     verdict_in_words,
 )
-from rgss.trace.views.neighbours import ThingKind
+from rgss.trace.views.neighbours import ThingKind, record_name
 
 
 class Descriptions:
@@ -39,13 +40,14 @@ class Descriptions:
             {} if shown is None else {trial.key: trial for trial in shown.trials}
         )
         self._tests = evidence.all_tests()
+        self._records = {record_name(name): one for name, one in evidence.state.records.items()}
 
     def text(self, name: str, kind: ThingKind) -> str:
         """Text of an element, or its name."""
         if kind is ThingKind.TRIAL:
             trial = self._trials[name]
             return f"variant {trial.variant}, seed {trial.seed}, {trial.fidelity}: {trial.outcome}"
-        if kind is ThingKind.TEST:
+        if kind in (ThingKind.TEST, ThingKind.RECORD):
             return ""
         if kind in _OF_REQUIREMENTS:
             element = self._requirements.element(name)
@@ -69,6 +71,8 @@ class Descriptions:
             return self._observation(name, measure)
         if kind is ThingKind.TEST:
             return end_in_words(self._tests[name])
+        if kind is ThingKind.RECORD:
+            return record_in_words(self._records[name])
         return ""
 
     def _verdict(self, name: str) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from rgss.evidence.records import Metric
 from rgss.measures import Estimate, StaleCause, Verdict
-from rgss.trace.evidence import TestEvidence
+from rgss.trace.evidence import RecordEvidence, TestEvidence
 
 UNKNOWN = "–"
 """Placeholder of an unknown value."""
@@ -31,6 +31,17 @@ def verdict_in_words(verdict: Verdict | None, causes: Sequence[StaleCause] = ())
 def end_in_words(test: TestEvidence) -> str:
     """Outcome of a test, in words."""
     return "not run" if test.end is None else test.end.value
+
+
+def record_in_words(found: RecordEvidence) -> str:
+    """What a person found on a requirement, and whether that still holds."""
+    record = found.record
+    told = f"{verdict_in_words(Verdict(record.result.value))} by {record.by} on {record.date}"
+    told += f" ({', '.join(record.files)})" if record.files else ""
+    told += f": {record.note}" if record.note else ""
+    causes = [f"the {cause.value} has changed" for cause in found.causes if cause is not StaleCause.FILES]
+    causes += [f"{name} has changed or is gone" for name in found.changed]
+    return f"stale, since {' and '.join(causes)}: {told}" if causes else told
 
 
 def value_in_words(value: float | None, unit: str = "1") -> str:

@@ -43,6 +43,7 @@ class Impact:
         verdicts: Affected verdicts.
         trials: Keys of the shown variant's trials of those verdicts.
         tests: Ids of the tests to run again.
+        records: Ids of the requirements whose verification record must be renewed.
         reviews: Ids of the elements whose review must be renewed.
     """
 
@@ -55,6 +56,7 @@ class Impact:
     verdicts: tuple[TouchedVerdict, ...]
     trials: tuple[str, ...]
     tests: tuple[str, ...]
+    records: tuple[str, ...]
     reviews: tuple[str, ...]
 
 
@@ -112,6 +114,7 @@ def impact_of(
         verdicts=tuple(_verdict(item, evidence) for item in requirements),
         trials=(root.id,) if root.kind is ThingKind.TRIAL else _trials(requirements, evidence),
         tests=_without(root.id, _unique(*([test.test for test in evidence.tests(one)] for one in required))),
+        records=tuple(one for one in required if evidence.record(one) is not None),
         reviews=tuple(
             name for name, review in model.requirements.reviews.items() if root.id in (name, *review.upstream)
         ),

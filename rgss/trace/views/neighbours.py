@@ -20,6 +20,7 @@ class ThingKind(str, Enum):
     BEHAVIOUR = "behaviour"
     MEASURE = "measure"
     TEST = "test"
+    RECORD = "verification record"
     TRIAL = "trial"
     CONSTANT = "constant of the measures"
     INPUT = "input of the measures"
@@ -108,7 +109,14 @@ def neighbours_of(model: TraceModel, evidence: TraceEvidence) -> Neighbours:
     for requirement, software in (evidence.state.software or {}).items():
         for test in software.tests:
             book.put(test.test, Relation.VERIFIES, requirement, Relation.VERIFIED_BY, upward=True)
+    for requirement in evidence.state.records:
+        book.put(record_name(requirement), Relation.VERIFIES, requirement, Relation.VERIFIED_BY, upward=True)
     return Neighbours(kinds=book.kinds, up=book.up, down=book.down)
+
+
+def record_name(requirement_id: str) -> str:
+    """Name of the verification record of a requirement in a chain."""
+    return f"record of {requirement_id}"
 
 
 class _Book:
@@ -166,6 +174,7 @@ def kinds_of(model: TraceModel, evidence: TraceEvidence) -> Mapping[str, ThingKi
     """Kind of the thing with each id of a project, without trials and symbols of the measures."""
     architecture = model.requirements.architecture
     kinds = dict.fromkeys(evidence.all_tests(), ThingKind.TEST)
+    kinds |= dict.fromkeys(map(record_name, evidence.state.records), ThingKind.RECORD)
     kinds |= dict.fromkeys((measure.id for measure in model.measures), ThingKind.MEASURE)
     kinds |= dict.fromkeys((behaviour.id for behaviour in architecture.behaviours), ThingKind.BEHAVIOUR)
     kinds |= dict.fromkeys((block.id for block in architecture.blocks), ThingKind.BLOCK)

@@ -45,6 +45,7 @@ DOCUMENT = {
         "ties": [2],
         "near_ties": [1],
         "failed_tests": [],
+        "failed_records": [],
         "modelling": {
             "rows": [
                 {"cells": ["prices", "as stated", "1.5", "nothing is feasible", "yes"], "changes": True},
@@ -82,6 +83,14 @@ def test_a_requirement_whose_test_failed_is_missed_whatever_its_measure_says():
         {"id": "R5", "text": "R5 in words. Its test failed."},
     ]
     assert shown["met"] == 1
+
+
+def test_what_a_verification_record_says_is_not_met_is_missed_and_told_once():
+    shown = first_screen_content(changed(failed_tests=["R3"], failed_records=["R3", "R5"]))
+    assert shown["missed"] == [
+        {"id": "R3", "text": "R3 in words. Its verification record says so."},
+        {"id": "R5", "text": "R5 in words. Its verification record says so."},
+    ]
 
 
 def test_limits_without_a_chart_are_counted():

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from rgss.assessment import failed_tests, project_marks
+from rgss.assessment import failed_verifications, project_marks
 from rgss.assessment.evidence_status import project_tests
 from rgss.measures import StaleCause, Verdict
 from rgss.studies import load_project
@@ -54,7 +54,7 @@ def evidence(folder):
 
 
 def failed(folder):
-    return failed_tests(load_project(folder))
+    return failed_verifications(load_project(folder)).tests
 
 
 def test_a_result_holds_until_the_tested_code_or_the_requirement_changes(folder):

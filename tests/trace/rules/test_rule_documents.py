@@ -10,10 +10,12 @@ from typing import Any
 import pytest
 
 from rgss.measures import StaleCause, Verdict
-from rgss.requirements import load_requirements
+from rgss.requirements import RecordedResult, load_requirements
 from rgss.trace import RULES, MeasureKind
 from rgss.trace.evidence.evidence_state import EvidenceState, TrialVerdicts
 from rgss.trace.evidence.junit_file import TestEnd
+from rgss.trace.evidence.record_evidence import evidence_of_records
+from rgss.trace.evidence.record_writing import new_record, with_record, write_records
 from rgss.trace.evidence.software import SoftwareEvidence, TestEvidence
 from rgss.trace.evidence.test_marks import MarkedTest
 from rgss.trace.rules.review_stamps import stamped, write_reviews
@@ -131,6 +133,21 @@ def _failed_test(project: Any) -> None:
     project.evidence = EvidenceState(software={"SYS-1": evidence})
 
 
+def _verified(project: Any, result: RecordedResult, name: str = "SYS-1") -> Any:
+    """The record of the requirement, under this id."""
+    requirements = load_requirements(project.folder)
+    record = new_record(project.folder, result=result, by="Reader", on="2026-05-12")
+    kept = with_record(requirements, ["SYS-1"], record)
+    write_records(project.folder, {name: kept["SYS-1"]})
+    project.evidence = EvidenceState(records=evidence_of_records(load_requirements(project.folder), project.folder))
+    return project
+
+
+def _unrecorded(project: Any) -> None:
+    project.edit("system.yaml", CRITERION, "    criterion_exemption: The text says it.\n")
+    project.evidence = EvidenceState()
+
+
 def _exempt(rule: str) -> Callable[[Any], Any]:
     entry = f"    exempt:\n      - rule: {rule}\n        reason: there is none\n"
     return lambda project: project.append("system.yaml", entry)
@@ -238,6 +255,13 @@ BREAKS: Mapping[str, Break] = MappingProxyType(
             start_of="{measure",
         ),
         "evidence.failed-test": Break(make=_failed_test, file="system.yaml", start_of="test\n"),
+        "evidence.no-record": Break(make=_unrecorded, file="system.yaml", start_of="analysis"),
+        "evidence.failed-record": Break(
+            make=lambda p: _verified(p, RecordedResult.NOT_MET), file="system.yaml", start_of="analysis"
+        ),
+        "evidence.unknown-record": Break(
+            make=lambda p: _verified(p, RecordedResult.MET, "SYS-9"), file="verifications.yaml", start_of="SYS-9"
+        ),
         "wording.duplicate": Break(
             make=lambda p: p.append("system.yaml", REQUIREMENT.replace("shall open.", "shall  lift at least 0.8 kg")),
             file="system.yaml",
