@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -14,7 +15,6 @@ from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.observed import Observed
 from rgss.tradeoff.sequential.tests import difference_above, mean_above, mean_evidence
 
-_STEP = 1e-6
 _PROPORTIONS, _MEANS, _THRESHOLDS = 0.6, 0.1, 0.3
 
 
@@ -170,9 +170,10 @@ def _largest_difference(function: ValueFunction, low: float, high: float, most_m
 def _gain_of_means(evidence: SequentialEvidence, row: int, rival: int, level: float, after: int) -> float:
     """An upper bound of the difference of value in all measures that are means.
 
-    Each mean is expanded about its estimate: seed s adds ``w v'(m) (x_s - m) r/k`` with the slope v'
-    of the value function, r the seeds and k those that have the measure, as the influence function
-    of a mean over some trials does. The sums of two alternatives are compared seed by seed.
+    Each mean is expanded about its estimate: seed s adds ``w v' (x_s - m) r/k`` with the slope v' of the value
+    function, r the seeds and k those that have the measure, as the influence function of a mean over some trials does.
+    The sums of two alternatives are compared seed by seed. Where the slope changes within the interval of a mean, as at
+    the ends of a value function, no slope stands for all of it: what the mean can gain there is bounded by itself.
     """
     means = [one for one in evidence.observed if not one.is_proportion and one.function is not None]
     if not means:
@@ -182,6 +183,7 @@ def _gain_of_means(evidence: SequentialEvidence, row: int, rival: int, level: fl
         return math.inf
     scores = np.zeros(shared - after)
     difference = 0.0
+    bent: list[_Term] = []
     for one in means:
         for sign, each in ((1.0, row), (-1.0, rival)):
             values = one.values[each, after:shared]
@@ -189,11 +191,63 @@ def _gain_of_means(evidence: SequentialEvidence, row: int, rival: int, level: fl
             if known.sum() < 2 or one.function is None:
                 return math.inf
             mean = math.fsum(values[known].tolist()) / int(known.sum())
-            slope = (one.function.value_at(mean + _STEP) - one.function.value_at(mean - _STEP)) / (2.0 * _STEP)
-            deviation = np.where(known, values - mean, 0.0) * (len(values) / known.sum())
-            scores += sign * one.weight * slope * deviation
-            difference += sign * one.weight * one.function.value_at(mean)
-    return difference + mean_above(_rounded(scores), level)
+            term = _Term(one.function, sign * one.weight, mean, values[known] - mean)
+            half = term.half(level)
+            if not math.isfinite(half):
+                return math.inf
+            difference += term.weight * one.function.value_at(mean)
+            slope = term.slope(half)
+            if slope is None:
+                bent.append(term)
+            else:
+                scores += term.weight * slope * np.where(known, values - mean, 0.0) * (len(values) / known.sum())
+    if not bent:
+        return difference + mean_above(_rounded(scores), level)
+    share = level / (1 + len(bent))
+    return difference + mean_above(_rounded(scores), share) + math.fsum(each.most_gain(share) for each in bent)
+
+
+_PLACES = tuple(side * place / 16.0 for place in range(1, 17) for side in (-1.0, 1.0))
+_LEAST_RATIO = 0.5
+"""Of the slopes within the interval of a mean, from which on the steepest stands for all of them."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Term:
+    """The value of one mean of one alternative, weighted; the weight of the rival's is negative."""
+
+    function: ValueFunction
+    weight: float
+    mean: float
+    deviations: NDArray[np.float64]
+
+    def half(self, level: float) -> float:
+        """Half-width of the interval of the mean."""
+        return mean_above(self.deviations, level)
+
+    def slope(self, half: float) -> float | None:
+        """The steepest slope to the side that gains; None if the slope changes much within the interval."""
+        if half <= 0.0:
+            return 0.0
+        secants = [(side, self._change(side * half) / (side * half)) for side in _PLACES]
+        sizes = [abs(secant) for _, secant in secants]
+        if max(sizes) == 0.0:
+            return 0.0
+        same_sign = min(secant for _, secant in secants) * max(secant for _, secant in secants) > 0.0
+        if not same_sign or min(sizes) < _LEAST_RATIO * max(sizes):
+            return None
+        gaining = [secant for side, secant in secants if side * secant * self.weight > 0.0]
+        return max(gaining, key=abs, default=0.0)
+
+    def most_gain(self, level: float) -> float:
+        """The most that the true mean can be worth more than the estimate, weighted."""
+        half = self.half(level)
+        if not math.isfinite(half):
+            return math.inf
+        return max(0.0, *(self.weight * self._change(side * half) for side in _PLACES))
+
+    def _change(self, step: float) -> float:
+        return self.function.value_at(self.mean + step) - self.function.value_at(self.mean)
 
 
 def _rounded(scores: NDArray[np.float64]) -> NDArray[np.float64]:

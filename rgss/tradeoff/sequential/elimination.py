@@ -92,7 +92,13 @@ def eliminated(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
     if not any(variant in infeasible and progress.dropped.get(variant) != INFEASIBLE for variant, _ in progress.rivals):
         dropped = {**progress.dropped, **infeasible}
     for row, variant in enumerate(ids):
-        if variant not in dropped and _is_beaten(evidence, rule, row, rivals):
+        # Only rivals that are left count, and of a higher value: equals must not beat each other until none is left.
+        left = {
+            rival: share
+            for rival, share in rivals.items()
+            if rival not in dropped and evidence.values[evidence.table.row_of(rival)] > evidence.values[row] + _TIE
+        }
+        if variant not in dropped and _is_beaten(evidence, rule, row, left):
             dropped[variant] = BEATEN
     return dropped
 
