@@ -30,6 +30,11 @@ def failure_hint(record: TrialRecord, project: Project) -> str:
                 f"lower the tool's speed (what sets robot.tool_speed in {study.design_space}) or the joints' "
                 "accelerations in the robot's file; check the joints' torques there and the masses with rgss robot FILE"
             )
+        if "after the move" in record.failure_detail:
+            return (
+                f"state a larger control.position_tolerance or control.settling_limit in {study.label}, or stiffer "
+                "gains there; an object heavier than the controller's model leaves such an error"
+            )
         return (
             f"raise physics.solver_iterations or physics.rate in {study.label}, lower the tool's speed (what sets "
             f"robot.tool_speed in {study.design_space}), or state a larger control.tracking_limit in {study.label}"

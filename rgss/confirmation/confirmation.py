@@ -18,6 +18,7 @@ COMPARED_METRICS = (
     "peak_finger_force_n",
     "grip_margin_min",
     "peak_joint_torque_ratio",
+    "tracking_error_m",
     "grasp_cycle_time_s",
     "motion_time_s",
     "task_time_s",
@@ -126,6 +127,7 @@ class Confirmation:
         results: One for each setting, the study's own first.
         trials: Every trial under every setting.
         made: Number of trials that were run now; the others came from evidence.
+        arm_is_pybullet: Whether the arm moves by its dynamics in PyBullet under every setting (``control.in_contact``).
     """
 
     study: str
@@ -136,6 +138,7 @@ class Confirmation:
     results: tuple[SettingResult, ...]
     trials: tuple[ConfirmedTrial, ...]
     made: int
+    arm_is_pybullet: bool = False
 
     @property
     def differing_trials(self) -> tuple[ConfirmedTrial, ...]:

@@ -73,6 +73,7 @@ def confirm(
         ),
         trials=trials,
         made=made,
+        arm_is_pybullet=study.motion.controller.in_contact,
     )
 
 

@@ -18,6 +18,7 @@ MOST_RIVALS = 5
 _PLANNED = frozenset(
     {
         Failure.PLANNING_LIMIT,
+        Failure.PATH_NOT_VERIFIED,
         Failure.INVALID_START,
         Failure.INVALID_GOAL,
         Failure.MOVE_BLOCKED,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,6 +44,7 @@ class SimulatedDriver:
         settings: PhysicsSettings,
         *,
         start_rad: tuple[float, ...],
+        grips: Sequence[Scene] = (),
         gains: ServoGains | None = None,
     ) -> None:
         """Store the robot; the world is built by `connect`.
@@ -52,10 +54,14 @@ class SimulatedDriver:
             gripper: The hand.
             settings: Step length and solver.
             start_rad: Start configuration of the arm.
+            grips: For each closing of the gripper in order, the scene with what it takes as its workpiece; by default
+                the workpiece of the scene each time.
             gains: Gains of the controller.
         """
         self._scene, self._gripper, self._settings = scene, gripper, settings
         self._start_rad = start_rad
+        self._grips = tuple(grips) or (scene,)
+        self._closings = 0
         self._gains = gains or ServoGains()
         self._machine: TorqueArm | None = None
         self._steps = 0
@@ -79,12 +85,9 @@ class SimulatedDriver:
         self._machine = TorqueArm(scene.robot, gripper, self._settings, gravity_m_s2=scene.gravity_m_s2)
         self._machine.reset(self._start_rad, 0.0)
         opening_m = gripper.geometry.largest_opening_m
-        self._held = object_in_hand(scene, gripper.geometry)
-        centre = gripper.geometry.grasp_centre if self._held is None else gripper.geometry.grasp_centre @ self._held
-        held = workpiece_load(scene.workpiece, centre)
-        loaded = gripper_loads(gripper, grasp_opening_m(scene, gripper.geometry))
         self._empty = ArmDynamics(scene.robot, gripper_loads(gripper, opening_m), gravity_m_s2=scene.gravity_m_s2)
-        self._loaded = ArmDynamics(scene.robot, (*loaded, held), gravity_m_s2=scene.gravity_m_s2)
+        self._loaded = self._empty
+        self._closings = 0
 
     def read(self) -> Estimate:
         """The joints' positions and velocities; the stamp is the number of steps."""
@@ -101,14 +104,23 @@ class SimulatedDriver:
         machine, was = self._running(), self._point.gripper
         if point.gripper is not was:
             if point.gripper is GripperState.CLOSED:
-                geometry = self._gripper.geometry
-                travel_m = geometry.largest_opening_m - grasp_opening_m(self._scene, geometry)
-                machine.hold_fingers(min(geometry.stroke_m, travel_m))
-                machine.attach(self._scene.workpiece, self._held)
+                view = self._grips[min(self._closings, len(self._grips) - 1)]
+                self._closings += 1
+                self._take(machine, view)
             elif was is GripperState.CLOSED:
                 machine.detach()
                 machine.hold_fingers(0.0)
         self._point = point
+
+    def _take(self, machine: TorqueArm, view: Scene) -> None:
+        """Fix the workpiece of a scene to the hand."""
+        geometry = self._gripper.geometry
+        opening_m, held = grasp_opening_m(view, geometry), object_in_hand(view, geometry)
+        machine.hold_fingers(min(geometry.stroke_m, geometry.largest_opening_m - opening_m))
+        machine.attach(view.workpiece, held)
+        centre = geometry.grasp_centre if held is None else geometry.grasp_centre @ held
+        loads = (*gripper_loads(self._gripper, opening_m), workpiece_load(view.workpiece, centre))
+        self._loaded = ArmDynamics(view.robot, loads, gravity_m_s2=view.gravity_m_s2)
 
     def stop(self) -> None:
         """Hold the joints where they are."""

@@ -1,5 +1,7 @@
 """Findings on a project's scene, at their places in the scene file."""
 
+# long file: the problems of bodies and of hands become findings by one table of texts, places and severities.
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
@@ -79,7 +81,10 @@ def check_scene(project: Project) -> SceneCheck:
     places = _Places(project, document)
     found = [places.finding(problem, ()) for problem in of_bodies]
     every = len(_gripper_files(project))
-    found += [places.finding(problem, files if len(files) < every else ()) for problem, files in of_hands.reach.items()]
+    found += [
+        places.finding(problem, files if len(files) < every else (), serves=of_hands.reaches(problem, every))
+        for problem, files in of_hands.reach.items()
+    ]
     found += step_findings(project, of_hands.steps, grippers=every)
     found += places.outgrown_regions()
     found += mesh_volume_findings(project.folder / label, label=label)
@@ -106,6 +111,15 @@ class _HandProblems:
         """True if a gripper of the designs is neither too narrow for an object nor a cup that does not seal on it."""
         unfit = (files for (of, _), files in (*self.not_sealed.items(), *self.too_wide.items()) if of == name)
         return len({file for files in unfit for file in files}) < every
+
+    def reaches(self, problem: SceneProblem, every: int) -> bool:
+        """True if a gripper of the designs has no such problem with the same object there."""
+        alike = (
+            files
+            for one, files in self.reach.items()
+            if (one.kind, one.first, one.waypoint) == (problem.kind, problem.first, problem.waypoint)
+        )
+        return len({file for files in alike for file in files}) < every
 
     def add(self, project: Project, file: str, *, is_searched: bool) -> None:
         """Check one gripper file; where it is not searched, the sizes of hand and objects alone."""
@@ -155,8 +169,8 @@ def _pad_friction(project: Project, file: str) -> float:
     if project.scene.task.candidates is None:
         return 0.0
     specs = trial_specs(project, seeds=[project.study.seed])
-    geometries = {at_object(geometry, project.scene) for geometry in project.grippers[file].mountings.values()}
-    return min(spec.gripper.grip_coefficient(1.0) for spec in specs if spec.gripper.geometry in geometries)
+    files = {variant.id: variant.components[GRIPPER].geometry for variant in project.designs.expand()}
+    return min(spec.gripper.grip_coefficient(1.0) for spec in specs if files[spec.variant] == file)
 
 
 def _mounting_that_holds(project: Project, file: str) -> GripperGeometry:
@@ -179,8 +193,14 @@ class _Places:
         self.at[self._workpiece] = ("workpiece", "at")
         self.at |= {one.workpiece.id: ("workpieces", index, "at") for index, one in enumerate(project.scene.others)}
 
-    def finding(self, problem: SceneProblem, grippers: Sequence[str]) -> Finding:
-        """A problem at the place of its first body, with the place of the other in the message."""
+    def finding(self, problem: SceneProblem, grippers: Sequence[str], *, serves: bool = False) -> Finding:
+        """A problem at the place of its first body, with the place of the other in the message.
+
+        Args:
+            problem: The problem.
+            grippers: The gripper files that have it, if others do not.
+            serves: Whether a gripper has no problem of the kind with the body there.
+        """
         from rgss.trials import SceneProblemKind
 
         first, second = problem.first, self._named(problem.second)
@@ -195,7 +215,8 @@ class _Places:
             of = f" with {', '.join(grippers)}" if grippers else ""
             message = f"no configuration of the arm{of} serves {problem.waypoint}: {problem.reason}{other}"
             hint = remedy(problem)
-            if grippers and first in pair:
+            of_hand = first in pair and not any(body in self.at for body in pair if body != first)
+            if grippers and of_hand and serves:
                 # The object does not fit between its fingers, but does between another's: a result, not a mistake.
                 severity, hint = Severity.INFO, OF_ONE_GRIPPER
         elif problem.kind is SceneProblemKind.NO_GRASP:

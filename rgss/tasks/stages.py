@@ -22,6 +22,7 @@ class Stage:
         is_standing: Whether no move has ended since the grip, so that the held object may touch its support.
         is_approach: Whether the step after this move closes the hand, and the one before did not open it.
         is_retreat: Whether the step before this move opened the hand.
+        is_placed: Whether the object was released before the step and is not gripped again after it.
     """
 
     step: Step
@@ -32,6 +33,7 @@ class Stage:
     is_standing: bool = False
     is_approach: bool = False
     is_retreat: bool = False
+    is_placed: bool = False
 
     @property
     def is_carrying(self) -> bool:
@@ -77,6 +79,7 @@ def stages_of(task: TaskProgram, workpiece: str) -> tuple[Stage, ...]:
                 and after is not None
                 and after.hand is HandAction.CLOSES,
                 is_retreat=is_retreat,
+                is_placed=bool(last) and not held and not coming,
             )
         )
         if step.hand is HandAction.OPENS:

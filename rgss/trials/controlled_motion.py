@@ -22,6 +22,10 @@ _OF_THE_ARM = (
     "peak_joint_speed_ratio",
     "peak_joint_utilisation",
     "most_loaded_joint",
+    "fastest_joint",
+    "governing_joint",
+    "joint_work_j",
+    "joint_net_work_j",
     "joint_saturated_s",
     "tracking_error_m",
 )
@@ -33,7 +37,7 @@ class ControlledMotion:
     """Motion of the arm under its controller.
 
     Attributes:
-        references: Joint motion of each completed move, as targets of contact physics.
+        references: Joint motion of each move that ran, the one that failed too, as targets of contact physics.
         results: Result of each phase in the arm's dynamics, by name.
     """
 
@@ -43,7 +47,8 @@ class ControlledMotion:
     def joined(self, contact: tuple[PhaseResult, ...]) -> tuple[PhaseResult, ...]:
         """Results of contact physics, supplemented by those of the arm's dynamics.
 
-        A failure of the arm under its controller is reported unless contact physics failed before.
+        A failure of the arm under its controller is reported unless contact physics failed in an earlier phase: what
+        happens to the object in the same one is a consequence.
 
         Args:
             contact: The phases in contact, in order.
@@ -53,8 +58,9 @@ class ControlledMotion:
             own = self.results[result.phase]
             shown = {name: own.metrics[name] for name in _OF_THE_ARM if name in own.metrics}
             joined = replace(result, metrics={**result.metrics, **shown})
-            if result.failure is None and own.failure is not None:
-                return (*found, replace(joined, failure=own.failure, detail=own.detail))
+            if own.failure is not None:
+                also = "" if result.failure is None or result.detail == own.detail else f"; in contact {result.detail}"
+                return (*found, replace(joined, failure=own.failure, detail=f"{own.detail}{also}"))
             found.append(joined)
             if result.failure is not None:
                 return tuple(found)
@@ -87,8 +93,6 @@ def controlled_motion(
     followed: dict[str, Reference] = {}
     at: Array | None = None
     for phase, positions in plant.followed.items():
-        if results[phase].failure is not None:
-            break
         # While the hand closes or opens the joints settle further; the move begins at their position in contact
         # physics.
         joined = positions if at is None else positions + _fading(at - positions[0], len(positions))

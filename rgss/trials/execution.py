@@ -100,7 +100,7 @@ class Execution:
         world, stage = self._world, self._enter(step)
         carried_at = self._held_at if stage.is_carrying else None
         self._grip.begin_phase()
-        placed = PlacedObjectMonitor(world) if stage.is_retreat else None
+        placed = PlacedObjectMonitor(world) if stage.is_placed else None
         targets = self._targets(step, reference)
         monitor = self._phase_monitor(carried_at, self._objects.resting_on(stage), targets.tool_m, placed)
         steps, least_margin, is_alone = 0, self._control.tighten_below, self._is_alone
@@ -154,7 +154,7 @@ class Execution:
                 self._world, self._control.displaced_m, touched=monitor.robot_touched_object
             )
             monitor.note(violation)
-        elif stage.is_retreat:
+        elif stage.is_placed:
             self._check_place(monitor, metrics)
 
     def _check_place(self, monitor: PhaseMonitor, metrics: dict[str, Metric]) -> None:
@@ -273,14 +273,18 @@ class Execution:
         stage, world = self._enter(step), self._world
         carried_at = self._held_at if stage.is_held else None
         self._grip.begin_phase()
-        monitor = self._phase_monitor(carried_at, self._objects.resting_on(stage))
+        placed = PlacedObjectMonitor(world) if stage.is_placed else None
+        monitor = self._phase_monitor(carried_at, self._objects.resting_on(stage), placed=placed)
         steps, load_m_s2 = 0, world.scene.gravity_m_s2 if stage.is_held else 0.0
         while steps * self._step_s < duration_s - 1e-9 and monitor.failure is None:
             self._hold_arm_and_step()
             self._observe(stage, monitor, load_m_s2)
             steps += 1
         monitor.finish()
-        return self._result(step, monitor, steps, monitor.metrics())
+        metrics = monitor.metrics()
+        if stage.is_placed and monitor.failure is None:
+            self._check_place(monitor, metrics)
+        return self._result(step, monitor, steps, metrics)
 
     def _enter(self, step: Step) -> Stage:
         """Begin a phase: make its object that of the world and the grip control."""
@@ -329,7 +333,7 @@ class Execution:
     def _show(self, stage: Stage, monitor: PhaseMonitor, contacts: Contacts) -> None:
         """Call the observer and the checkpoint, which may block or end the task."""
         if self._observer is not None:
-            is_closed = stage.is_carrying or stage.step.hand is HandAction.CLOSES
+            is_closed = stage.is_held and stage.step.hand is not HandAction.OPENS
             force_n = self._grip.force_n if is_closed else None
             self._observer.after_step(self._world, stage.step.name, contacts, monitor.grip_margin, force_n)
         if self._checkpoint is not None:

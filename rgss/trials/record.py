@@ -176,8 +176,8 @@ def _aggregated(metric: MetricDescriptor, task: TaskProgram, phases: Sequence[Ph
     values = [value for phase in phases if (value := phase.metrics.get(metric.name)) is not None]
     if not values:
         return None
-    if rule is Aggregation.LAST:
-        return values[-1]
+    if rule is Aggregation.WORST_PLACED:
+        return _worst_placed(metric, task, phases)
     if rule in (Aggregation.GREATEST_OF_EACH, Aggregation.SUM_OF_EACH):
         of_each = max if rule is Aggregation.GREATEST_OF_EACH else math.fsum
         rows = [tuple(float(entry or 0.0) for entry in value) for value in values if isinstance(value, tuple)]
@@ -190,6 +190,18 @@ def _aggregated(metric: MetricDescriptor, task: TaskProgram, phases: Sequence[Ph
     higher_is_better = metric.better is Direction.HIGHER
     least = rule is Aggregation.LEAST or (rule is Aggregation.WORST_CARRIED and higher_is_better)
     return min(numbers) if least else max(numbers)
+
+
+def _worst_placed(metric: MetricDescriptor, task: TaskProgram, phases: Sequence[PhaseRecord]) -> Metric:
+    """The greatest of the last value of each release: what was placed may still be moved."""
+    last: dict[int, float] = {}
+    release = 0
+    for phase in phases:
+        release += phase.phase in task.releases
+        value = phase.metrics.get(metric.name)
+        if isinstance(value, (int, float)):
+            last[release] = value
+    return max(last.values(), default=None)
 
 
 def _durations(

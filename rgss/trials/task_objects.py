@@ -82,7 +82,7 @@ class TaskObjects:
         Args:
             stage: The stage.
         """
-        if stage.step.hand is HandAction.OPENS or stage.is_retreat:
+        if stage.step.hand is HandAction.OPENS or stage.is_placed:
             return self._world.scene.place_support
         if not stage.is_held or stage.is_standing:
             return self._supports[stage.object]

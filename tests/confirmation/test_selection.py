@@ -107,8 +107,11 @@ def test_failures_of_designs_that_are_confirmed_anyway_are_not_sampled(shipped, 
     assert {variant for variant, _ in selected_by_id(shipped, [7, 1], failed, failures=99).sample} == {2, 3, 4, 5, 6, 8}
 
 
-@pytest.mark.parametrize("failure", [Failure.MOVE_BLOCKED, Failure.MOVE_UNREACHABLE, Failure.UNREACHABLE_WAYPOINT])
-def test_a_direct_move_that_cannot_be_made_is_the_same_in_every_engine(shipped, record, failure):
+@pytest.mark.parametrize(
+    "failure",
+    [Failure.MOVE_BLOCKED, Failure.MOVE_UNREACHABLE, Failure.UNREACHABLE_WAYPOINT, Failure.PATH_NOT_VERIFIED],
+)
+def test_a_move_that_cannot_be_made_is_the_same_in_every_engine(shipped, record, failure):
     rows = (record(1, 1, failure=failure, phase=Phase.LIFT), record(1, 2))
     found = selected_by_id(shipped, [28], [Measured(rows)], failures=6)
     assert (found.physical_failures, found.planned_failures) == (0, 1)

@@ -1,10 +1,12 @@
 """What a confirmation says at its top."""
 
+import dataclasses
 import json
 
 from rgss.evidence import Failure
 from rgss.measures import Verdict
 from rgss.reports.confirmation import confirmation_lines, confirmation_to_json, confirmation_to_markdown
+from rgss.reports.confirmation.sentences import ARM_IN_PYBULLET
 from tests.fixtures.eight_states import Phase
 
 
@@ -143,3 +145,13 @@ def test_text_from_a_file_steers_neither_terminal_nor_page(confirmation, record)
     page = confirmation_to_markdown(found)
     assert "\x1b" not in page
     assert "\\<b\\>\\|\\`x\\`" in page
+
+
+def test_an_arm_that_one_engine_moves_under_every_setting_is_told(confirmation):
+    found = confirmation(rankings=[(28,)] * 3)
+    told = dataclasses.replace(found, arm_is_pybullet=True)
+    assert ARM_IN_PYBULLET not in first_lines(found, 9)
+    assert first_lines(told, 4)[3] == ARM_IN_PYBULLET
+    assert confirmation_to_json(told)["arm_is_pybullet"] is True
+    of_steps = dataclasses.replace(confirmation(rankings=[(28,)] * 2), arm_is_pybullet=True)
+    assert ARM_IN_PYBULLET not in first_lines(of_steps, 9)

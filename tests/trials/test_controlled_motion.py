@@ -44,6 +44,11 @@ def test_an_arm_that_does_not_follow_fails_in_contact_too(spec_of):
     record = run_trial(controlled(spec_of(), mode=ControlMode.POSITION, natural_frequency_rad_s=5.0))
 
     assert (record.failure, record.failed_phase) == (Failure.TRACKING_ERROR, "move_to_grasp")
+    # It is seen: contact physics runs the motion that failed too.
+    (failed,) = (phase for phase in record.phases if phase.phase == "move_to_grasp")
+    assert failed.metrics["workpiece_position_m"] is not None
+    dynamic = run_trial(controlled(spec_of(), Fidelity.DYNAMIC, mode=ControlMode.POSITION, natural_frequency_rad_s=5.0))
+    assert record.failure_detail.startswith(dynamic.failure_detail)
 
 
 @pytest.mark.engine
@@ -61,7 +66,7 @@ def motion_of(*results):
     return ControlledMotion(references={}, results={one.phase: one for one in results})
 
 
-def test_a_failure_in_contact_comes_before_one_of_the_arm():
+def test_a_failure_in_contact_comes_before_one_of_the_arm_in_a_later_phase():
     motion = motion_of(result("a", tracking_error_m=2.0), result("b", Failure.TRACKING_ERROR))
     (joined,) = motion.joined((result("a", Failure.OBJECT_DROPPED, slip_m=1.0),))
 
@@ -69,6 +74,14 @@ def test_a_failure_in_contact_comes_before_one_of_the_arm():
         Failure.OBJECT_DROPPED,
         {"slip_m": 1.0, "tracking_error_m": 2.0},
     )
+
+
+def test_what_happens_in_contact_where_the_arm_fails_is_told_as_a_consequence():
+    motion = motion_of(result("a", Failure.TRACKING_ERROR))
+    contact = replace(result("a", Failure.OBJECT_COLLISION), detail="finger_0 pressed the object")
+    (joined,) = motion.joined((contact,))
+
+    assert (joined.failure, joined.detail) == (Failure.TRACKING_ERROR, "why; in contact finger_0 pressed the object")
 
 
 def test_a_failure_of_the_arm_ends_the_task_where_it_happens():

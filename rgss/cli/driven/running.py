@@ -66,15 +66,16 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
     with _interrupt_flag() as is_interrupted:
         guard = Guard(limits, cell.arm, period_s=1.0 / driver.rate_hz)
         result = stream(driver, task, guard, clock, settings, is_interrupted=is_interrupted)
+        if options.recording is not None:
+            # A signal while it is written must not lose what the robot has done.
+            recorded = f"variant {spec.variant} by rgss run --driver {driver.name}, {result.outcome.value}"
+            robot = cell.scene.robot.id
+            content = recording_csv(result.samples, limits.names, robot=robot, recorded=recorded, slides=limits.slides)
+            write_output(options.recording, content)
     if options.json:
         print_json({**shown, **_result_as_json(result, limits)})
     else:
         _show_result(result, limits)
-    if options.recording is not None:
-        recorded = f"variant {spec.variant} by rgss run --driver {driver.name}, {result.outcome.value}"
-        robot = cell.scene.robot.id
-        content = recording_csv(result.samples, limits.names, robot=robot, recorded=recorded, slides=limits.slides)
-        write_output(options.recording, content)
     if result.outcome is StreamOutcome.COMPLETED:
         return CLEAN
     return INTERRUPTED if result.outcome is StreamOutcome.INTERRUPTED else RUN_FAILED
@@ -106,12 +107,22 @@ def _driver(
 ) -> tuple[Driver, StreamClock]:
     """The driver that the options name, not yet connected, and its clock."""
     from rgss.drivers import MonotonicClock, SimulatedDriver, UrDriver, UrSettings, XarmDriver
+    from rgss.tasks import HandAction
     from rgss.trials import cell_of, conditions_of, with_grasp_of
+    from rgss.trials.plants import GripSequence
 
     if options.driver == "simulated":
         conditions = conditions_of(spec)
         scene = with_grasp_of(conditions.true_scene, cell_of(spec))
-        simulated = SimulatedDriver(scene, conditions.true_gripper, spec.settings.physics, start_rad=task.start_rad)
+        gripper = conditions.true_gripper
+        sequence = GripSequence(spec.task, scene, gripper.geometry)
+        simulated = SimulatedDriver(
+            scene,
+            gripper,
+            spec.settings.physics,
+            start_rad=task.start_rad,
+            grips=[sequence.view_of(step) for step in spec.task.steps if step.hand is HandAction.CLOSES],
+        )
         return simulated, simulated
     address = options.address or ""
     if options.driver == "xarm":

@@ -33,8 +33,10 @@ class _Recorder:
     """Machine that turns each step into a segment: a motion, or a wait with the gripper in a state."""
 
     def __init__(self, spec: TrialSpec, plan: TaskPlan, timing: TaskTiming) -> None:
+        from rgss.trials.hands import hand_of
+
         self._control = spec.settings.control
-        self._travel_s = spec.gripper.geometry.stroke_m / spec.gripper.finger_velocity_m_s
+        self._hand = hand_of(spec.gripper)
         self._plan = plan
         self._timing = timing
         self._limit_s = spec.planning_limit_s
@@ -61,11 +63,15 @@ class _Recorder:
 
     def grip(self, step: GripStep) -> Segment:
         self._state = GripperState.CLOSED
-        return self._rest(step, self._travel_s + self._control.firm_grasp_s)
+        # The whole travel, or the build-up of the vacuum: the robot does not report when it holds the object.
+        closing_s = max(self._hand.longest_travel_s, self._hand.least_closing_s)
+        firm_s = self._control.firm_grasp_s if step.firm_s is None else step.firm_s
+        return self._rest(step, closing_s + firm_s)
 
     def release(self, step: ReleaseStep) -> Segment:
         self._state = GripperState.OPEN
-        return self._rest(step, self._travel_s + self._control.settled_s)
+        opening_s = max(self._hand.longest_travel_s, self._hand.least_opening_s)
+        return self._rest(step, opening_s + self._control.settled_s)
 
     def wait(self, step: WaitStep) -> Segment:
         return self._rest(step, step.duration_s)

@@ -66,7 +66,9 @@ def run(options: argparse.Namespace) -> int:
     record = compute(run_trial, spec) if seen is None else seen.record
     digest = record_digest(record)
     drawn = drawn_values(spec)
-    control = spec.settings.controller.origin if spec.fidelity is Fidelity.DYNAMIC else ""
+    controller = spec.settings.controller
+    acts = spec.fidelity is Fidelity.DYNAMIC or (spec.fidelity is Fidelity.CONTACT and controller.in_contact)
+    control = controller.origin if acts else ""
     hint = "" if record.success else failure_hint(record, project)
     if options.json:
         shown = {**_as_json(record, digest, hint), **drawn_as_json(record.workload, drawn)}
@@ -145,7 +147,9 @@ def _show(record: Any, digest: str, drawn: Sequence[DrawnValue], control: str) -
     metrics = record.metrics
     if record.success:
         offset = metrics["place_error_m"]
-        where = "" if offset is None else f": the object is {number(1e3 * offset, 3)} mm from the place"
+        releases = sum(phase.metrics.get("release_height_m") is not None for phase in record.phases)
+        which = "the object" if releases <= 1 else f"the farthest of {releases} placed objects"
+        where = "" if offset is None else f": {which} is {number(1e3 * offset, 3)} mm from the place"
         print(f"Success in {number(metrics['task_time_s'])} s (planning included){where}.")
     else:
         print(f"Failed at {record.failed_phase}: {record.failure.value}: {record.failure_detail}")

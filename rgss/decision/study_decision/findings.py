@@ -10,6 +10,7 @@ from rgss.decision.study_decision.contenders import Contender, contenders_of
 from rgss.decision.study_decision.limit_moves import LimitMoves, limit_moves
 from rgss.measures import MeasureKind
 from rgss.studies import Project
+from rgss.tradeoff.robustness import Support
 
 _NO_DISTANCE = 1e-9
 
@@ -128,7 +129,9 @@ def robustness_findings(project: Project, found: Robustness, *, chosen: int | No
 
 def _nearest_move(found: Robustness) -> WeightMove | None:
     shifts = () if found.weighting is None else found.weighting.shifts or ()
-    others = [shift for shift in shifts if shift.distance > _NO_DISTANCE]
+    # What is the only best one for no weights can be tied, at best, and does not win.
+    extreme = {point.row for point in found.front.points if point.support is Support.EXTREME}
+    others = [shift for shift in shifts if shift.distance > _NO_DISTANCE and extreme.intersection(shift.rows)]
     if not others:
         return None
     nearest = min(others, key=lambda shift: (shift.sum_distance, shift.rows))

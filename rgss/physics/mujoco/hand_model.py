@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from rgss.physics.mujoco.finger_drive import SATURATING_SHARE, is_servo_stable
 from rgss.physics.mujoco.mjcf import add_body, add_geom, add_inertial, cylinder_inertia, number
 from rgss.physics.mujoco.solids import finger_solids
 from rgss.scenes import Gripper, Linkage, PadLayout, Pose, leading_joint, link_names_of
@@ -24,9 +25,6 @@ CUP_BIT = 4
 A pair of shapes is in contact at all times, and its filter cannot be changed; that of shapes can.
 """
 
-# A finger's motor gives all its force once the finger lags by this share of its speed. With less than F dt / (2 M v),
-# which is 0.42 at most for the reference grippers, the finger jumps over the band in a step and closes wrongly.
-_SATURATING_SHARE = 0.5
 # The joints of a linkage follow within micrometres, however light its links are.
 _GEAR_IMPEDANCE = "0.9999 0.9999 0.001"
 
@@ -61,7 +59,9 @@ class HandModel:
     linkage_joints: Mapping[int, str] = field(default_factory=dict)
 
 
-def add_hand(parts: HandParts, flange: ET.Element, gripper: Gripper, pads: Sequence[PadLayout]) -> HandModel:
+def add_hand(
+    parts: HandParts, flange: ET.Element, gripper: Gripper, pads: Sequence[PadLayout], *, step_s: float
+) -> HandModel:
     """Add a rigid base with sliding fingers or a suction cup.
 
     Args:
@@ -69,6 +69,7 @@ def add_hand(parts: HandParts, flange: ET.Element, gripper: Gripper, pads: Seque
         flange: The element of the flange.
         gripper: The gripper, without a linkage.
         pads: Contact elements of the pad of each finger.
+        step_s: Length of a step.
     """
     geometry = gripper.geometry
     base = add_body(flange, GRIPPER_BASE, geometry.base_pose)
@@ -84,23 +85,30 @@ def add_hand(parts: HandParts, flange: ET.Element, gripper: Gripper, pads: Seque
         shape.attrib.update({"priority": "1", "condim": "3", **parts.stiffness})
         return HandModel(finger_shapes={"suction_cup": 0})
     joints = tuple(f"finger:{index}" for index in range(geometry.fingers))
-    finger_shapes = _add_fingers(parts, base, gripper, joints, pads)
+    finger_shapes = _add_fingers(parts, base, gripper, joints, pads, step_s=step_s)
     return HandModel(joints=joints, finger_shapes=finger_shapes)
 
 
 def _add_fingers(
-    parts: HandParts, base: ET.Element, gripper: Gripper, joints: Sequence[str], pads: Sequence[PadLayout]
+    parts: HandParts,
+    base: ET.Element,
+    gripper: Gripper,
+    joints: Sequence[str],
+    pads: Sequence[PadLayout],
+    *,
+    step_s: float,
 ) -> dict[str, int]:
     """Add rigid fingers on prismatic joints, each with a motor; returns the index of the finger of each shape.
 
-    A motor controls speed within a force limit. Two fingers are coupled to equal travel; uncoupled, each would
-    yield to any force along their common axis.
+    A motor controls speed within a force limit (`MujocoFingerDrive`). Two fingers are coupled to equal travel;
+    uncoupled, each would yield to any force along their common axis.
     """
     geometry = gripper.geometry
     x, y, z = geometry.finger.size_m
     inertia = np.diag([y**2 + z**2, x**2 + z**2, x**2 + y**2]) * gripper.finger_mass_kg / 12
     force = number(gripper.finger_force_n)
-    gain = gripper.finger_force_n / (_SATURATING_SHARE * gripper.finger_velocity_m_s)
+    gain = gripper.finger_force_n / (SATURATING_SHARE * gripper.finger_velocity_m_s)
+    is_servo = is_servo_stable(gripper, step_s)
     shapes: dict[str, int] = {}
     for index, name in enumerate(joints):
         open_pose = geometry.base_pose.inverse() @ geometry.finger_pose(index, geometry.largest_opening_m)
@@ -120,8 +128,11 @@ def _add_fingers(
             "solimplimit": parts.stiffness["solimp"],
         }
         ET.SubElement(finger, "joint", slide)
-        motor = {"name": name, "joint": name, "kv": number(gain), "forcerange": f"-{force} {force}"}
-        ET.SubElement(parts.actuator, "velocity", motor)
+        motor = {"name": name, "joint": name, "forcerange": f"-{force} {force}"}
+        if is_servo:
+            ET.SubElement(parts.actuator, "velocity", {**motor, "kv": number(gain)})
+        else:
+            ET.SubElement(parts.actuator, "motor", motor)
     if geometry.fingers == 2:
         one, other = joints
         coupling = {"joint1": one, "joint2": other, "polycoef": "0 1 0 0 0", **parts.stiffness}

@@ -170,7 +170,7 @@ class _Builder:
             self.finger_shapes.update(named)
             self.links = {name: link for name, link in self.links.items() if name not in named}
             return
-        self.hand = add_hand(parts, parents[robot.flange], self._gripper, pads)
+        self.hand = add_hand(parts, parents[robot.flange], self._gripper, pads, step_s=self._settings.step_s)
         self.links[GRIPPER_BASE] = GRIPPER_BASE
         self.finger_shapes.update(self.hand.finger_shapes)
 

@@ -13,6 +13,7 @@ from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.hand_view import HandView
 from rgss.physics.mujoco.contact_reader import MujocoContactReader
 from rgss.physics.mujoco.engine import compiled, mujoco
+from rgss.physics.mujoco.finger_drive import MujocoFingerDrive
 from rgss.physics.mujoco.linkage_drive import MujocoLinkageDrive
 from rgss.physics.mujoco.model import world_model
 from rgss.physics.mujoco.suction_bond import MujocoBond
@@ -73,13 +74,13 @@ class MujocoWorld:
         self._motors = np.array([model.actuator(name).id for name in driven])
         self._limits = model.actuator_forcerange[self._motors, 1].copy()
         self._travels = np.array([model.joint(name).qposadr[0] for name in described.fingers], dtype=int)
-        self._finger_motors = np.array([model.actuator(name).id for name in described.fingers], dtype=int)
         self._offsets = np.array(joint_offsets_rad or np.zeros(len(driven)), dtype=float)
         self._flange = int(model.body(f"link:{scene.robot.flange}").id)
         self._objects = {name: int(model.body(body).id) for name, body in described.object_bodies.items()}
         self._grasp_centre_m = gripper.geometry.grasp_centre.position_m
         self._reader = MujocoContactReader(model, self._data, described)
         self._bodies = described.object_bodies
+        self._fingers = MujocoFingerDrive(model, self._data, gripper, described.fingers, step_s=settings.step_s)
         self._linkage: MujocoLinkageDrive | None = None
         if gripper.geometry.linkage is not None:
             linkage, joints = gripper.geometry.linkage, described.linkage_joints
@@ -108,6 +109,7 @@ class MujocoWorld:
         self._data.qpos[self._positions] = self._target
         if self._linkage is not None:
             self._linkage.reset()
+        self._fingers.reset()
         self._target_speed = self._speed_before = self._torques = np.zeros(len(self._target))
         self.hold_open()
         self._engine.mj_forward(self._model, self._data)
@@ -151,8 +153,7 @@ class MujocoWorld:
         if self._linkage is not None:
             self._linkage.drive(velocity_m_s, force_n)
             return
-        self._data.ctrl[self._finger_motors] = velocity_m_s
-        self._model.actuator_forcerange[self._finger_motors] = (-force_n, force_n)
+        self._fingers.drive(velocity_m_s, force_n)
 
     def step(self) -> None:
         """Advance by one step.
@@ -174,6 +175,7 @@ class MujocoWorld:
         data.ctrl[self._motors] = self._torques
         if self._linkage is not None:
             self._linkage.before_step()
+        self._fingers.before_step()
         engine.mj_step2(model, data)
         engine.mj_kinematics(model, data)
         if data.warning.number.any():

@@ -22,6 +22,7 @@ def confirmation_to_json(confirmation: Confirmation) -> dict[str, Any]:
         "decision": decision_sentence(confirmation),
         "verdicts": verdict_sentence(confirmation),
         "outcomes": outcome_sentence(confirmation),
+        "arm_is_pybullet": confirmation.arm_is_pybullet,
         "chosen": selection.chosen,
         "variants": [variant.id for variant in selection.variants],
         "rivals_left_out": list(selection.left_out),

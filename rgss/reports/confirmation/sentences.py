@@ -12,6 +12,10 @@ _WORDS = {
     Aspect.ITERATIONS: "the solver's iterations",
     Aspect.ENGINE: "the engine",
 }
+ARM_IN_PYBULLET = (
+    "The arm moves by its dynamics under its controller (control.in_contact), which PyBullet simulates under every "
+    "setting: tracking error, joint speeds, torques and their failures say nothing of the engine."
+)
 _NUMBERS = ("no", "one", "two", "three", "four")
 
 
@@ -28,6 +32,8 @@ def summary_sentences(confirmation: Confirmation) -> Iterator[str]:
         yield from (f"  {trial_sentence(confirmation, trial)}." for trial in differing)
     else:
         yield outcome_sentence(confirmation)
+    if confirmation.arm_is_pybullet and Aspect.ENGINE in confirmation.aspects:
+        yield ARM_IN_PYBULLET
     selection = confirmation.selection
     if selection.left_out:
         ids = ", ".join(map(str, selection.left_out))

@@ -8,19 +8,20 @@ from rgss.decision.sensitivity import FlatRemedy, FlatWeight
 from rgss.reports.decision.words import amount
 
 
-def flat_sentences(flat: tuple[FlatWeight, ...]) -> Iterator[str]:
+def flat_sentences(flat: tuple[FlatWeight, ...], *, decides: bool = True) -> Iterator[str]:
     """Sentences on weights that do not separate the designs, with advice.
 
     Args:
         flat: The weights.
+        decides: Whether the program decides by weights.
     """
     for one in flat:
         among = "feasible variants" if one.among_feasible else "variants"
         yield (
-            f"{one.measure} is worth the same for all {among}, so its weight of {one.weight:.3g} has no effect:  "
+            f"{one.measure} is worth the same for all {among}, so its weight of {one.weight:.3g} has no effect: "
             f"{_remedy(one)}"
         )
-    if len(flat) and flat[0].effective:
+    if decides and len(flat) and flat[0].effective:
         weights = ", ".join(f"{name} {weight:.3g}" for name, weight in flat[0].effective)
         total = sum(one.weight for one in flat)
         yield (

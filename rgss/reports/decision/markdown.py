@@ -156,7 +156,7 @@ def _deciding(made: StudyDecision, compared: SideBySide, found: RobustnessFindin
     elif move is not None:
         yield (
             f"Moving {move.moved:.3f} of weight ({moves_text(move.before, move.after)}) lets "
-            f"{variants_text(move.winners)} win; no smaller move changes the decision."
+            f"{variants_text(move.winners)} win; no smaller move of these weights changes the decision."
         )
 
 

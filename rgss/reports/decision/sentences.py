@@ -14,6 +14,8 @@ from rgss.trace.views import share_in_words, value_in_words
 from rgss.tradeoff import Agreement, Check, CheckKind, Conflicts, ConflictSurvival, DecisionStatus, PortfolioDecision
 from rgss.tradeoff.programs import Certificate
 
+_WITHOUT_WEIGHTS = frozenset({"lexicographic", "epsilon_constraint"})
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reason:
@@ -61,7 +63,9 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
         yield Reason(text=f"{have} the same value; the {end} id is chosen.")
     if decision.near_ties:
         near = variants_text(decision.near_ties)
-        yield Reason(text=f"Within the practical margin of {made.practical_margin:g} of it: {near}.")
+        margin = made.practical_margin
+        how = f"Within the practical margin of {margin:g} of it" if margin else "As good within the program's tolerance"
+        yield Reason(text=f"{how}: {near}.")
     if made.gains:
         yield Reason(text=f"It leads the runner-up {decision.runner_up} by: {_gains(made)}.")
     if decision.excluded_better:
@@ -101,7 +105,7 @@ def cautions(made: StudyDecision) -> Iterator[str]:
         yield f"{shared.first} and {shared.second} both depend on {', '.join(shared.parts)}."
     yield from unvalued_sentences(made.decision.conflicts)
     if made.sensitivity is not None:
-        yield from flat_sentences(made.sensitivity.flat)
+        yield from flat_sentences(made.sensitivity.flat, decides=made.decision.program not in _WITHOUT_WEIGHTS)
     else:
         for flat in made.decision.flat_measures:
             among = "feasible variants" if flat.among_feasible else "variants"

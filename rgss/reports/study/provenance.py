@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 from rgss.assessment import VariantMeasures, sequential_seeds
 from rgss.documents import load_document
@@ -11,8 +10,7 @@ from rgss.errors import DocumentError
 from rgss.evidence import EvidenceStore, Fidelity
 from rgss.evidence.records import file_digests
 from rgss.reports.plain_numbers import Plain
-from rgss.studies import FOLDERS, Project, StudyDocument
-from rgss.trials import ControlMode
+from rgss.studies import FOLDERS, Project, StudyDocument, trial_specs
 from rgss.trials.code import versions
 
 
@@ -61,13 +59,12 @@ def provenance_of(
 
 
 def _control(project: Project) -> list[list[str]]:
-    """The control of the joints if it is simulated, and the source of its calibration."""
-    if project.study.fidelity is not Fidelity.DYNAMIC:
+    """The control of the joints if it is simulated, and the source of its calibration: each that a design has."""
+    fidelity, in_contact = project.study.fidelity, project.study.motion.controller.in_contact
+    if fidelity is not Fidelity.DYNAMIC and not (fidelity is Fidelity.CONTACT and in_contact):
         return []
-    controller = project.study.motion.controller
-    if controller.mode is ControlMode.CALIBRATED:
-        controller = replace(controller, calibration=project.scene.robot.calibration)
-    return [["control of the joints", controller.origin]]
+    specs = trial_specs(project, seeds=[project.study.seed])
+    return [["control of the joints", ", ".join(dict.fromkeys(spec.settings.controller.origin for spec in specs))]]
 
 
 def _seeds(project: Project, measured: Sequence[VariantMeasures]) -> str:

@@ -111,7 +111,9 @@ def is_beaten(
     if not evidence.fixed_met[rival]:
         return False
     proportions = [one for one in evidence.observed if one.is_proportion]
-    most_more = [_most_more(one, row, rival, level * _PROPORTIONS / len(proportions), after) for one in proportions]
+    shared = int(min(evidence.replicates[row], evidence.replicates[rival]))
+    share = level * _PROPORTIONS / max(1, len(proportions))
+    most_more = [_most_more(one, row, rival, share, slice(after, shared)) for one in proportions]
     gain = float(evidence.fixed_value[row] - evidence.fixed_value[rival])
     for one, more in zip(proportions, most_more, strict=True):
         gain += one.weight * _largest_gain(one, more, slack)
@@ -131,11 +133,19 @@ def is_beaten(
     )
 
 
-def _most_more(one: Observed, row: int, rival: int, level: float, after: int) -> float:
-    mine, theirs = one.values[row, after:], one.values[rival, after:]
-    both = ~np.isnan(mine) & ~np.isnan(theirs)
-    differences = mine[both] - theirs[both]
-    return difference_above(int((differences > 0).sum()), int((differences < 0).sum()), int(both.sum()), level)
+def _most_more(one: Observed, row: int, rival: int, level: float, seeds: slice) -> float:
+    """An upper bound of the difference of two shares, seed by seed where both have a value for each seed.
+
+    A share may be of some trials alone, such as the successful ones. If these are of other seeds, the seeds that both
+    have are none of the population of either: each share is bounded by its own.
+    """
+    mine, theirs = one.values[row, seeds], one.values[rival, seeds]
+    if not (np.isnan(mine).any() or np.isnan(theirs).any()):
+        more, less = int((mine > theirs).sum()), int((mine < theirs).sum())
+        return difference_above(more, less, len(mine), level)
+    mine, theirs = mine[~np.isnan(mine)], theirs[~np.isnan(theirs)]
+    above = difference_above(int(mine.sum()), 0, len(mine), level / 2)
+    return above + difference_above(0, int(theirs.sum()), len(theirs), level / 2)
 
 
 def _keeps_up(threshold: Threshold, most_more: float | None, slack: float) -> bool:

@@ -25,7 +25,8 @@ class Aggregation(str, Enum):
     LEAST = "least"
     OF_GREATEST = "of greatest"
     """Value in the first phase in which another metric (`MetricDescriptor.source`) is greatest."""
-    LAST = "last"
+    WORST_PLACED = "worst placed"
+    """Greatest over the releases, each by its last value before the next one."""
     SUM = "sum"
     GREATEST_OF_EACH = "greatest of each"
     """Entry-wise maximum of rows."""
@@ -55,6 +56,7 @@ WITH_CONTACT = (Fidelity.CONTACT,)
 _SUFFIXES = {
     Aggregation.WORST_CARRIED: ", the worst while the object is carried",
     Aggregation.AT_GRASP: ", when the grasp was firm",
+    Aggregation.WORST_PLACED: ", the worst of several",
 }
 
 

@@ -160,7 +160,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
         unit="m",
         meaning="horizontal position error of the placed object",
         better=Direction.LOWER,
-        trial=Aggregation.LAST,
+        trial=Aggregation.WORST_PLACED,
         fidelities=WITH_CONTACT,
     ),
     MetricDescriptor(
@@ -168,7 +168,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
         unit="rad",
         meaning="tilt of the placed object",
         better=Direction.LOWER,
-        trial=Aggregation.LAST,
+        trial=Aggregation.WORST_PLACED,
         fidelities=WITH_CONTACT,
         most=math.pi,
     ),

@@ -81,7 +81,11 @@ class ArmObservations:
         Args:
             error_m: Tracking error of the tool.
         """
-        return f"the tool was {error_m * 1e3:.2f} mm from its target{self._load.words()}"
+        return f"the tool was {error_m * 1e3:.2f} mm from its target{self.saturated_joints()}"
+
+    def saturated_joints(self) -> str:
+        """End of the detail of a failure, with the joints that reached their torque limit; empty if none did."""
+        return self._load.words()
 
     def metrics(self) -> dict[str, Metric]:
         """Metrics by name with unit."""

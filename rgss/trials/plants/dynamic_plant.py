@@ -15,7 +15,7 @@ import numpy as np
 from rgss.evidence import Failure, Metric
 from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.scenes import Gripper, Scene, Workpiece, grasp_opening_m, object_in_hand
+from rgss.scenes import Gripper, JointKind, Scene, Workpiece, grasp_opening_m, object_in_hand
 from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, Step, StepControl, TaskProgram, WaitStep
 from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
@@ -102,16 +102,17 @@ class DynamicPlant:
         actual = [
             self._drive(target[index], speeds[index], accelerations[index], log) for index in range(reference.steps)
         ]
-        tool_m = np.vstack([reference.tool_m[:1], self._arm.tool_position(np.array(actual))])
+        # The arm begins where it is, which after a grip or another move is not quite where it should be.
+        tool_m = self._arm.tool_position(np.vstack([log.positions_rad[0], *actual]))
         tool = tool_metrics_by_differences(tool_m, reference.tool_m, step_s=self._step_s)
         log.arm.note_tool(tool)
         self._at_rad = target[-1]
         failure, detail = None, ""
-        if not self._settle(log, step.reached_rad) or tool["tracking_error_m"] > self._control.largest_tracking_error_m:
+        is_settled = self._settle(log, self._largest_rad(step))
+        if tool["tracking_error_m"] > self._control.largest_tracking_error_m:
             failure, detail = Failure.TRACKING_ERROR, log.arm.tracking_failure(tool["tracking_error_m"])
-            stated_rad = step.reached_rad
-            if stated_rad is not None and tool["tracking_error_m"] <= self._control.largest_tracking_error_m:
-                detail = f"a joint is {self._error_rad():.2g} from its target, at most {stated_rad:.2g} are allowed"
+        elif not is_settled:
+            failure, detail = Failure.TRACKING_ERROR, self._shortfall(step, log)
         return self._result(step.name, log, failure, detail, {})
 
     def grip(self, step: GripStep) -> PhaseResult:
@@ -141,8 +142,8 @@ class DynamicPlant:
         return self._rest(step, step.duration_s, {})
 
     def check(self, step: CheckStep) -> PhaseResult:
-        """Assume that the conditions hold: objects that are not held are not modelled."""
-        return self._result(step.name, self._log(), None, "", {})
+        """Rest as contact physics does, and assume that the conditions hold: free objects are not modelled."""
+        return self._rest(step, self._control.settled_s, {})
 
     def _law_of(self, controller: JointController) -> ControlLaw:
         return control_law(controller, self._scene.robot.joints, step_s=self._step_s, tool=self._arm)
@@ -202,15 +203,30 @@ class DynamicPlant:
         log.positions_rad.append(reached_rad)
         return reached_rad
 
-    def _error_rad(self) -> float:
-        """Greatest error of a joint."""
-        return float(np.max(np.abs(np.array(self._machine.state()[0]) - self._at_rad)))
+    def _errors_rad(self) -> Array:
+        """Error of each joint, in m where it slides."""
+        errors: Array = np.abs(np.array(self._machine.state()[0]) - self._at_rad)
+        return errors
 
-    def _settle(self, log: _Log, reached_rad: float | None) -> bool:
-        largest_rad = self._controller.reached_rad if reached_rad is None else reached_rad
+    def _largest_rad(self, step: MoveStep) -> float:
+        """Error that a joint may have at the end of a move."""
+        return self._controller.reached_rad if step.reached_rad is None else step.reached_rad
+
+    def _shortfall(self, step: MoveStep, log: _Log) -> str:
+        """Detail of the failure of a move whose end is not reached in time."""
+        errors = self._errors_rad()
+        joint = self._scene.robot.joints[int(np.argmax(errors))]
+        unit = "m" if joint.kind is JointKind.PRISMATIC else "rad"
+        return (
+            f"{joint.name} was {float(errors.max()):.2g} {unit} from its target "
+            f"{self._controller.settling_limit_s:g} s after the move, at most {self._largest_rad(step):.2g} are allowed"
+            f"{log.arm.saturated_joints()}"
+        )
+
+    def _settle(self, log: _Log, largest_rad: float) -> bool:
         still = np.zeros(len(self._at_rad))
         for _ in range(math.ceil(self._controller.settling_limit_s / self._step_s)):
-            if self._error_rad() <= largest_rad:
+            if float(self._errors_rad().max()) <= largest_rad:
                 return True
             self._drive(self._at_rad, still, still, log)
         return False

@@ -117,8 +117,8 @@ class KinematicPlant:
         return self._result(step.name, step.duration_s, {})
 
     def check(self, step: CheckStep) -> PhaseResult:
-        """Assume that the conditions hold: objects are not modelled."""
-        return self._result(step.name, 0.0, {})
+        """Rest as contact physics does, and assume that the conditions hold: objects are not modelled."""
+        return self._result(step.name, self._control.settled_s, {})
 
     def _deviation(self, positions_rad: Array, reached_rad: float | None) -> Array:
         """Deviation (m, n) of the joints from their targets at each step, until the end is reached.

@@ -12,12 +12,25 @@ import pytest
 
 from rgss.cli.driven import timed_task
 from rgss.cli.driven.running import _interrupt_flag, _require_drivable, _result_as_json, _show_rehearsal, _show_result
-from rgss.drivers import Estimate, GripperState, Rehearsal, RobotLimits, SetPoint, StreamOutcome, StreamResult
+from rgss.drivers import (
+    Estimate,
+    GripperState,
+    Rehearsal,
+    RobotLimits,
+    SetPoint,
+    SimulatedDriver,
+    StreamOutcome,
+    StreamResult,
+)
 from rgss.drivers.streaming import Sample
 from rgss.errors import DefinitionError, MotionError
 from rgss.scenes import JointKind
 from rgss.studies import load_project, trial_specs
+from rgss.tasks import HandAction
 from rgss.trials import plan_of, timing_of
+from rgss.trials.hands import hand_of
+from rgss.trials.plants import GripSequence
+from tests.fixtures.shipped_project import REPOSITORY
 
 PHASES = 8
 
@@ -182,3 +195,44 @@ def test_the_second_signal_interrupts_and_no_further_one_does():
         # While the robot is being stopped.
         os.kill(os.getpid(), signal.SIGINT)
         assert is_interrupted()
+
+
+@pytest.mark.engine
+def test_the_simulated_robot_carries_what_each_grip_takes(untouched):
+    """The second object is too heavy for the arm, which sags under it and not under the first."""
+    project = load_project(untouched).nominal()
+    (spec,) = trial_specs(project, variants=[project.designs.variant(65)], seeds=[1])
+    scene = spec.scene
+    heavy = replace(scene, workpiece=replace(scene.workpiece, mass_kg=80.0))
+    home = tuple(scene.robot.home_rad)
+    driver = SimulatedDriver(scene, spec.gripper, spec.settings.physics, start_rad=home, grips=[scene, heavy])
+    driver.connect()
+    still, sagged_rad = (0.0,) * len(home), []
+    try:
+        for state in (GripperState.CLOSED, GripperState.OPEN, GripperState.CLOSED):
+            driver.send(SetPoint(positions_rad=home, velocities_rad_s=still, gripper=state))
+            driver.wait_until(driver.now_s() + 0.3)
+            sagged_rad.append(max(abs(a - b) for a, b in zip(driver.read().positions_rad, home, strict=True)))
+    finally:
+        driver.disconnect()
+    assert max(sagged_rad[:2]) < 1e-3
+    assert sagged_rad[2] > 0.05
+
+
+@pytest.mark.engine
+def test_the_robot_waits_for_the_vacuum():
+    project = load_project(REPOSITORY, "studies/lite6_cubes.yaml").nominal()
+    (spec,) = trial_specs(project, variants=[project.designs.variant(70)], seeds=[1])
+    suction = spec.gripper.geometry.cup
+    assert suction is not None
+    plan = plan_of(spec)
+    waits = {
+        one.name: one.wait_s for one in timed_task(spec, plan, timing_of(spec, plan)).segments if one.motion is None
+    }
+    hand = hand_of(spec.gripper)
+    view = GripSequence(spec.task, spec.scene, spec.gripper.geometry)
+    for step in spec.task.steps:
+        if step.hand is HandAction.CLOSES:
+            assert waits[step.name] >= hand.closing_s(view.view_of(step), spec.settings.control.firm_grasp_s) > 0.2
+        elif step.hand is HandAction.OPENS:
+            assert waits[step.name] >= hand.opening_s(view.view_of(step)) > 0.15

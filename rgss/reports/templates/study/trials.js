@@ -68,7 +68,7 @@ const startFailures = () => {
   const update = tableIn("failures-table", {
     label: "Failures of trials of the shown variants",
     columns: [{ head: "failure", cell: (row) => trials.failures[row.failure] }, { head: "in the phase", cell: (row) => trials.phases[row.phase] ?? "–" }, { head: "trials", number: true, cell: (row) => String(row.count), to: (row) => figureAddress(variants.id[trials.variant[row.example]], trials.key[row.example]) },
-      { head: "of variant", number: true, cell: (row) => variantLink(variants.id[trials.variant[row.example]]) }, { head: "see the first", cell: (row) => element("code", {}, replayOf(row.example)) }],
+      { head: "first in variant", number: true, cell: (row) => variantLink(variants.id[trials.variant[row.example]]) }, { head: "see the first", cell: (row) => element("code", {}, replayOf(row.example)) }],
     rows: () => counted().rows,
   });
   const tell = () => {

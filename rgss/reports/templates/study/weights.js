@@ -57,7 +57,12 @@ const rankAnew = () => {
   const winner = byId("weight-winner");
   if (best === null) winner.textContent = "No variant is feasible by its estimates.";
   else if (best === data.decision.chosen) winner.textContent = `Variant ${best} stays the best.`;
-  else winner.textContent = `Variant ${best} would be the best${data.decision.chosen === null ? "" : `, instead of ${data.decision.chosen}`}.`;
+  else {
+    const chosen = data.decision.chosen;
+    const equals = ranking.filter((one) => ranking[0].value - one.value <= TIE).map((one) => variants.id[one.place]);
+    if (equals.includes(chosen)) winner.textContent = `Variant ${chosen} stays one of the best, with ${equals.filter((id) => id !== chosen).join(", ")}.`;
+    else winner.textContent = `${equals.length > 1 ? "Variants" : "Variant"} ${equals.join(", ")} would be the best${chosen === null ? "" : `, instead of ${chosen}`}.`;
+  }
   for (const watcher of rankingWatchers) watcher();
 };
 let setWeights = () => {};
