@@ -19,6 +19,8 @@ _QUANTITIES = (
     "measured velocity [{unit}/s]",
 )
 _SIGNAL = "planned motion"
+_FEWEST_SAMPLES = 8
+"""Of a segment that `rgss identify` reads."""
 
 
 def recording_csv(
@@ -31,7 +33,8 @@ def recording_csv(
 ) -> bytes:
     """Measured against commanded motion as CSV in UTF-8, which `rgss identify` reads.
 
-    The column ``pose`` has the phase, ``joint`` the joint that moves most in it.
+    The column ``pose`` has the phase, ``joint`` the joint that moves most in it. A phase of fewer samples than a fit
+    takes, such as a move that begins where the arm is, belongs to the next one, or at the end to the one before.
 
     Args:
         samples: The samples of a stream.
@@ -46,8 +49,7 @@ def recording_csv(
     units = {joint: "m" if joint in slides else "rad" for joint in joints}
     columns = (f"{joint} {quantity.format(unit=units[joint])}" for joint in joints for quantity in _QUANTITIES)
     writer.writerow([*_LABELS, *columns])
-    for phase, group in groupby(samples, key=lambda sample: sample.phase):
-        part = list(group)
+    for phase, part in _parts(samples):
         travel = np.ptp(np.array([sample.commanded.positions_rad for sample in part]), axis=0)
         labels = (phase, joints[int(np.argmax(travel))], _SIGNAL)
         for sample in part:
@@ -60,3 +62,17 @@ def recording_csv(
             )
             writer.writerow([f"{sample.time_s:.9g}", *labels, *(f"{value:.9g}" for row in rows for value in row)])
     return text.getvalue().encode()
+
+
+def _parts(samples: Sequence[Sample]) -> list[tuple[str, list[Sample]]]:
+    """Samples by phase, without short parts."""
+    found: list[tuple[str, list[Sample]]] = []
+    short: list[Sample] = []
+    for phase, group in groupby(samples, key=lambda sample: sample.phase):
+        part = [*short, *group]
+        short = part if len(part) < _FEWEST_SAMPLES else []
+        if not short:
+            found.append((phase, part))
+    if short and found:
+        found[-1][1].extend(short)
+    return found or ([(short[-1].phase, short)] if short else [])

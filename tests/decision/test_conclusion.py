@@ -108,11 +108,15 @@ def test_a_failed_test_is_told_beside_the_choice(made):
 @pytest.mark.parametrize(
     ("failed", "deciding", "told"),
     [
-        (FailedVerifications(records=("A",)), "a measure or a record", "By verification record A is not met, by no"),
+        (
+            FailedVerifications(records=("A",)),
+            "a measure or a record",
+            "The verification record of A says not met: no design meets it.",
+        ),
         (
             FailedVerifications(tests=("A",), records=("A", "B")),
             "a measure, a test or a record",
-            "Tests of A failed: no design meets it. By verification record A, B are not met, by no",
+            "failed: no design meets it. The verification records of A, B say not met: no design meets them.",
         ),
     ],
 )
@@ -120,7 +124,7 @@ def test_what_a_verification_record_says_is_not_met_is_told_beside_the_choice(ma
     other = concluded(made, standing(made.decision.chosen, missed=("A",)))
     other = dataclasses.replace(other, conclusion=dataclasses.replace(other.conclusion, failed=failed))
     assert f"every requirement that {deciding} decides" in headline(other)
-    assert headline(other).endswith(f"{told} design.")
+    assert headline(other).endswith(told)
     assert trade_document(other)["conclusion"]["failed_records"] == list(failed.records)
 
 

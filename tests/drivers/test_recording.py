@@ -1,6 +1,7 @@
 """The recording of a stream."""
 
 import csv
+from dataclasses import replace
 
 from rgss.drivers import StreamSettings, recording_csv, stream
 from rgss.identification import read_recording
@@ -42,3 +43,18 @@ def test_positions_of_a_joint_that_slides_are_in_metres(robot, tmp_path):
     (tmp_path / "recording.csv").write_bytes(content)
     found = read_recording(tmp_path / "recording.csv")
     assert [found.unit_of(joint) for joint in found.joints] == ["rad", "m", "rad"]
+
+
+def test_a_phase_too_short_for_a_fit_belongs_to_the_next_and_at_the_end_to_the_one_before(robot, tmp_path):
+    samples = stream(robot, pick_task(), guard(), robot, StreamSettings(speed=1.0)).samples
+    named = [*("start",) * 3, *("go",) * 40, *("blink",) * 7, *("back",) * 20, *("end",) * 2]
+    cut = [replace(sample, phase=phase) for sample, phase in zip(samples, named, strict=False)]
+    for count, phases in ((72, ["go", "back"]), (5, ["go"]), (3, ["start"])):
+        (tmp_path / "recording.csv").write_bytes(
+            recording_csv(cut[:count], ("j0", "j1", "j2"), robot="arm", recorded="by a test")
+        )
+        rows = list(csv.reader((tmp_path / "recording.csv").read_text(encoding="utf-8").splitlines()[4:]))
+        assert list(dict.fromkeys(row[1] for row in rows)) == phases
+        assert len(rows) == count
+        if count == 72:
+            assert [one.pose for one in read_recording(tmp_path / "recording.csv").segments] == phases

@@ -37,8 +37,12 @@ def headline(made: StudyDecision) -> str:
         them = "it" if len(found.failed.tests) == 1 else "them"
         counts += f" Tests of {', '.join(found.failed.tests)} failed: no design meets {them}."
     if found.failed.records:
-        are = "is" if len(found.failed.records) == 1 else "are"
-        counts += f" By verification record {', '.join(found.failed.records)} {are} not met, by no design."
+        of = ", ".join(found.failed.records)
+        counts += (
+            f" The verification record of {of} says not met: no design meets it."
+            if len(found.failed.records) == 1
+            else f" The verification records of {of} say not met: no design meets them."
+        )
     if made.decision.chosen is None or found.chosen is None:
         basis = basis_text(shown_feasible=made.shown_feasible)
         return f"No variant is chosen: none meets every requirement by its {basis}; {counts}"
