@@ -34,18 +34,18 @@ def value_function_of(project: Project, valued: AnchoredValue) -> ValueFunction:
 
     Raises:
         TradeoffError: Its anchors do not define a value function.
-        DefinitionError: A requirement's threshold has moved beyond the other end, so that a worse quantity
-            would have a greater value; or it is anchored on one that does not bound the measure.
+        DefinitionError: An end, or the threshold that it is anchored on, has moved beyond the other end, so that a
+            worse quantity would have a greater value; or it is anchored on one that does not bound the measure.
     """
     measure = project.measures.measure(valued.measure)
     function = valued.function(lambda anchor: quantity_of(project, anchor, valued.measure))
     better = None if measure.better is Direction.NONE else measure.better is Direction.HIGHER
     if None not in (better, function.more_is_better) and better is not function.more_is_better:
         raise DefinitionError(
-            f"with the thresholds as they are, less {measure.id} would be worth more"
+            f"with these ends of its value function, less {measure.id} would be worth more"
             if better
-            else f"with the thresholds as they are, more {measure.id} would be worth more",
-            hint="a requirement's threshold lies beyond the other end of the value function; move that too",
+            else f"with these ends of its value function, more {measure.id} would be worth more",
+            hint="one end, or the requirement's threshold that it is anchored on, lies beyond the other; move that too",
         )
     return function
 

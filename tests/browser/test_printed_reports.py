@@ -9,6 +9,7 @@ import re
 import pytest
 
 from rgss.reports.board_page import MOST_PAGES, board_to_html
+from rgss.reports.trace.html import report_to_html
 
 pytestmark = pytest.mark.browser
 
@@ -148,3 +149,10 @@ def test_the_whole_report_is_printed_on_fewer_sheets_than_it_has_diagrams_and_ta
     pdf = reader.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": False})
     pages = len(re.findall(rb"/Type\s*/Page[^s]", base64.b64decode(pdf["data"])))
     assert 20 < pages < 100
+
+
+def test_requirements_of_the_printed_trace_share_sheets(reader, study, tmp_path):
+    """Each of them with its rationale had one for itself, in a column as wide as a word."""
+    file = tmp_path / "trace.html"
+    file.write_text(report_to_html(study.trace), encoding="utf-8")
+    assert printed_pages(reader, file) < 25 + len(study.trace.verification) / 2

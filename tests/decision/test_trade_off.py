@@ -196,7 +196,7 @@ def test_a_threshold_that_moves_takes_its_anchor_along(shipped, measured, read):
     assert trade_problem(with_threshold(0.9), measured).value_functions[0].worst == 0.9
     with pytest.raises(DefinitionError) as error:
         trade_problem(with_threshold(2.0), measured)
-    assert error.value.message == "with the thresholds as they are, less P_max would be worth more"
+    assert error.value.message == "with these ends of its value function, less P_max would be worth more"
 
 
 def test_levels_come_to_the_same_decision(shipped, measured, read):

@@ -48,7 +48,7 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
     _refuse_contradictions(options, project)
     rule = project.study.until_decided
     if options.cap is not None:
-        rule = replace(rule, cap=options.cap)
+        rule = replace(rule, cap=options.cap, verdict_cap=min(rule.verdict_cap, options.cap))
     if options.budget is not None:
         # The option is a hard limit: the study's reserve belongs to the study's budget.
         rule = replace(rule, budget=_budget(options.budget), reserve=None)

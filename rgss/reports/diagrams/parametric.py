@@ -80,7 +80,8 @@ def _diagram(
         name=f"parametric-{name}",
         title=f"Parametric diagram: {title}",
         description=(
-            f"{len(shown)} equations; small squares are their parameters, lines bind these to values and to each other."
+            f"{len(shown)} {'equation' if len(shown) == 1 else 'equations'}; small squares are parameters, lines bind "
+            "these to values and to each other."
         ),
         text_alternative=" ".join(f"{measure.id} = {measure.expression.text}." for measure in shown),
     )

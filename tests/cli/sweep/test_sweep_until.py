@@ -38,7 +38,7 @@ def test_a_cap_below_the_pilot(rgss, untouched):
     told = rgss("sweep", "--until", "decided", "--cap", "4", "--project", untouched)
 
     assert (told.status, told.output) == (2, "")
-    assert "cap must be at least the pilot of 8 and the verdict cap of 16, got 4" in told.complaint
+    assert "cap must be at least the pilot of 8 and the verdict cap of 4, got 4" in told.complaint
 
 
 def test_what_came_of_it(rgss, folder, monkeypatch):
@@ -95,7 +95,13 @@ def test_the_rule_is_the_studys_and_the_cap_may_be_named(rgss, folder, monkeypat
     told = rgss("sweep", "--until", "decided", "--project", folder)
     rgss("sweep", "--until", "decided", "--cap", "60", "--project", folder)
 
-    assert asked == [SequentialRule(margin=0.02, cap=90), SequentialRule(margin=0.02, cap=60)]
+    rgss("sweep", "--until", "decided", "--cap", "10", "--project", folder)
+    assert asked == [
+        SequentialRule(margin=0.02, cap=90),
+        SequentialRule(margin=0.02, cap=60),
+        # No option sets the cap of verdicts, which is at most that of all.
+        SequentialRule(margin=0.02, cap=10, verdict_cap=10),
+    ]
     assert "decided at an error rate of 0.05, 2 of the others may equal it within 0.02, prob" in told.output
 
 

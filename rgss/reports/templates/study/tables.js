@@ -91,7 +91,7 @@ const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROW
       return line;
     }));
     const many = !whole && found.length > size;
-    told.textContent = many ? `Rows ${first + 1} to ${first + page.length} of ${found.length}` : `${found.length} rows`;
+    told.textContent = many ? `Rows ${first + 1} to ${first + page.length} of ${found.length}` : `${found.length} ${found.length === 1 ? "row" : "rows"}`;
     back.hidden = on.hidden = !many;
     back.disabled = first === 0;
     on.disabled = first + size >= found.length;
