@@ -74,7 +74,7 @@ def test_the_same_bytes_every_time(tmp_path):
         write_scaffold(tmp_path / name)
 
     files = [path for path in sorted((tmp_path / "one").rglob("*")) if path.is_file()]
-    assert len(files) == 32
+    assert len(files) == 33
     for path in files:
         assert path.read_bytes() == (tmp_path / "two" / path.relative_to(tmp_path / "one")).read_bytes()
 

@@ -19,7 +19,7 @@ def test_a_new_project_is_sound(rgss, tmp_path):
     told = rgss("init", folder)
 
     assert (told.status, told.errors) == (0, "")
-    assert told.output.splitlines()[0].startswith("A project of 32 files is in my project/")
+    assert told.output.splitlines()[0].startswith("A project of 33 files is in my project/")
     assert [line.strip().partition("  ")[0] for line in told.output.splitlines()[2:]] == [
         f"cd '{folder}'",
         "rgss check",
@@ -85,7 +85,7 @@ def test_a_second_time(rgss, tmp_path):
 
     assert told.status == 2
     assert told.complaint == (
-        f"rgss: {tmp_path}/README.md and 31 more are there already, and nothing is overwritten (name a new folder)"
+        f"rgss: {tmp_path}/README.md and 32 more are there already, and nothing is overwritten (name a new folder)"
     )
 
 
