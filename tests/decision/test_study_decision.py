@@ -14,6 +14,7 @@ from rgss.decision.study_decision.findings import robustness_findings
 from rgss.decision.what_if import suppose
 from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
 from rgss.reports.decision.words import score
+from rgss.tradeoff.robustness import Support
 
 
 @pytest.fixture(scope="module")
@@ -61,6 +62,35 @@ def test_a_variant_that_is_tied_at_the_weights_of_the_study_alone_is_no_distant_
         assert "At these weights alone variant" in text
         assert "no smaller move" not in text
         assert "no other variant wins" not in text
+
+
+def test_what_is_best_alone_for_no_weights_does_not_win_by_moving_them(shipped, made):
+    """A dominated variant may be tied where the others have no weight: though the nearest, it is passed over."""
+    found = made.robustness.analysis
+    ids = {found.variants[row] for shift in found.weighting.shifts for row in shift.rows}
+    plain = robustness_findings(shipped, found, chosen=made.decision.chosen)
+    points = tuple(
+        dataclasses.replace(point, support=Support.WEAKLY_SUPPORTED)
+        if found.variants[point.row] in plain.nearest_move.winners
+        else point
+        for point in found.front.points
+    )
+    front = dataclasses.replace(found.front, points=points)
+    other = robustness_findings(shipped, dataclasses.replace(found, front=front), chosen=made.decision.chosen)
+
+    assert set(plain.nearest_move.winners) <= ids
+    assert other.nearest_move is None or other.nearest_move.winners != plain.nearest_move.winners
+    assert other.nearest_move is None or other.nearest_move.moved > plain.nearest_move.moved
+
+
+def test_a_near_tie_without_a_margin_is_one_of_the_programs_tolerance(made):
+    near = dataclasses.replace(made.decision, near_ties=(3,))
+    for margin, told in (
+        (0.0, "As good within the program's tolerance: "),
+        (0.01, "Within the practical margin of 0.01"),
+    ):
+        other = dataclasses.replace(made, decision=near, practical_margin=margin)
+        assert sum(reason.startswith(told) for reason in decision_part(other)["reasons"]) == 1
 
 
 def test_every_page_has_the_same_figures(made):

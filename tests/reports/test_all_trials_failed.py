@@ -68,3 +68,20 @@ def test_the_task_becomes_easier_at_the_worst_value_and_harder_above_it(remedy, 
     )
     (sentence,) = flat_sentences((flat,))
     assert wanted in sentence
+
+
+def test_weights_decide_only_where_the_program_has_some():
+    flat = FlatWeight(
+        measure="S",
+        unit="1",
+        weight=0.2,
+        low=1.0,
+        high=1.0,
+        all_low=1.0,
+        all_high=1.0,
+        among_feasible=False,
+        remedy=FlatRemedy.VARY_THE_WORLD,
+        effective=(("t", 1.0),),
+    )
+    assert "what decides is t 1" in list(flat_sentences((flat,)))[1]
+    assert len(list(flat_sentences((flat,), decides=False))) == 1
