@@ -21,6 +21,7 @@ from rgss.grasping.kinematics import (
     recorded_motion,
     relative_motion,
 )
+from rgss.grasping.limit_load import load_factor
 from rgss.grasping.polygon import grasp_polygon
 from rgss.grasping.quality import q_diff_m, q_gii, q_gpri, q_msv, q_smw_n, q_voe
 from rgss.grasping.rigid_body import (

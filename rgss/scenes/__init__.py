@@ -27,6 +27,7 @@ from rgss.scenes.grasps import (
     PadPatch,
     SuctionPoint,
     most_elements,
+    pad_layouts,
     pad_patches,
     rotation_of,
     settled_grasp,

@@ -23,6 +23,7 @@ from rgss.studies.checks import (
     OF_ONE_GRIPPER,
     TooTall,
     closing_texts,
+    held_load_findings,
     instability_texts,
     is_at_the_palm,
     is_of_fingers,
@@ -71,13 +72,14 @@ def check_scene(project: Project) -> SceneCheck:
         of_hands = _HandProblems()
         for file in _gripper_files(project):
             of_hands.add(project, file, is_searched=not skipped)
+        label = project.study.scene
+        document = read_document(project.folder / label, label=label)
+        held = () if skipped else tuple(held_load_findings(project, document))
     except ImportError as error:
         missing = f"{error.name or error} is not installed"
         return SceneCheck(findings=(), skipped=f"the scene is not checked: {missing} ({INSTALL})")
     except DefinitionError as error:
         return SceneCheck(findings=(), skipped=f"the scene is not checked: {error}")
-    label = project.study.scene
-    document = read_document(project.folder / label, label=label)
     places = _Places(project, document)
     found = [places.finding(problem, ()) for problem in of_bodies]
     every = len(_gripper_files(project))
@@ -85,6 +87,7 @@ def check_scene(project: Project) -> SceneCheck:
         places.finding(problem, files if len(files) < every else (), serves=of_hands.reaches(problem, every))
         for problem, files in of_hands.reach.items()
     ]
+    found += held
     found += step_findings(project, of_hands.steps, grippers=every)
     found += places.outgrown_regions()
     found += mesh_volume_findings(project.folder / label, label=label)

@@ -7,7 +7,13 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.trials.conditions import DrawnValue, conditions_of, drawn_values
     from rgss.trials.filming import Film
-    from rgss.trials.geometry_checks import HandStepProblem, draw_problems, hand_step_problems
+    from rgss.trials.geometry_checks import (
+        HandStepProblem,
+        HeldLoad,
+        draw_problems,
+        hand_step_problems,
+        held_loads,
+    )
     from rgss.trials.impact import ClosingImpact, closing_impact
     from rgss.trials.lifecycle import Simulation, SimulationState
     from rgss.trials.metrics import (

@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from rgss.studies.checks.bench_check import bench_findings
     from rgss.studies.checks.double_counting import double_counting_findings
     from rgss.studies.checks.draw_check import draw_findings
+    from rgss.studies.checks.held_load_check import held_load_findings
     from rgss.studies.checks.impact_check import impact_findings
     from rgss.studies.checks.light_check import light_body_findings
     from rgss.studies.checks.object_limit_check import object_limit_findings

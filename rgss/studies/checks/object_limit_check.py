@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from rgss.documents import Document, read_document
 from rgss.evidence import Fidelity
 from rgss.findings import Finding, Severity
+from rgss.scenes import Gripper
 from rgss.studies.checks.bench_check import variants_text
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
@@ -31,11 +32,10 @@ def _heavy(project: Project, document: Document) -> Iterator[Finding]:
         workpiece = object_.workpiece
         if workpiece.mass_kg <= payload_kg:
             continue
-        at = _place_of(index)
         yield document.finding(
             "scene.payload",
             f"{workpiece.id} of {workpiece.mass_kg:.3g} kg exceeds the payload of the robot, {payload_kg:g} kg",
-            (*at, "mass" if _states_mass(document, index) else "density"),
+            mass_location(document, index),
             severity=Severity.WARNING,
             hint="take a lighter object, or a robot with a greater 'payload'",
         )
@@ -43,40 +43,60 @@ def _heavy(project: Project, document: Document) -> Iterator[Finding]:
 
 def _slippery(project: Project, document: Document) -> Iterator[Finding]:
     """Objects that the friction of no design's fingers bears at rest, by Coulomb's law."""
-    if project.study.fidelity is not Fidelity.CONTACT:
-        return
-    grippers = {spec.gripper for spec in trial_specs(project, seeds=(project.study.seed,))}
+    unborne = unborne_objects(project)
     for index, object_ in enumerate(project.scene.objects):
         workpiece = object_.workpiece
+        if workpiece.id not in unborne:
+            continue
+        strongest, needed_n = unborne[workpiece.id]
+        yield document.finding(
+            "scene.grip",
+            f"the friction of no design's fingers bears {workpiece.id} of {workpiece.mass_kg:.3g} kg: that takes "
+            f"{needed_n:.3g} N on each, and they press with {strongest.finger_force_n:.3g} N at most",
+            mass_location(document, index),
+            severity=Severity.WARNING,
+            hint="take a lighter object, or fingers with more force or friction",
+        )
+
+
+def unborne_objects(project: Project) -> dict[str, tuple[Gripper, float]]:
+    """Objects whose weight the friction of no design's fingers bears, by Coulomb's law.
+
+    Args:
+        project: The project with its study.
+
+    Returns:
+        By object the gripper that bears most, and the force of each finger in N that the weight takes.
+    """
+    if project.study.fidelity is not Fidelity.CONTACT:
+        return {}
+    found = {}
+    grippers = {spec.gripper for spec in trial_specs(project, seeds=(project.study.seed,))}
+    for workpiece in (one.workpiece for one in project.scene.objects):
         weight_n = workpiece.mass_kg * project.scene.gravity_m_s2
         borne_n = {
             gripper: gripper.geometry.fingers * gripper.finger_force_n * gripper.grip_coefficient(workpiece.friction)
             for gripper in grippers
         }
         strongest = max(borne_n, key=borne_n.__getitem__)
-        if strongest.suction is not None or borne_n[strongest] >= weight_n:
-            continue
-        needed_n = weight_n * strongest.finger_force_n / borne_n[strongest]
-        at = _place_of(index)
-        yield document.finding(
-            "scene.grip",
-            f"the friction of no design's fingers bears {workpiece.id} of {workpiece.mass_kg:.3g} kg: that takes "
-            f"{needed_n:.3g} N on each, and they press with {strongest.finger_force_n:.3g} N at most",
-            (*at, "mass" if _states_mass(document, index) else "density"),
-            severity=Severity.WARNING,
-            hint="take a lighter object, or fingers with more force or friction",
-        )
+        if strongest.suction is None and borne_n[strongest] < weight_n:
+            found[workpiece.id] = (strongest, weight_n * strongest.finger_force_n / borne_n[strongest])
+    return found
 
 
-def _place_of(index: int) -> tuple[str | int, ...]:
-    return ("workpieces", index - 1) if index else ("workpiece",)
+def mass_location(document: Document, index: int) -> tuple[str | int, ...]:
+    """Location of the mass or density of an object in its scene's file.
 
-
-def _states_mass(document: Document, index: int) -> bool:
+    Args:
+        document: The scene's file.
+        index: Index of the object in the scene.
+    """
     data = document.data if isinstance(document.data, dict) else {}
     others = data.get("workpieces")
     entry = data.get("workpiece") if index == 0 or not isinstance(others, list) else others[index - 1]
-    return isinstance(entry, dict) and "mass" in entry
+    states_mass = isinstance(entry, dict) and "mass" in entry
+    at: tuple[str | int, ...] = ("workpieces", index - 1) if index else ("workpiece",)
+    return (*at, "mass" if states_mass else "density")
 
 
 def _fragile(project: Project, document: Document) -> Iterator[Finding]:

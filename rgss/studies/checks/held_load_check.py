@@ -1,0 +1,59 @@
+"""Findings about objects that slide or turn in the fingers of the designs when they are lifted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from rgss.documents import Document
+from rgss.evidence import Fidelity
+from rgss.findings import Finding, Severity
+from rgss.scenes import Gripper
+from rgss.scenes.uncertainty import NOTHING_UNCERTAIN, ONE_WORKLOAD
+from rgss.studies.checks.bench_check import variants_text
+from rgss.studies.checks.object_limit_check import mass_location, unborne_objects
+from rgss.studies.expansion import trial_specs
+from rgss.studies.project import Project
+
+
+def held_load_findings(project: Project, document: Document) -> Iterator[Finding]:
+    """Warn of objects that the fingers cannot lift at the tool's full acceleration; a note if some designs can.
+
+    Args:
+        project: The project with its study.
+        document: The scene's file.
+    """
+    if project.study.fidelity is not Fidelity.CONTACT:
+        return
+    from rgss.trials import HeldLoad, held_loads
+
+    loads: dict[Gripper, tuple[HeldLoad, ...]] = {}
+    unborne: dict[str, list[tuple[HeldLoad, int]]] = {}
+    specs = trial_specs(project, seeds=(project.study.seed,))
+    for spec in specs:
+        # The robot of all designs is that of the scene: what differs in the hand is the gripper.
+        if spec.gripper not in loads:
+            stated = replace(spec, uncertainty=NOTHING_UNCERTAIN, workload=ONE_WORKLOAD)
+            loads[spec.gripper] = tuple(held_loads(stated))
+        for load in loads[spec.gripper]:
+            if not load.is_borne:
+                unborne.setdefault(load.object, []).append((load, spec.variant))
+    told = unborne_objects(project)
+    for index, object_ in enumerate(project.scene.objects):
+        name = object_.workpiece.id
+        of_object = unborne.get(name, [])
+        if not of_object or name in told:
+            continue
+        best = max((load for load, _ in of_object), key=lambda load: load.factor)
+        variants = [variant for _, variant in of_object]
+        is_of_all = len(variants) == len(specs)
+        yield document.finding(
+            "scene.grip-load",
+            f"{name} slides or turns between the pads of {variants_text(variants)}: they bear {best.factor:.3g} times "
+            f"its weight at most, and a lift at full acceleration takes {best.needed:.3g} times",
+            mass_location(document, index),
+            severity=Severity.WARNING if is_of_all else Severity.INFO,
+            hint="grip it nearer to its centre of mass, or with more force or friction"
+            if is_of_all
+            else "these designs fail once it is lifted, and the others do not",
+        )

@@ -1,0 +1,66 @@
+"""Objects that slide or turn in the hand once they are lifted are found before anything is simulated."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from rgss.evidence import Fidelity
+from rgss.findings import Severity
+from rgss.studies import object_limit_findings
+from rgss.studies.project import load_project
+from rgss.studies.scene_findings import check_scene
+
+pytestmark = pytest.mark.engine
+
+REPOSITORY = Path(__file__).parents[3]
+
+
+@pytest.fixture(scope="module")
+def yumi():
+    """One arm with designs that press with 5, 10 and 20 N."""
+    return load_project(REPOSITORY, "studies/yumi_widget.yaml")
+
+
+def found_in(project, **changes):
+    heavy = replace(project.scene.workpiece, **changes)
+    project = replace(project, scene=replace(project.scene, workpiece=heavy))
+    return [one for one in check_scene(project).findings if one.rule == "scene.grip-load"]
+
+
+def test_the_shipped_studies_have_none(yumi, shipped):
+    assert found_in(yumi) == found_in(shipped) == []
+
+
+def test_a_widget_with_its_mass_at_one_end(yumi):
+    """At rest the friction of 5 N bears 20 times the widget's 50 g, that of 20 N 82 times, if nothing turns it."""
+    aside_m = (0.0, 0.009)
+    (some,) = found_in(yumi, mass_kg=0.85, centre_of_mass_across_m=aside_m)
+    assert some.severity is Severity.INFO
+    pattern = (
+        r"widget_1 slides or turns between the pads of 8 variants, such as \d+: they bear (\S+) times its weight at "
+        r"most, and a lift at full acceleration takes (\S+) times"
+    )
+    factor, needed = map(float, re.fullmatch(pattern, some.message).groups())
+    assert factor < needed
+    assert some.hint == "these designs fail once it is lifted, and the others do not"
+    (every,) = found_in(yumi, mass_kg=3.25, centre_of_mass_across_m=aside_m)
+    assert every.severity is Severity.WARNING
+    assert "of 24 variants, such as" in every.message
+    assert every.hint == "grip it nearer to its centre of mass, or with more force or friction"
+    text = (REPOSITORY / yumi.study.scene).read_text(encoding="utf-8").splitlines()[every.line - 1]
+    assert text.strip().startswith("mass:")
+
+
+def test_what_no_friction_bears_is_told_once(yumi):
+    heavy = replace(yumi, scene=replace(yumi.scene, workpiece=replace(yumi.scene.workpiece, mass_kg=20.0)))
+    assert "scene.grip" in [one.rule for one in object_limit_findings(heavy)]
+    assert found_in(yumi, mass_kg=20.0) == []
+
+
+def test_without_contact_nothing_slips(yumi):
+    kinematic = replace(yumi, study=replace(yumi.study, fidelity=Fidelity.KINEMATIC))
+    assert found_in(kinematic, mass_kg=20.0) == []
