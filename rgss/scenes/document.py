@@ -133,6 +133,7 @@ class PlaceRegionEntry(DocumentModel):
     largest_tilt: Radians
     largest_drop: Metres = LARGEST_DROP_M
     largest_drag: Metres = LARGEST_DRAG_M
+    largest_turn: Radians | None = None
 
 
 class GraspRule(str, Enum):

@@ -102,6 +102,8 @@ class PlaceRegion:
         it counts as dropped. From the default of 10 mm it lands with 0.44 m/s.
         largest_drag_m: Greatest displacement of the workpiece by the robot after its release. The default of 1 mm is
         ten times the motion of a carried object in the hand.
+        largest_turn_rad: Greatest angle about the vertical between the workpiece and its orientation at the place, up
+        to the rotations that leave its shape as it is; None for any.
         offset_m: Position of the centre on a supporting object, from its middle, in its frame; None on a fixed body.
     """
 
@@ -110,6 +112,7 @@ class PlaceRegion:
     largest_tilt_rad: float
     largest_drop_m: float = LARGEST_DROP_M
     largest_drag_m: float = LARGEST_DRAG_M
+    largest_turn_rad: float | None = None
     offset_m: tuple[float, float] | None = None
 
     def on(self, pose: Pose, half_height_m: float) -> PlaceRegion:

@@ -21,6 +21,7 @@ from rgss.scenes.objects import (
     object_solid,
     other_objects,
     other_solids,
+    place_limits,
     positive_values,
     support_findings,
     supports_of,
@@ -188,9 +189,7 @@ def _positive_values(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
     yield ("workpiece", "force_limit"), work.force_limit
     yield ("workpiece", "force_window"), work.force_window
     yield ("workpiece", "landing_limit"), work.landing_limit
-    yield ("place_region", "radius"), place.radius
-    yield ("place_region", "largest_tilt"), place.largest_tilt
-    yield ("place_region", "largest_drag"), place.largest_drag
+    yield from place_limits(place, at=("place_region",))
     yield ("task", "approach_height"), task.approach_height
     yield ("task", "lift_height"), task.lift_height
     yield ("task", "departure_height"), task.departure_height

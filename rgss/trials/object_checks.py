@@ -6,8 +6,9 @@ import math
 
 from rgss.evidence import Failure, Metric
 from rgss.grasping import configuration_distance_m
+from rgss.grasping.candidates import symmetric_turns
 from rgss.physics import ContactWorld
-from rgss.scenes import Pose
+from rgss.scenes import Cylinder, ObjectShape, Pose
 from rgss.trials.plants import ControlSettings
 
 Violation = tuple[Failure, str]
@@ -55,7 +56,7 @@ def moved_by_itself(
 
 
 def check_place(world: ContactWorld) -> tuple[dict[str, Metric], Violation | None]:
-    """Position error and tilt of the placed object, and the violation if one of them exceeds its limit.
+    """Position error, tilt and turn of the placed object, and the violation if one of them exceeds its limit.
 
     Args:
         world: The world.
@@ -64,6 +65,8 @@ def check_place(world: ContactWorld) -> tuple[dict[str, Metric], Violation | Non
     x, y, z = pose.position_m
     centre = scene.place.centre_m
     error_m, tilt_rad = math.dist((x, y), centre[:2]), pose.tilt_rad
+    turn_rad = _turn_rad(pose, scene.placed_object, scene.workpiece.shape)
+    largest_turn_rad = scene.place.largest_turn_rad
     height_error_m = abs(z - centre[2] - scene.workpiece.shape.half_height_m)
     violation: Violation | None = None
     if tilt_rad > scene.place.largest_tilt_rad:
@@ -72,7 +75,23 @@ def check_place(world: ContactWorld) -> tuple[dict[str, Metric], Violation | Non
         found = f"{error_m * 1e3:.1f} mm from the place and {height_error_m * 1e3:.1f} mm off its height"
         most = f"at most {scene.place.radius_m * 1e3:.4g} mm each"
         violation = Failure.NOT_IN_PLACE_REGION, f"the object is {found}, {most}"
-    return {"place_error_m": error_m, "place_tilt_rad": tilt_rad}, violation
+    elif largest_turn_rad is not None and turn_rad > largest_turn_rad:
+        found = f"turned by {math.degrees(turn_rad):.1f} deg from its orientation at the place"
+        violation = (
+            Failure.NOT_IN_PLACE_REGION,
+            f"the object is {found}, more than {math.degrees(largest_turn_rad):.4g} deg",
+        )
+    return {"place_error_m": error_m, "place_tilt_rad": tilt_rad, "place_turn_rad": turn_rad}, violation
+
+
+def _turn_rad(pose: Pose, placed: Pose, shape: ObjectShape) -> float:
+    """Angle about the vertical from one orientation of an object to another, up to its shape's symmetry."""
+    if isinstance(shape, Cylinder):
+        return 0.0
+    # The rotation about the vertical is the twist in the swing-twist decomposition of the quaternion.
+    _, _, qz, qw = (pose @ placed.inverse()).quaternion_xyzw
+    turned_rad = 2.0 * math.atan2(qz, qw)
+    return min(abs(math.remainder(turned_rad - one, math.tau)) for one in symmetric_turns(shape, 1))
 
 
 def has_moved(world: ContactWorld, control: ControlSettings, before: Pose, now: Pose) -> bool:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
         object_colour,
         other_objects,
         other_solids,
+        place_limits,
         positive_values,
     )
     from rgss.scenes.objects.mesh_findings import mesh_volume_findings

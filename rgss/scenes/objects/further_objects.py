@@ -7,7 +7,7 @@ from pathlib import Path
 
 from rgss.documents import Document
 from rgss.findings import Finding
-from rgss.scenes.document import SceneDocument
+from rgss.scenes.document import PlaceRegionEntry, SceneDocument
 from rgss.scenes.findings import Location
 from rgss.scenes.objects.object_entry import object_lengths
 from rgss.scenes.objects.object_file import ObjectSolid, object_solid, workpiece_of
@@ -98,11 +98,22 @@ def positive_values(entry: SceneDocument) -> Iterator[tuple[Location, float]]:
         yield from object_lengths(one, at=("workpieces", index))
         for key in ("force_limit", "force_window", "landing_limit"):
             yield ("workpieces", index, key), getattr(one, key)
-        for key in ("radius", "largest_tilt", "largest_drag"):
-            yield ("workpieces", index, "place_region", key), getattr(one.place_region, key)
+        yield from place_limits(one.place_region, at=("workpieces", index, "place_region"))
     for index, place in enumerate(entry.places):
-        for key in ("radius", "largest_tilt", "largest_drag"):
-            yield ("places", index, key), getattr(place, key)
+        yield from place_limits(place, at=("places", index))
+
+
+def place_limits(place: PlaceRegionEntry, *, at: Location) -> Iterator[tuple[Location, float]]:
+    """Limits of a place region that must be greater than zero, with their locations.
+
+    Args:
+        place: The region.
+        at: Its location.
+    """
+    for key in ("radius", "largest_tilt", "largest_drag", "largest_turn"):
+        limit = getattr(place, key)
+        if limit is not None:
+            yield (*at, key), limit
 
 
 def object_colour(text: str | None, number: int) -> ColourRgba:

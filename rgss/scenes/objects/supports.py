@@ -40,6 +40,7 @@ class Supports:
             largest_tilt_rad=entry.largest_tilt,
             largest_drop_m=entry.largest_drop,
             largest_drag_m=entry.largest_drag,
+            largest_turn_rad=entry.largest_turn,
             offset_m=None if beneath is None else entry.at,
         )
         return region if beneath is None else region.on(beneath, self.half_heights_m[entry.stands_on])

@@ -173,6 +173,16 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
         most=math.pi,
     ),
     MetricDescriptor(
+        name="place_turn_rad",
+        unit="rad",
+        meaning="angle about the vertical between the placed object and its orientation at the place, up to the "
+        "rotations that leave its shape as it is (0 for an upright cylinder)",
+        better=Direction.LOWER,
+        trial=Aggregation.WORST_PLACED,
+        fidelities=WITH_CONTACT,
+        most=math.pi,
+    ),
+    MetricDescriptor(
         name="arm_scene_contacts",
         unit="1",
         meaning="steps in which the arm touched the scene",

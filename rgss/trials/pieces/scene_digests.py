@@ -126,7 +126,8 @@ def _strength(workpiece: Workpiece) -> list[float]:
 
 
 def _tolerances(place: PlaceRegion) -> list[float]:
-    return [place.radius_m, place.largest_tilt_rad, place.largest_drop_m, place.largest_drag_m]
+    of_all = [place.radius_m, place.largest_tilt_rad, place.largest_drop_m, place.largest_drag_m]
+    return of_all if place.largest_turn_rad is None else [*of_all, place.largest_turn_rad]
 
 
 def _stated_inertia(workpiece: Workpiece) -> dict[str, Any]:

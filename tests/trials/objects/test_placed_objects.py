@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import math
+import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
+from scipy.spatial.transform import Rotation
 
 from rgss.evidence import Failure, Fidelity
+from rgss.scenes import Box, Cylinder, LyingCylinder, Pose
 from rgss.scenes.uncertainty import Constant, Uncertainty, UncertainValue
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.tasks import load_task
+from rgss.trials.object_checks import check_place
 from rgss.trials.pieces.run import run_trial
 from tests.fixtures.shipped_project import REPOSITORY
 
@@ -82,6 +88,53 @@ def test_a_hand_that_leaves_and_waits_pushes_nothing(tmp_path):
     record = run_trial(pushed(tmp_path, LEAVE + WAIT))
     assert record.success
     assert record.phases[-1].metrics["workpiece_displacement_m"] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("shape", "turned_deg", "found_deg"),
+    [
+        (Box(size_m=(0.05, 0.04, 0.09)), 17.0, 17.0),
+        (Box(size_m=(0.05, 0.04, 0.09)), -170.0, 10.0),
+        (Box(size_m=(0.05, 0.05, 0.09)), 80.0, 10.0),
+        (Box(size_m=(0.05, 0.05, 0.09)), 355.0, 5.0),
+        (LyingCylinder(radius_m=0.02, length_m=0.09), 172.0, 8.0),
+        (Cylinder(radius_m=0.02, height_m=0.09), 33.0, 0.0),
+    ],
+)
+@pytest.mark.parametrize("tilt_deg", [0.0, 4.0])
+def test_the_turn_of_a_placed_object_is_up_to_its_symmetry(spec_of, shape, turned_deg, found_deg, tilt_deg):
+    scene = spec_of().scene
+    limits = replace(scene.place, largest_turn_rad=math.radians(9.0), largest_tilt_rad=math.radians(5.0))
+    scene = replace(scene, workpiece=replace(scene.workpiece, shape=shape), place=limits)
+    yaw_rad = scene.task.place_yaw_rad - scene.task.grasp_yaw_rad + math.radians(turned_deg)
+    turned = Rotation.from_euler("x", tilt_deg, degrees=True) * Rotation.from_euler("z", yaw_rad)
+    x, y, z = scene.place.centre_m
+    stands = Pose(position_m=(x, y, z + shape.half_height_m), quaternion_xyzw=tuple(turned.as_quat().tolist()))
+    metrics, violation = check_place(SimpleNamespace(scene=scene, workpiece_pose=lambda: stands))
+    assert metrics["place_turn_rad"] == pytest.approx(math.radians(found_deg), abs=1e-9)
+    if found_deg <= 9.0:
+        assert violation is None
+    else:
+        told = f"the object is turned by {found_deg:.1f} deg from its orientation at the place, more than 9 deg"
+        assert violation == (Failure.NOT_IN_PLACE_REGION, told)
+
+
+def test_a_cup_leaves_an_object_turned_that_it_saw_turned():
+    """Nothing turns it back as pads do; the place of the file says how much is allowed."""
+    project = load_project(REPOSITORY, "studies/lite6_cubes.yaml")
+    spec = next(one for one in trial_specs(project, seeds=[1]) if one.gripper.suction is not None)
+    turned = UncertainValue(quantity="perception.yaw", distribution=Constant(value=math.radians(7.0)))
+    spec = replace(spec, uncertainty=Uncertainty(values=(turned,)))
+    record = run_trial(spec)
+    assert record.success
+    assert record.metrics["place_turn_rad"] == pytest.approx(math.radians(7.0), abs=2e-3)
+    strict = replace(spec.scene.place, largest_turn_rad=math.radians(5.0))
+    record = run_trial(replace(spec, scene=replace(spec.scene, place=strict)))
+    assert (record.failure, record.success) == (Failure.NOT_IN_PLACE_REGION, False)
+    assert re.fullmatch(
+        r"the object is turned by [67]\.\d deg from its orientation at the place, more than 5 deg",
+        record.failure_detail,
+    )
 
 
 @pytest.mark.parametrize("rate_hz", [240.0, 1000.0])
