@@ -93,7 +93,8 @@ def bounded_mean_evidence(
         return bounded_mean_evidence(-values, -limit, above=False, least=-most, most=-least)
     count = len(values)
     stated = math.isfinite(most) and not (count and float(values.max()) > most)
-    if count < 2 and not (count and stated):
+    # Values that are all 0 bound no other: no value is assumed from them.
+    if not count or (not stated and (count < 2 or not values.any())):
         return -math.inf
     top = most if stated else _assumed_bound(values)
     room = top - limit
@@ -104,10 +105,7 @@ def bounded_mean_evidence(
     if stated:
         largest = min(1.0 / room, _LARGEST_BET)
     else:
-        not_zero = np.flatnonzero(values)
-        if not not_zero.size:
-            return -math.inf
-        first = int(not_zero[0])
+        first = int(np.flatnonzero(values)[0])
         largest, values = min(_CENTRAL_BET / abs(float(values[first])), _LARGEST_BET), values[first + 1 :]
     parts = _STEP_OF_BETS ** -np.abs(places)
     bets = largest * _STEP_OF_BETS**-places
@@ -166,7 +164,7 @@ def _greatest_mean(seen: tuple[float, ...], most: float | None, tail: float) -> 
 
     values = np.array(seen)
     top = _assumed_bound(values) if most is None else max(*seen, most)
-    if most is None and (len(seen) < 2 or not math.isfinite(top)):
+    if most is None and (len(seen) < 2 or not any(seen) or not math.isfinite(top)):
         return None
     mean = math.fsum(each / len(seen) for each in seen)
     if top <= min(seen):

@@ -37,16 +37,17 @@ def mean_limits(
         tail: Probability beyond each limit.
 
     Returns:
-        The lower and the upper limit; None on a side without a bound if there is only one value, or if the assumed
-        bound exceeds the range of floats.
+        The lower and the upper limit; None on a side without a bound if no bound can be assumed: if there is only one
+        value, if all are 0, or if the assumed bound exceeds the range of floats.
     """
     seen = tuple(sorted(values))
     size = math.fsum(abs(each) / len(seen) for each in seen)
-    one = len(seen) < 2
+    # Ten times nothing is no bound: a rare value that is not 0 may have any size.
+    unknown = len(seen) < 2 or size == 0.0
     bottom = min(seen[0], -UNSEEN_FACTOR * size) if least is None else min(seen[0], least)
     top = max(seen[-1], UNSEEN_FACTOR * size) if most is None else max(seen[-1], most)
-    no_low = (one and least is None) or not math.isfinite(bottom)
-    no_high = (one and most is None) or not math.isfinite(top)
+    no_low = (unknown and least is None) or not math.isfinite(bottom)
+    no_high = (unknown and most is None) or not math.isfinite(top)
     low = None if no_low else -_upper_limit(tuple(-each for each in reversed(seen)), -bottom, tail)
     return low, None if no_high else _upper_limit(seen, top, tail)
 

@@ -37,7 +37,8 @@ def ratio_limits(
             `rgss.measures.bounded_mean_evidence`, which is exact where the bounds are stated.
 
     Returns:
-        The lower and the upper limit, None for one that exceeds the range of floats; None if b may have either sign.
+        The lower and the upper limit, None for one that exceeds the range of floats, and on a side without a bound if
+        all numerators are 0; None if b may have either sign.
     """
     if denominator.high <= 0.0:
         pairs = [(-a, -b) for a, b in pairs]
@@ -46,8 +47,14 @@ def ratio_limits(
         return None
     tops, bottoms = _bounded(numerator, [a for a, _ in pairs]), _bounded(denominator, [b for _, b in pairs])
     test = partial(_Test, denominator=bottoms, tail=tail, over_looks=over_looks)
-    low = _upper_limit(test(pairs=[(-a, b) for a, b in pairs], most=tops.negated().high))
-    return None if low is None else -low, _upper_limit(test(pairs=pairs, most=tops.high))
+    # Numerators that were all 0 say nothing about the size of another.
+    is_nothing = not any(a for a, _ in pairs)
+    low = high = None
+    if not is_nothing or math.isfinite(numerator.low):
+        low = _upper_limit(test(pairs=[(-a, b) for a, b in pairs], most=tops.negated().high))
+    if not is_nothing or math.isfinite(numerator.high):
+        high = _upper_limit(test(pairs=pairs, most=tops.high))
+    return None if low is None else -low, high
 
 
 def _bounded(one: Range, seen: Sequence[float]) -> Range:

@@ -47,10 +47,11 @@ def test_limits_of_the_mean_of_ones_and_zeros_that_cannot_be_told_apart_from_the
     low, high = anytime_mean_limits([3.0], least=0.0, most=4.0, tail=TAIL)
     assert 0.0 < low < 3.0 < high < 4.0
     assert anytime_mean_limits([4.0, 4.0], least=4.0, most=4.0, tail=TAIL) == (4.0, 4.0)
-    assert anytime_mean_limits([0.0] * 5, least=None, most=None, tail=TAIL) == (0.0, 0.0)
+    assert anytime_mean_limits([0.0] * 5, least=None, most=None, tail=TAIL) == (None, None)
     assert bounded_mean_evidence([0.0] * 5, -5.0, above=False) == -math.inf
     assert bounded_mean_evidence([0.0] * 5, 5.0, above=True) == -math.inf
-    assert bounded_mean_evidence([0.0] * 5, 5.0, above=False) == math.inf
+    assert bounded_mean_evidence([0.0] * 5, 5.0, above=False) == -math.inf
+    assert bounded_mean_evidence([0.0] * 5, 5.0, above=False, most=4.0) == math.inf
     assert anytime_mean_limits([-1e308, 1e308], least=None, most=None, tail=TAIL) == (None, None)
 
 

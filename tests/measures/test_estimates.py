@@ -109,6 +109,17 @@ def test_values_whose_bounds_are_beyond_all_numbers_have_no_limits() -> None:
     assert mean_estimate([-1e308, 1e308], "s") == Estimate(value=0.0, unit="s", low=None, high=None, n=2)
 
 
+@pytest.mark.parametrize("over_looks", [False, True])
+def test_values_that_are_all_zero_bound_nothing(over_looks: bool) -> None:
+    """Of a count that is 1 in one trial of 50, nine studies of ten see none in three trials: that shows no mean."""
+    found = mean_estimate([0.0] * 30, "1", least=0.0, over_looks=over_looks)
+    assert (found.value, found.low, found.high) == (0.0, 0.0, None)
+    assert (mean_estimate([0.0] * 30, "1", over_looks=over_looks).low) is None
+    declared = mean_estimate([0.0] * 30, "1", least=0.0, most=1.0, over_looks=over_looks)
+    assert declared.high is not None
+    assert declared.high > 0.1
+
+
 def test_no_trial_gives_nothing() -> None:
     assert mean_estimate([], "s") == Estimate.unknown("s")
     assert proportion_estimate(0, 0) == Estimate.unknown("1")
@@ -120,6 +131,9 @@ def test_the_interval_is_reproducible_and_holds_the_mean(values: list[float]) ->
     estimate = mean_estimate(values, "m")
     assert estimate == mean_estimate(list(reversed(values)), "m")
     assert estimate.value == pytest.approx(statistics.fmean(values), abs=1e-9)
+    if not any(values):
+        assert (estimate.low, estimate.high) == (None, None)
+        return
     assert estimate.low is not None
     assert estimate.high is not None
     slack = 1e-8 * max(map(abs, values))

@@ -48,6 +48,17 @@ def test_equal_trials_have_the_limits_of_a_closed_form() -> None:
     assert low == pytest.approx((1.0 - weight) / ((1.0 - weight) * 12.0 + weight * 60.0), rel=1e-8)
 
 
+@pytest.mark.parametrize("over_looks", [False, True])
+def test_numerators_that_are_all_zero_bound_nothing(over_looks: bool) -> None:
+    pairs = [(0.0, 1.0 + 0.01 * number) for number in range(30)]
+    unbounded, times = Range(low=0.0, high=math.inf), Range(low=0.0, high=2.0)
+    low, high = ratio_limits(pairs, numerator=unbounded, denominator=times, tail=0.025, over_looks=over_looks)
+    assert (low, high) == (0.0, None)
+    low, high = ratio_limits(pairs, numerator=times, denominator=times, tail=0.025, over_looks=over_looks)
+    assert low == 0.0
+    assert high > 0.1
+
+
 @pytest.mark.parametrize("size", [3, 10, 30])
 @pytest.mark.parametrize("success", [0.3, 0.9])
 def test_limits_of_a_rate_are_wrong_in_at_most_one_of_40(size: int, success: float) -> None:
