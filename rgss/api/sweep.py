@@ -122,7 +122,7 @@ class _Runner:
                 store,
                 jobs=self._jobs,
                 on_finished=on_finished,
-                origin=lambda: origin_of(self._project.folder),
+                origin=lambda: origin_of(self._project.folder, self._project.study.label),
                 workers_for=None if self._jobs else _one_by_one,
             )
         except SimulationError as error:

@@ -82,7 +82,7 @@ def measure_variants(
     if store is not None:
         found = store.records([key for row in specs.values() for key in row])
         missing = [spec for row in specs.values() for key, spec in row.items() if key not in found]
-        for (variant_id, _), causes in outdated_trials(missing, store).items():
+        for (variant_id, _), causes in outdated_trials(missing, store, study=project.study.label).items():
             outdated.setdefault(variant_id, []).append(causes)
     book = _book_of(project, recorded)
     reader = BasisReader(project)

@@ -28,13 +28,14 @@ _CAUSES: Mapping[Reason, StaleCause] = MappingProxyType(
 
 
 def outdated_trials(
-    missing: Sequence[TrialSpec], store: EvidenceStore
+    missing: Sequence[TrialSpec], store: EvidenceStore, *, study: str = ""
 ) -> Mapping[tuple[int, int], tuple[StaleCause, ...]]:
     """Missing trials with older evidence, and the changes since then.
 
     Args:
         missing: Trials without evidence for the project as it is now.
         store: The evidence.
+        study: As for `dry_run`.
 
     Returns:
         The causes by variant and seed, without trials that were never run and those whose run failed.
@@ -45,7 +46,7 @@ def outdated_trials(
     if not missing:
         return {}
     found: dict[tuple[int, int], tuple[StaleCause, ...]] = {}
-    for due in dry_run(missing, store).due:
+    for due in dry_run(missing, store, study=study).due:
         there = {_CAUSES[cause.reason] for cause in due.causes if cause.reason in _CAUSES}
         if there:
             causes = tuple(cause for cause in StaleCause if cause in there)

@@ -93,7 +93,7 @@ def _run(options: argparse.Namespace, project: Project, specs: Sequence[TrialSpe
         store,
         jobs=options.jobs or os.cpu_count() or 1,
         on_finished=on_finished,
-        origin=lambda: origin_of(project.folder),
+        origin=lambda: origin_of(project.folder, project.study.label),
     )
     if result.lost:
         lost = sum(len(one.trials) for one in result.lost)

@@ -17,6 +17,11 @@ _SERVO_MODE = 1
 _MOTION_STATE = 0
 _STOP_STATE = 4
 _OK = 0
+_GRIPPER_CALLS = {
+    GripperState.OPEN: "open_lite6_gripper",
+    GripperState.CLOSED: "close_lite6_gripper",
+    GripperState.NEUTRAL: "stop_lite6_gripper",
+}
 
 
 class XarmDriver:
@@ -29,6 +34,7 @@ class XarmDriver:
         address: str,
         *,
         joints: int,
+        is_vacuum: bool = False,
         rate_hz: float = 100.0,
         open_api: Callable[[str], Any] | None = None,
     ) -> None:
@@ -37,11 +43,13 @@ class XarmDriver:
         Args:
             address: Name or IP address of the controller.
             joints: Number of joints of the task's robot.
+            is_vacuum: Whether a vacuum cup is at the tool's outputs, and not the Lite6's gripper. What closes the
+                gripper switches a vacuum off.
             rate_hz: Rate of the set points; the SDK recommends 100 to 250 Hz.
             open_api: Opens the SDK's ``XArmAPI``; that of the installed SDK by default.
         """
         self.rate_hz = rate_hz
-        self._address, self._joints = address, joints
+        self._address, self._joints, self._is_vacuum = address, joints, is_vacuum
         self._open_api = open_api or _open_api
         self._api: Any = None
         self._gripper: GripperState | None = None
@@ -105,13 +113,11 @@ class XarmDriver:
         """One call of ``set_servo_angle_j``; the gripper is called where its state changes."""
         self._opened()
         if point.gripper is not self._gripper:
-            calls = {
-                GripperState.OPEN: "open_lite6_gripper",
-                GripperState.CLOSED: "close_lite6_gripper",
-                GripperState.NEUTRAL: "stop_lite6_gripper",
-            }
             # At once: in the motion queue it would wait behind set points that never end.
-            self._call(calls[point.gripper], sync=False)
+            if self._is_vacuum and point.gripper is not GripperState.NEUTRAL:
+                self._call("set_vacuum_gripper", point.gripper is GripperState.CLOSED, wait=False, sync=False)
+            else:
+                self._call(_GRIPPER_CALLS[point.gripper], sync=False)
             self._gripper = point.gripper
         self._call("set_servo_angle_j", list(point.positions_rad), is_radian=True)
 

@@ -31,23 +31,26 @@ class Origin:
         files: SHA-256 of each input file by its name in the project.
         revision: Revision of the code; empty if it is not known.
         machine: Its machine; empty if it is not known.
+        study: File of the study by its name in the project; empty if it is not known.
     """
 
     files: Mapping[str, str] = field(default_factory=dict)
     revision: str = ""
     machine: str = ""
+    study: str = ""
 
 
-def origin_of(folder: Path) -> Origin:
+def origin_of(folder: Path, study: str) -> Origin:
     """Origin of trials that are run here and now.
 
     Args:
         folder: The project's folder.
+        study: File of the study by its name in the project.
 
     Raises:
         EvidenceError: An input file cannot be read.
     """
-    return Origin(files=file_digests(folder, FOLDERS), revision=code_revision(), machine=machine())
+    return Origin(files=file_digests(folder, FOLDERS), revision=code_revision(), machine=machine(), study=study)
 
 
 class TrialWriter:
@@ -108,6 +111,7 @@ class TrialWriter:
             revision=origin.revision,
             machine=origin.machine,
             numerics=self._numerics(),
+            study=origin.study,
         )
         self._trials.append((trial.key, record, provenance))
         self._begin()

@@ -99,13 +99,14 @@ class DryRun:
         return self.trials - self.kept
 
 
-def dry_run(specs: Sequence[TrialSpec], store: EvidenceStore | None, *, share: bool = True) -> DryRun:
+def dry_run(specs: Sequence[TrialSpec], store: EvidenceStore | None, *, share: bool = True, study: str = "") -> DryRun:
     """List the results that a sweep would compute, with the causes, without computing anything.
 
     Args:
         specs: The trials.
         store: The evidence; None if there is none yet.
         share: Whether pieces would be shared; otherwise each trial makes its own.
+        study: File of the study by its name in the project; evidence of others is no earlier evidence of its trials.
 
     Raises:
         DefinitionError: A planning limit is longer than the search.
@@ -120,7 +121,7 @@ def dry_run(specs: Sequence[TrialSpec], store: EvidenceStore | None, *, share: b
         stored = store.has_pieces(digest for counts in uses.values() for digest in counts)
     groups: dict[tuple[tuple[Cause, ...], tuple[PieceKind, ...]], list[tuple[int, int]]] = {}
     for trial in missing:
-        causes = (Cause(reason=Reason.NEW),) if store is None else _causes(trial, store)
+        causes = (Cause(reason=Reason.NEW),) if store is None else _causes(trial, store, study)
         due = tuple(kind for kind, digest in trial.pieces.items() if digest not in stored)
         groups.setdefault((causes, due), []).append((trial.spec.variant, trial.spec.seed))
     return DryRun(
@@ -138,19 +139,29 @@ def _count(uses: Counter[str], stored: set[str], *, share: bool) -> PieceCount:
     return PieceCount(make=make, stored=len(uses.keys() & stored), uses=uses.total())
 
 
-def _causes(trial: Trial, store: EvidenceStore) -> tuple[Cause, ...]:
+def _causes(trial: Trial, store: EvidenceStore, study: str) -> tuple[Cause, ...]:
     failures = store.failures([trial.key, *trial.pieces.values()])
     if failures:
         return tuple(
             Cause(reason=Reason.FAILED, name=failure.what, then=f"{failure.kind.value}: {failure.detail}")
             for failure in failures.values()
         )
-    before = store.trials_of(trial.spec.variant, trial.spec.seed, trial.spec.fidelity)
+    of_number = store.trials_of(trial.spec.variant, trial.spec.seed, trial.spec.fidelity)
+    before = [stored for stored in of_number if _is_of(study, trial, stored, store)]
     if not before:
         return (Cause(reason=Reason.NEW),)
     candidates = [_differences(trial, stored, store) for stored in before]
     # Of several earlier studies the one that differs least shows what the user has just changed.
     return min(candidates, key=lambda causes: (Cause(reason=Reason.UNKNOWN) in causes, len(causes)))
+
+
+def _is_of(study: str, trial: Trial, stored: StoredTrial, store: EvidenceStore) -> bool:
+    """True if a stored trial of the same number was run for the study, as far as is recorded."""
+    if study and stored.provenance.study:
+        return stored.provenance.study == study
+    # Of a store of an earlier release the scene tells the studies of one project apart.
+    then = _inputs_of(stored, store)
+    return then is None or then["scene"]["id"] == trial.spec.scene.id
 
 
 def _differences(trial: Trial, stored: StoredTrial, store: EvidenceStore) -> tuple[Cause, ...]:

@@ -45,12 +45,12 @@ def _real():
     return importlib.import_module("xarm.wrapper").XArmAPI
 
 
-def _driver(api):
-    return XarmDriver("lite6.example", joints=3, open_api=lambda address: api)
+def _driver(api, **options):
+    return XarmDriver("lite6.example", joints=3, open_api=lambda address: api, **options)
 
 
-def _connected(api):
-    driver = _driver(api)
+def _connected(api, **options):
+    driver = _driver(api, **options)
     driver.connect()
     return driver
 
@@ -91,6 +91,52 @@ def test_every_call_fits_the_signature_of_the_sdk():
     assert {"set_servo_angle_j", "stop_lite6_gripper", "close_lite6_gripper", "set_state", "disconnect"} <= seen
     inspect.signature(_real().get_joint_states).bind(None, is_radian=True, num=2)
     assert {"connected", "axis", "error_code"} <= set(dir(_real()))
+
+
+class Outputs(Api):
+    """A controller whose tool outputs the code of the SDK sets."""
+
+    def __init__(self):
+        super().__init__()
+        self.outputs = {}
+
+    def __getattr__(self, name):
+        if name not in ("open_lite6_gripper", "close_lite6_gripper", "stop_lite6_gripper", "set_vacuum_gripper"):
+            return super().__getattr__(name)
+        api = _real()(do_not_open=True)
+        api._arm.set_tgpio_digital = lambda ionum, value, **_: self.outputs.update({ionum: value}) or 0
+        # Checks of the connection decorate the methods.
+        inner = inspect.unwrap(getattr(type(api._arm), name))
+        return lambda *arguments, **options: inner(api._arm, *arguments, **options)
+
+
+@pytest.mark.parametrize(
+    ("is_vacuum", "state", "outputs"),
+    [
+        (False, GripperState.CLOSED, {0: 0, 1: 1}),
+        (False, GripperState.OPEN, {0: 1, 1: 0}),
+        (True, GripperState.CLOSED, {0: 1, 1: 0}),
+        (True, GripperState.OPEN, {0: 0, 1: 1}),
+        (True, GripperState.NEUTRAL, {0: 0, 1: 0}),
+        (False, GripperState.NEUTRAL, {0: 0, 1: 0}),
+    ],
+)
+def test_a_vacuum_is_on_where_a_gripper_would_be_closed(is_vacuum, state, outputs):
+    """At the same two outputs the SDK's vacuum is on where its gripper is open."""
+    api = Outputs()
+    _connected(api, is_vacuum=is_vacuum).send(_point(state))
+    assert api.outputs == outputs
+
+
+def test_the_calls_of_a_vacuum_fit_the_signature_of_the_sdk():
+    api = Api()
+    driver = _connected(api, is_vacuum=True)
+    for state in (GripperState.OPEN, GripperState.CLOSED):
+        driver.send(_point(state))
+    calls = [call for call in api.calls if call[0] == "set_vacuum_gripper"]
+    assert [arguments for _, arguments, _ in calls] == [(False,), (True,)]
+    for name, arguments, options in calls:
+        inspect.signature(getattr(_real(), name)).bind(None, *arguments, **options)
 
 
 def test_an_error_on_the_way_is_a_fault():

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from rgss.assessment.staleness import outdated_trials
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore, PieceKind, Provenance, RunFailure, RunFailureKind
 from rgss.studies import input_names as naming
 from rgss.studies.expansion import trial_specs
 from rgss.studies.input_names import named_inputs
 from rgss.studies.project import load_project
+from rgss.sweep.evidence_writer import Origin
 from rgss.sweep.preview import Cause, PieceCount, Reason, dry_run
 from rgss.sweep.running import sweep
 from rgss.sweep.trial_keys import trials_of
 from rgss.trials.code.piece_versions import versions
+from tests.fixtures.shipped_project import REPOSITORY
 
 DOUBLES = Path(__file__).parent / "doubles"
 SPACE, SCENE, STUDY = "designs/grasping_system.yaml", "scenes/restaurant.yaml", "studies/pick_place.yaml"
@@ -45,6 +49,25 @@ def swept(shipped, store, quick):
 
 def made(found):
     return {kind.value: count.make for kind, count in found.pieces.items() if count.make}
+
+
+@pytest.mark.parametrize(("recorded", "asked"), [(STUDY, "studies/lite6_cubes.yaml"), ("", "studies/lite6_cubes.yaml")])
+def test_evidence_of_another_study_is_no_earlier_evidence(shipped, store, quick, recorded, asked):
+    """Designs of both have the numbers 1 to 72; an earlier release did not record the study, but the scene."""
+    origin = Origin(study=recorded)
+    specs = trial_specs(shipped, seeds=[1])
+    sweep(specs, store, jobs=0, on_finished=lambda _: None, maker=quick, origin=lambda: origin)
+    other = load_project(REPOSITORY, asked)
+    missing = trial_specs(other, seeds=[1])
+    assert {due.causes for due in dry_run(missing, store, study=asked).due} == {(Cause(reason=Reason.NEW),)}
+    assert outdated_trials(missing, store, study=asked) == {}
+    own = trial_specs(shipped.with_fidelity("contact"), seeds=[1])
+    changed = [replace(spec, scene=replace(spec.scene, gravity_m_s2=9.7)) for spec in own]
+    if recorded:
+        of_renamed = dry_run(changed, store, study="studies/renamed.yaml").due
+        assert {cause.reason for due in of_renamed for cause in due.causes} == {Reason.NEW}
+    of_own = dry_run(changed, store, study=STUDY).due
+    assert {cause.name for due in of_own for cause in due.causes} == {"scene.gravity_m_s2"}
 
 
 def test_without_evidence_everything_is_new(shipped):

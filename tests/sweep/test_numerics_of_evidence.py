@@ -40,6 +40,8 @@ def test_a_provenance_keeps_the_numerics_and_that_of_an_earlier_rgss_has_none():
     assert provenance_from_json(text) == origin
     earlier = '{"files":{},"inputs":{},"inputs_digest":"","machine":"m","revision":"","versions":{}}'
     assert provenance_from_json(earlier) == Provenance(inputs={}, versions={}, machine="m")
+    without_study = earlier.replace('"revision"', '"numerics":{},"revision"')
+    assert provenance_from_json(without_study) == Provenance(inputs={}, versions={}, machine="m")
     with pytest.raises(EvidenceError):
         provenance_from_json(earlier.replace('"machine":"m",', ""))
 

@@ -217,10 +217,11 @@ def test_a_trial_says_where_it_comes_from(specs_of, store, run, shipped):
 
 
 def test_the_origin_of_a_project_is_its_files_and_this_machine(folder):
-    origin = origin_of(folder)
+    origin = origin_of(folder, "studies/pick_place.yaml")
 
     assert {"studies/pick_place.yaml", "scenes/restaurant.yaml"} <= {*origin.files}
     assert origin.machine
+    assert origin.study == "studies/pick_place.yaml"
 
 
 def test_a_sweep_with_nothing_to_run_asks_for_no_origin(shipped, filled, record_of, run):

@@ -126,7 +126,8 @@ def _driver(
         return simulated, simulated
     address = options.address or ""
     if options.driver == "xarm":
-        return XarmDriver(address, joints=len(limits.names)), MonotonicClock()
+        is_vacuum = spec.gripper.suction is not None
+        return XarmDriver(address, joints=len(limits.names), is_vacuum=is_vacuum), MonotonicClock()
     return UrDriver(address, settings=UrSettings(gripper_output=options.gripper_output or 0)), MonotonicClock()
 
 

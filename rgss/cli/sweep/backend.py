@@ -40,18 +40,19 @@ class ExecutionBackend:
         """
         return self.pool.workers(maker)
 
-    def origin(self, folder: Path) -> Origin:
+    def origin(self, folder: Path, study: str) -> Origin:
         """Origin of the trials that this back end runs.
 
         Args:
             folder: The project's folder.
+            study: File of the study by its name in the project.
 
         Raises:
             EvidenceError: An input file cannot be read.
         """
         from rgss.sweep import origin_of
 
-        origin = origin_of(folder)
+        origin = origin_of(folder, study)
         return origin if self.machine is None else replace(origin, machine=self.machine)
 
 

@@ -109,7 +109,7 @@ class SweepRunner:
                 on_finished=on_finished,
                 on_state=progress.state,
                 share=self.share,
-                origin=lambda: self.backend.origin(self.project.folder),
+                origin=lambda: self.backend.origin(self.project.folder, self.project.study.label),
                 workers_for=self.backend.workers,
             )
         return FinishedSweep(trials=len(specs), tally=tally, result=result)

@@ -192,7 +192,7 @@ def _runner(
                 jobs=jobs,
                 on_finished=on_finished,
                 on_state=progress.state,
-                origin=lambda: origin_of(project.folder),
+                origin=lambda: origin_of(project.folder, project.study.label),
             )
         lost.extend(result.lost)
 

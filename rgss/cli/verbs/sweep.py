@@ -143,7 +143,7 @@ def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[D
                 *screening_specs(project, variants=variants),
                 *surviving_specs(project, screened, variants=variants),
             )
-        found = dry_run(specs, store, share=not options.no_share)
+        found = dry_run(specs, store, share=not options.no_share, study=project.study.label)
     if options.json:
         print_json(dry_run_as_json(found, label))
     else:

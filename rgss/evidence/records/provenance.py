@@ -28,6 +28,7 @@ class Provenance:
         revision: Revision of the code in version control; empty if unknown.
         machine: System, processor and Python version; empty if unknown.
         numerics: Numerics of the process, part by part; empty if not recorded.
+        study: File of the study for which it was run first, by its name in the project; empty if not recorded.
     """
 
     inputs: Mapping[str, str]
@@ -37,13 +38,14 @@ class Provenance:
     revision: str = ""
     machine: str = ""
     numerics: Numerics = field(default_factory=dict)
+    study: str = ""
 
 
 _FIRST_FIELDS = {"inputs", "versions"}
 """Keys of a provenance of schema 1."""
 
 _LATER_FIELDS: Mapping[str, object] = MappingProxyType(
-    {"inputs_digest": "", "files": {}, "revision": "", "machine": "", "numerics": {}}
+    {"inputs_digest": "", "files": {}, "revision": "", "machine": "", "numerics": {}, "study": ""}
 )
 """Keys added by later schemas, in order, with their defaults."""
 
@@ -69,7 +71,8 @@ def provenance_from_json(text: str) -> Provenance:
         EvidenceError: The text is not a provenance.
     """
     data = plain_json(text, "provenance")
-    known_sets = (_FIRST_FIELDS, {*_FIRST_FIELDS, *_LATER_FIELDS} - {"numerics"})
+    every = {*_FIRST_FIELDS, *_LATER_FIELDS}
+    known_sets = (_FIRST_FIELDS, every - {"numerics", "study"}, every - {"study"})
     if isinstance(data, dict) and data.keys() in known_sets:
         data = {**_LATER_FIELDS, **data}
     return read_plain(data, Provenance, "provenance")

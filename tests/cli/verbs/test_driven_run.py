@@ -21,6 +21,7 @@ from rgss.drivers import (
     SimulatedDriver,
     StreamOutcome,
     StreamResult,
+    XarmDriver,
 )
 from rgss.drivers.streaming import Sample
 from rgss.errors import DefinitionError, MotionError
@@ -65,6 +66,23 @@ def test_a_real_robot_is_only_rehearsed(rgss, untouched, driver):
     as_json = rgss("run", 65, "--nominal", "--driver", driver, "--json", "--project", untouched).document
     assert as_json["outcome"] is None
     assert len(as_json["start_rad"]) == 6
+
+
+@pytest.mark.engine
+@pytest.mark.parametrize(("variant", "is_vacuum"), [(70, True), (30, False)])
+def test_the_driver_knows_the_kind_of_gripper(rgss, monkeypatch, variant, is_vacuum):
+    made = []
+
+    def note(address, **options):
+        made.append(options)
+        return XarmDriver(address, **options)
+
+    monkeypatch.setattr("rgss.drivers.XarmDriver", note)
+    told = rgss(
+        "run", variant, "--study", "studies/lite6_cubes.yaml", "--nominal", "--driver", "xarm", "--project", REPOSITORY
+    )
+    assert (told.status, told.errors) == (0, "")
+    assert made == [{"joints": 6, "is_vacuum": is_vacuum}]
 
 
 @pytest.mark.parametrize(
