@@ -65,6 +65,31 @@ def test_trrt_with_a_cost_grows_another_tree_than_rrt(spec_of, objective):
         assert costly[phase].checks != rrt[phase].checks
 
 
+@pytest.mark.parametrize("temperature", [100.0, 1.0])
+def test_trrt_avoids_cost_from_a_temperature_at_which_transitions_are_rejected(spec_of, temperature):
+    """Of paths that both planners find, TRRT's has less increase of the cost, unless it is RRT's."""
+    parameters = (("goal_bias", 0.2), ("init_temperature", temperature), ("range", 1.0))
+    trrt = PlannerSettings(algorithm="TRRT", parameters=parameters, objective=Objective.CLEARANCE)
+    others, increases = 0, []
+    for seed in (1, 2, 3, 4):
+        rrt = with_planner(spec_of(seed=seed), "RRT")
+        found = [searches_of(spec).moves for spec in (rrt, replace(rrt, planner_settings=trrt))]
+        cell = cell_of(rrt)
+        for phase in PLANNED_PHASES:
+            paths = [moves[phase].path_rad for moves in found]
+            if any(path is None for path in paths):
+                continue
+            others += paths[0].tobytes() != paths[1].tobytes()
+            cost = state_cost(cell, phase, Objective.CLEARANCE)
+            increases.append([np.maximum(np.diff([cost(q) for q in path]), 0.0).sum() for path in paths])
+    without, with_cost = np.mean(increases, axis=0)
+    if temperature == 1.0:
+        assert others >= 3
+        assert with_cost < 0.95 * without
+    else:
+        assert others <= 2
+
+
 def test_a_plan_with_repairs_is_read_back(spec_of):
     plan = plan_of(with_planner(spec_of(), "RRTConnect"))
     assert all(move.outcome is PlanOutcome.SOLVED and move.verification_checks > 0 for move in plan.moves.values())
