@@ -11,6 +11,7 @@ import codecs
 import stat
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,9 @@ from rgss.findings import Finding, Severity
 
 LARGEST_FILE_BYTES = 8 * 1024 * 1024
 
+_LONGEST_KEPT = 256 * 1024
+"""Characters of a text up to which its document is kept for the next time."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Document:
@@ -29,7 +33,8 @@ class Document:
 
     Attributes:
         label: The file's name in messages, relative to the project.
-        data: Mappings, lists, texts, numbers, truth values and None.
+        data: Mappings, lists, texts, numbers, truth values and None; shared by all who read the same text, so never
+        changed.
         values: Position (line, column; from 1) of the value at each location.
         keys: Position of the key at each location within a mapping.
     """
@@ -86,7 +91,14 @@ def read_document(path: Path, *, label: str | None = None) -> Document:
         with every problem found.
     """
     name = label if label is not None else str(path)
-    composer = Composer(_read_text(path, name), name)
+    text = _read_text(path, name)
+    return _document(text, name) if len(text) <= _LONGEST_KEPT else _document.__wrapped__(text, name)
+
+
+@lru_cache(maxsize=128)
+def _document(text: str, name: str) -> Document:
+    """Document of a text; several studies of one project share most files, and a verb may read them more than once."""
+    composer = Composer(text, name)
     data, places = composer.compose()
     return Document(
         label=name,

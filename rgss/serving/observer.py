@@ -15,6 +15,7 @@ from rgss.errors import DocumentError, RgssError
 from rgss.evidence import EvidenceStore
 from rgss.evidence.store import observed, state_of
 from rgss.reports.live import live_study_document
+from rgss.serving.ending_thread import EndingThread
 from rgss.serving.pace import Pace
 from rgss.serving.replays import can_replay
 from rgss.studies import FOLDERS, Project
@@ -36,6 +37,7 @@ class StudyObserver:
     def __init__(self, folder: Path, load: Callable[[], Project], *, evidence: Path, label: str) -> None:
         self._folder, self._load, self._evidence, self._label = folder, load, evidence, label
         self._lock, self._wanted = threading.Lock(), threading.Event()
+        self._thread: EndingThread | None = None
         self._project: Project | None = None
         self._files: object = None
         self._seen: object = None
@@ -49,7 +51,14 @@ class StudyObserver:
 
     def start(self) -> None:
         """Start the thread, which ends with the process."""
-        threading.Thread(target=self._observe, name="study-observer", daemon=True).start()
+        self._thread = EndingThread(self._observe, name="study-observer")
+        self._thread.start()
+
+    def end(self) -> None:
+        """End the thread, if it was started."""
+        if self._thread is not None:
+            self._wanted.set()
+            self._thread.end()
 
     def project(self) -> Project:
         """The project as its files were at the last look.

@@ -10,6 +10,7 @@ from concurrent.futures import Future
 from rgss.engines import missing_engines
 from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity
+from rgss.serving.ending_thread import EndingThread
 from rgss.studies import Project, trial_specs
 
 MOST_KEPT = 6
@@ -38,6 +39,7 @@ class TrialReplays:
         self._project = project
         self._lock, self._making = threading.Lock(), threading.Lock()
         self._of: Project | None = None
+        self._threads: list[EndingThread] = []
         self._pages: OrderedDict[tuple[int, int], Future[str]] = OrderedDict()
 
     def page(self, variant: int, seed: int) -> Future[str]:
@@ -63,13 +65,20 @@ class TrialReplays:
                 found = self._pages[key] = Future()
                 # Whoever waits may leave; the page is made all the same.
                 found.set_running_or_notify_cancel()
-                threading.Thread(
-                    target=self._make, args=(found, project, variant, seed), name="trial-replay", daemon=True
-                ).start()
+                thread = EndingThread(self._make, (found, project, variant, seed), name="trial-replay")
+                self._threads = [*(each for each in self._threads if each.is_alive()), thread]
+                thread.start()
             self._pages.move_to_end(key)
             while len(self._pages) > MOST_KEPT:
                 self._pages.popitem(last=False)
         return found
+
+    def end(self) -> None:
+        """End the threads that make pages."""
+        with self._lock:
+            threads = self._threads
+        for each in threads:
+            each.end()
 
     def _make(self, made: Future[str], project: Project, variant: int, seed: int) -> None:
         with self._making:

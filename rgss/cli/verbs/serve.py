@@ -42,9 +42,14 @@ def run(options: argparse.Namespace) -> int:
     page = live_page_to_html(project.study.id)
     listening = listen(options.port)
     host, port = listening.getsockname()
-    app = study_application(observer, page, TrialReplays(observer.project))
+    replays = TrialReplays(observer.project)
+    app = study_application(observer, page, replays)
     observer.start()
-    serve(app, listening, ready=lambda: _print_address(options, f"http://{host}:{port}/"))
+    try:
+        serve(app, listening, ready=lambda: _print_address(options, f"http://{host}:{port}/"))
+    finally:
+        observer.end()
+        replays.end()
     return CLEAN
 
 
