@@ -14,6 +14,8 @@ _DIGEST = re.compile(r"[0-9a-f]{8,64}")
 ABSENT = "–"
 """The value of an input that is not there."""
 
+_NOTHING = "None"
+
 
 class InputKind(str, Enum):
     """Kinds of input, by where their values come from."""
@@ -67,7 +69,8 @@ def value_changes(baseline: Baseline, now: Inputs) -> Iterator[InputChange]:
         then, present = baseline.inputs_of(run, variant), now[run][variant]
         for name in sorted(then.keys() | present.keys()):
             was, is_now = then.get(name, ABSENT), present.get(name, ABSENT)
-            if was != is_now:
+            # A later release may have more inputs, which are not used where they are None.
+            if was != is_now and {was, is_now} != {ABSENT, _NOTHING}:
                 found.setdefault((name, was, is_now), []).append((run, variant))
     for (name, was, is_now), places in found.items():
         where = "" if len(places) == len(known) else _where(places)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 ABSENT = "–"
+_NOTHING = "None"
 _TITLES = ("phase", "subtask", "id", "name")
 
 
@@ -28,6 +29,8 @@ class Change:
 def changes_between(then: Any, now: Any) -> tuple[Change, ...]:
     """Every value that differs, by its dotted name, in the order of the values, and then every list in another order.
 
+    A value that is None is the same as one that is absent.
+
     Args:
         then: Plain data: mappings, lists, texts, numbers.
         now: The same as it is now.
@@ -36,7 +39,8 @@ def changes_between(then: Any, now: Any) -> tuple[Change, ...]:
     values = (
         Change(name=name, then=before.get(name, ABSENT), now=after.get(name, ABSENT))
         for name in dict.fromkeys([*before, *after])
-        if before.get(name) != after.get(name)
+        # A later release may have more inputs, which are not used where they are None.
+        if before.get(name, _NOTHING) != after.get(name, _NOTHING)
     )
     return (*values, *_reordered(then, now, ""))
 

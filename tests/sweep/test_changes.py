@@ -19,6 +19,9 @@ from rgss.sweep.input_changes import Change, changes_between
         ({"a": 1, "b": 2}, {"b": 2, "c": 3}, [("a", "1", "–"), ("c", "–", "3")]),
         ({"a": {}}, {"a": {"b": 1}}, [("a", "{}", "–"), ("a.b", "–", "1")]),
         ({"a": []}, {"a": None}, [("a", "[]", "None")]),
+        ({"a": 1}, {"a": 1, "b": None, "c": {"d": None}}, []),
+        ({"a": 1, "b": None}, {"a": 1}, []),
+        ({"a": 1, "b": None}, {"a": 1, "b": "None"}, [("b", "None", "'None'")]),
         (
             {"bodies": [{"id": "table", "friction": 0.5}, {"id": "floor", "friction": 0.5}]},
             {"bodies": [{"id": "table", "friction": 0.5}, {"id": "floor", "friction": 0.6}]},
