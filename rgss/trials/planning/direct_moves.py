@@ -13,9 +13,11 @@ from rgss.kinematics import CollisionModel, InverseKinematics, LineBreak, follow
 from rgss.motion import ClockKind, PlanningClock, segment_states
 from rgss.scenes import Pose
 from rgss.tasks import MoveKind
+from rgss.trials.planning.goal_reasons import excessive_tilt_rad
 from rgss.trials.reference import Array
 
 _SAME_CONFIGURATION_RAD = 1e-6
+_AT_CLEARANCE_M = 1e-6
 _NAMES = {MoveKind.STRAIGHT: "the straight line of the tool", MoveKind.JOINT: "the straight line of the joints"}
 _BREAKS = {
     LineBreak.UNREACHABLE: "the arm does not reach the tool's pose within the ranges of its joints",
@@ -153,14 +155,17 @@ def _states(corners: Array, resolution_rad: float) -> Array:
 def _obstacle(model: CollisionModel, q: Array) -> str:
     """Reason why a configuration is invalid: two bodies, the tilt of the carried object, or a joint range."""
     nearest = model.nearest_pair(q)
-    if nearest is not None and nearest.room_m < 0.0:
+    if nearest is None or nearest.room_m >= 0.0:
+        tilt = excessive_tilt_rad(model, q)
+        if tilt is not None:
+            return f"the object would be tilted by {math.degrees(tilt):.0f}°"
+    # Rounding may put the distance of a pair that is exactly at the clearance above it.
+    if nearest is not None and nearest.room_m < _AT_CLEARANCE_M:
         if nearest.distance_m <= 0.0:
             return f"{nearest.first} touches {nearest.second}, {-nearest.distance_m * 1e3:.1f} mm deep"
-        distance, clearance = nearest.distance_m * 1e3, nearest.clearance_m * 1e3
-        return f"{nearest.first} is {distance:.1f} mm from {nearest.second}, {clearance:g} mm must be kept"
-    tilt = model.carried_tilt_rad(q)
-    if tilt is not None and tilt > (model.situation.largest_tilt_rad or math.inf):
-        return f"the object would be tilted by {math.degrees(tilt):.0f}°"
+        distance, clearance = f"{nearest.distance_m * 1e3:.1f}", nearest.clearance_m * 1e3
+        more = "more than " if distance == f"{clearance:.1f}" else ""
+        return f"{nearest.first} is {distance} mm from {nearest.second}, {more}{clearance:g} mm must be kept"
     return "a joint leaves its range"
 
 

@@ -71,10 +71,9 @@ class GoalReason:
         if self.obstacle is Obstacle.COLLISION:
             return f"collision of {first} with {second}, {_millimetres(-self.distance_m)} deep, {best}"
         if self.obstacle is Obstacle.CLEARANCE:
-            return (
-                f"clearance: {first} is {_millimetres(self.distance_m)} from {second}, "
-                f"{_millimetres(self.limit_m)} must be kept, {best}"
-            )
+            distance, limit = _millimetres(self.distance_m), _millimetres(self.limit_m)
+            more = "more than " if distance == limit else ""
+            return f"clearance: {first} is {distance} from {second}, {more}{limit} must be kept, {best}"
         return f"the object would be tilted by {math.degrees(self.angle_rad):.0f}°, {best}"
 
 
@@ -92,18 +91,20 @@ def infeasibility_reason(
     if not candidates:
         return _unreached(inverse, pose)
     best: NearestPair | None = None
-    tilts = []
+    tilts: list[float] = []
     for q in candidates:
         pairs = [pair for pair in (model.nearest_pair(q) for model in models) if pair is not None]
         worst = min(pairs, key=lambda pair: pair.room_m, default=None)
-        tilts += [tilt for tilt in (model.carried_tilt_rad(q) for model in models) if tilt is not None]
+        if worst is None or worst.room_m > 0.0:
+            tilts += [tilt for tilt in (excessive_tilt_rad(model, q) for model in models) if tilt is not None]
         # Of equally near configurations the first, so that rounding does not decide.
         if worst is not None and (best is None or worst.room_m > best.room_m + 1e-9):
             best = worst
-    if best is None or best.room_m > 0.0:
+    if tilts or best is None:
         return GoalReason(
             obstacle=Obstacle.TILT, configurations=len(candidates), angle_rad=min(tilts, default=math.nan)
         )
+    # A pair exactly at the clearance, whose distance rounding may put above it, violates it.
     return GoalReason(
         obstacle=Obstacle.COLLISION if best.distance_m <= 0.0 else Obstacle.CLEARANCE,
         configurations=len(candidates),
@@ -111,6 +112,17 @@ def infeasibility_reason(
         distance_m=best.distance_m,
         limit_m=best.clearance_m,
     )
+
+
+def excessive_tilt_rad(model: CollisionModel, q: Array) -> float | None:
+    """Tilt in rad of the carried object in a configuration if it exceeds the limit of the move, else None.
+
+    Args:
+        model: The collision model of the move.
+        q: Joint positions, shape (n,).
+    """
+    tilt, limit = model.carried_tilt_rad(q), model.situation.largest_tilt_rad
+    return tilt if tilt is not None and limit is not None and tilt > limit else None
 
 
 def _unreached(inverse: InverseKinematics, pose: Pose) -> GoalReason:
