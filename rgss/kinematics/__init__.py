@@ -11,3 +11,4 @@ from rgss.kinematics.dynamics import ArmDynamics, Load, gripper_loads, workpiece
 from rgss.kinematics.inverse import InverseKinematics, inverse_kinematics
 from rgss.kinematics.link_contacts import lasting_contacts, touching_links
 from rgss.kinematics.overlap_search import Overlap, Solid, overlaps
+from rgss.kinematics.position_gap import position_gap_m

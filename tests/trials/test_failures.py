@@ -73,7 +73,7 @@ TRIALS = {
         (
             Failure.INVALID_START,
             Phase.MOVE_TO_GRASP,
-            r"no valid configuration for grasp_approach: out of reach: 3\.\d\d m from the first axis .*, reach .*",
+            r"no valid configuration for grasp_approach: out of reach: 3\.\d\d m from the origin of the .*, reach .*",
         ),
     ),
     "a cup inside another body": (

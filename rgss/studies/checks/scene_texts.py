@@ -35,7 +35,9 @@ def remedy(problem: SceneProblem) -> str:
     """Hint for a waypoint that the arm does not serve."""
     from rgss.trials import Obstacle
 
-    if problem.reason is None or problem.reason.obstacle in (Obstacle.OUT_OF_REACH, Obstacle.ORIENTATION):
+    if problem.reason is not None and problem.reason.obstacle is Obstacle.ORIENTATION:
+        return "move it, turn the tool otherwise there, or change the task's heights"
+    if problem.reason is None or problem.reason.obstacle is Obstacle.OUT_OF_REACH:
         return "move it nearer to the robot, or lower the task's heights"
     if problem.reason.obstacle is Obstacle.JOINT_RANGE:
         return "widen the joint's range in the robot's file, or turn the grasp or the place about the vertical"

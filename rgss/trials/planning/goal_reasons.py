@@ -10,10 +10,12 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.kinematics import CollisionModel, InverseKinematics, NearestPair
+from rgss.kinematics import CollisionModel, InverseKinematics, NearestPair, position_gap_m
 from rgss.scenes import JointKind, Pose
 
 Array = NDArray[np.float64]
+
+_AT_POSITION_M = 1e-3
 
 
 class Obstacle(str, Enum):
@@ -35,9 +37,11 @@ class GoalReason:
         obstacle: Kind of the obstacle.
         configurations: Number of configurations that reach the pose within the joint ranges.
         pair: The two bodies of a collision or a clearance; None for other obstacles.
-        distance_m: Distance of the pose from the first axis, or of the two bodies (negative for a penetration); NaN for
-        other obstacles.
-        limit_m: The arm's reach, or the required clearance; NaN for other obstacles.
+        distance_m: Distance of the pose from the origin of the first joint, or of the two bodies (negative for a
+        penetration); NaN for other obstacles.
+        limit_m: The arm's reach from there, or the required clearance; NaN for other obstacles.
+        gap_m: Least distance of the tool centre from the position with any orientation; NaN unless no configuration has
+        position and orientation within the reach.
         joint: The joint out of its range; empty for other obstacles.
         angle_rad: Its excess, or the tilt of the carried object; NaN for other obstacles.
         is_slide: True if that joint is prismatic; the excess is then `distance_m`.
@@ -51,20 +55,20 @@ class GoalReason:
     joint: str = ""
     angle_rad: float = math.nan
     is_slide: bool = False
+    gap_m: float = math.nan
 
     def __str__(self) -> str:
         best = f"in the best of {self.configurations} configurations" if self.configurations > 1 else "in the only one"
         first, second = self.pair or ("", "")
         if self.obstacle is Obstacle.OUT_OF_REACH:
-            return (
-                f"out of reach: {self.distance_m:.2f} m from the first axis of the arm, reach {self.limit_m:.2f} m "
-                "with the gripper"
-            )
+            return f"out of reach: {self._from_first_joint}"
         if self.obstacle is Obstacle.ORIENTATION:
-            return (
-                f"no configuration has this position and orientation, {self.distance_m:.2f} m from the first axis of "
-                f"the arm, whose reach is {self.limit_m:.2f} m with the gripper stretched out"
+            with_any = (
+                "the tool comes to this position in other orientations alone"
+                if self.gap_m < _AT_POSITION_M
+                else f"the tool comes no nearer to this position than {_millimetres(self.gap_m)} in any orientation"
             )
+            return f"no configuration has this position and orientation: {with_any}, {self._from_first_joint}"
         if self.obstacle is Obstacle.JOINT_RANGE:
             beyond = _millimetres(self.distance_m) if self.is_slide else f"{math.degrees(self.angle_rad):.1f}°"
             return f"joint range: {self.joint} would be {beyond} outside its range at best"
@@ -75,6 +79,14 @@ class GoalReason:
             more = "more than " if distance == limit else ""
             return f"clearance: {first} is {distance} from {second}, {more}{limit} must be kept, {best}"
         return f"the object would be tilted by {math.degrees(self.angle_rad):.0f}°, {best}"
+
+    @property
+    def _from_first_joint(self) -> str:
+        # A joint's frame may be anywhere on its axis: the origin is that in the URDF.
+        return (
+            f"{self.distance_m:.2f} m from the origin of the arm's first joint, reach {self.limit_m:.2f} m from there "
+            "with the gripper"
+        )
 
 
 def infeasibility_reason(
@@ -136,8 +148,10 @@ def _unreached(inverse: InverseKinematics, pose: Pose) -> GoalReason:
         return GoalReason(obstacle=Obstacle.JOINT_RANGE, joint=first.joint, angle_rad=first.beyond_rad)
     distance = math.dist(pose.position_m, inverse.arm.first_axis_m)
     reach = inverse.arm.reach_m
-    obstacle = Obstacle.OUT_OF_REACH if distance > reach else Obstacle.ORIENTATION
-    return GoalReason(obstacle=obstacle, distance_m=distance, limit_m=reach)
+    if distance > reach:
+        return GoalReason(obstacle=Obstacle.OUT_OF_REACH, distance_m=distance, limit_m=reach)
+    gap = position_gap_m(inverse.arm, pose.position_m)
+    return GoalReason(obstacle=Obstacle.ORIENTATION, distance_m=distance, limit_m=reach, gap_m=gap)
 
 
 def _millimetres(metres: float) -> str:

@@ -205,8 +205,8 @@ def test_a_waypoint_out_of_reach(check_with):
     assert status == 1
     (one,) = findings
     assert re.fullmatch(
-        r"no configuration of the arm serves grasp_approach: out of reach: 2\.\d\d m from the first axis of the arm, "
-        r"reach 1\.\d\d m with the gripper",
+        r"no configuration of the arm serves grasp_approach: out of reach: 2\.\d\d m from the origin of the arm's "
+        r"first joint, reach 1\.\d\d m from there with the gripper",
         one["message"],
     )
     assert "nearer to the robot" in one["hint"]

@@ -8,10 +8,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from rgss.kinematics import NearestPair
+from rgss.kinematics import Arm, NearestPair
 from rgss.scenes import Pose
+from rgss.studies.checks.scene_texts import remedy
 from rgss.trials.planning.direct_moves import _obstacle
 from rgss.trials.planning.goal_reasons import Obstacle, infeasibility_reason
+from tests.fixtures.serial_arms import SCARA, serial_robot
 
 LIMIT_RAD = math.radians(45.0)
 CLEARANCE_M = 0.008
@@ -68,3 +70,32 @@ def test_a_smaller_distance_is_named_with_the_clearance():
 )
 def test_the_state_that_obstructs_a_direct_move_is_named_with_its_cause(distance_m, tilt_deg, words):
     assert _obstacle(StatedModel(), (distance_m, tilt_deg)) == words
+
+
+# The tool of a scara points down, 0.6 m from its first axis at most, and at least where its elbow is at 2.9 rad.
+NEAREST_M = math.hypot(0.35 + 0.25 * math.cos(2.9), 0.25 * math.sin(2.9))
+
+
+@pytest.mark.parametrize(
+    ("x_m", "words", "hint"),
+    [
+        (0.5, "the tool comes to this position in other orientations alone, ", "turn the tool otherwise there"),
+        (
+            0.05,
+            f"the tool comes no nearer to this position than {(NEAREST_M - 0.05) * 1e3:.0f} mm in any orientation, ",
+            "turn the tool otherwise there",
+        ),
+        (1.5, "out of reach: ", "move it nearer to the robot"),
+    ],
+)
+def test_a_pose_that_nothing_reaches_is_named_with_what_is_measured(x_m, words, hint):
+    arm = Arm(serial_robot(SCARA, base=Pose()), Pose())
+    x, y, _ = arm.first_axis_m
+    pose = Pose(position_m=(x + x_m, y, float(arm.tool_position(arm.robot.home_rad)[0][2])))
+    from_m = math.dist(pose.position_m, arm.first_axis_m)
+
+    reason = infeasibility_reason(SimpleNamespace(arm=arm, excess_of_ranges=lambda pose: ()), [], pose, [])
+
+    told = f"{words}{from_m:.2f} m from the origin of the arm's first joint, reach {arm.reach_m:.2f} m from there "
+    assert f"{told}with the gripper" in str(reason)
+    assert hint in remedy(SimpleNamespace(reason=reason))
