@@ -6,17 +6,21 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rgss.evidence import TrialRecord
+    from rgss.scenes import Calibration
     from rgss.studies import Project
+    from rgss.trials import JointController
 
 
-def failure_hint(record: TrialRecord, project: Project) -> str:
+def failure_hint(record: TrialRecord, project: Project, controller: JointController) -> str:
     """What to change after a failure, with the files; empty for failures whose detail says it.
 
     Args:
         record: The record of a trial that failed.
         project: The project.
+        controller: The controller of the joints in the move that failed.
     """
     from rgss.evidence import Failure
+    from rgss.trials import ControlMode
 
     study = project.study
     if record.failure is Failure.PLANNING_LIMIT:
@@ -31,6 +35,8 @@ def failure_hint(record: TrialRecord, project: Project) -> str:
                 "accelerations in the robot's file; check the joints' torques there and the masses with rgss robot FILE"
             )
         if "after the move" in record.failure_detail:
+            if controller.mode is ControlMode.CALIBRATED and controller.calibration is not None:
+                return _settling_hint(controller, controller.calibration, record.failure_detail, study.label)
             return (
                 f"state a larger control.position_tolerance or control.settling_limit in {study.label}, or stiffer "
                 "gains there; an object heavier than the controller's model leaves such an error"
@@ -40,3 +46,27 @@ def failure_hint(record: TrialRecord, project: Project) -> str:
             f"robot.tool_speed in {study.design_space}), or state a larger control.tracking_limit in {study.label}"
         )
     return ""
+
+
+def _settling_hint(controller: JointController, calibration: Calibration, detail: str, label: str) -> str:
+    """Hint where a joint of calibrated servos, whose gains are fitted, ends a move outside the tolerance.
+
+    A joint at rest under position control begins to move where k_p e exceeds its Coulomb friction c, one under velocity
+    control where k_v k e does.
+    """
+    from rgss.scenes import ServoControl
+
+    joint, hint = detail.split(" was ", 1)[0], f"state a larger control.position_tolerance in {label}"
+    servo = dict(calibration.servos)[joint]
+    stiffness, remedy = servo.position_gain_hz2, ""
+    if calibration.control is ServoControl.VELOCITY:
+        own = next((gains.position_gain_1_s for gains in controller.joints if gains.joint == joint), None)
+        stiffness = servo.velocity_gain_hz * (controller.position_gain_1_s if own is None else own)
+        remedy = ", or a larger control.position_gain"
+    if servo.coulomb_rad_s2 == 0.0 or stiffness == 0.0:
+        return f"{hint}{remedy}, or a larger control.settling_limit; the servos' own gains are those of the calibration"
+    unit = "m" if " m from its target" in detail else "rad"
+    return (
+        f"{hint}{remedy}: by the calibration, static friction holds {joint} up to "
+        f"{servo.coulomb_rad_s2 / stiffness:.2g} {unit} from its target, and the servos' own gains are fixed"
+    )

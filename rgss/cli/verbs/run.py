@@ -11,7 +11,7 @@ from rgss.cli.options import STUDY_HELP, add_fidelity, add_nominal, chosen_proje
 from rgss.cli.pictures import add_pictures, made_pictures, ordered_pictures, other_trial, seen_trial
 
 if TYPE_CHECKING:
-    from rgss.trials import DrawnValue
+    from rgss.trials import DrawnValue, JointController, TrialSpec
 
 HELP = "run one trial and show it phase by phase"
 EXAMPLE = "rgss run 2 --seed 3"
@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
     controller = spec.settings.controller
     acts = spec.fidelity is Fidelity.DYNAMIC or (spec.fidelity is Fidelity.CONTACT and controller.in_contact)
     control = controller.origin if acts else ""
-    hint = "" if record.success else failure_hint(record, project)
+    hint = "" if record.success else failure_hint(record, project, _controller_of(spec, record.failed_phase))
     if options.json:
         shown = {**_as_json(record, digest, hint), **drawn_as_json(record.workload, drawn)}
         print_json({**shown, "control": control} if control else shown)
@@ -82,6 +82,15 @@ def run(options: argparse.Namespace) -> int:
         if not options.json:
             print(*lines, sep="\n")
     return CLEAN if record.success else FINDINGS
+
+
+def _controller_of(spec: TrialSpec, phase: str | None) -> JointController:
+    """Controller of the joints in a phase, whose step may state its own."""
+    from rgss.trials import stated_in_step
+
+    controller = spec.settings.controller
+    own = next((step.control for step in spec.task.steps if step.name == phase), None)
+    return controller if own is None else stated_in_step(controller, own)
 
 
 def _as_json(record: Any, digest: str, hint: str) -> dict[str, Any]:
