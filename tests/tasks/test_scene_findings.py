@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rgss.scenes import NamedPlace, load_scene
+from rgss.scenes import GraspCandidates, NamedPlace, load_scene
 from rgss.tasks import load_task, task_findings
 
 ROOT = Path(__file__).parents[2]
@@ -132,3 +132,28 @@ def test_checks_that_agree_with_the_steps_before_them(tmp_path, scene):
     again = "  - move: {name: again, to: grasp}\n"
     steps = GRASP + before + again + CARRY.removeprefix(GRASP) + carried + "  - release: {}\n" + after
     assert findings_of(tmp_path, scene, "steps:\n" + steps) == []
+
+
+@pytest.mark.parametrize(
+    ("steps", "kind"),
+    [
+        ("  - move: {configuration: there, name: reach}\n  - grip: {}\n", "configuration"),
+        (
+            GRASP + "  - move: {pose: {position: [1 m, 0 m, 1 m]}, name: reach}\n  - grip: {}\n",
+            "pose",
+        ),
+    ],
+)
+def test_a_grasp_is_not_chosen_where_the_task_determines_it(tmp_path, scene, steps, kind):
+    text = f"configurations: {{there: [0 rad, 0 rad, 0 rad, 0 rad, 0 rad, 0 rad]}}\nsteps:\n{steps}"
+    chosen = replace(scene, task=replace(scene.task, candidates=GraspCandidates()))
+
+    (finding,) = findings_of(tmp_path, chosen, text)
+
+    assert finding == (
+        f"task.yaml:{len(text.splitlines()) + 1}:11: error: 'grip' grips at the {kind} of 'reach', and the grasp is to "
+        "be chosen among candidates (state the grasp in the scene ('grasp: as_stated'), or move to grasp before it) "
+        "[task.unused-grasp]"
+    )
+    assert findings_of(tmp_path, scene, text) == []
+    assert findings_of(tmp_path, chosen, "steps:\n" + CARRY) == []

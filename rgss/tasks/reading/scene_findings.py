@@ -1,4 +1,4 @@
-"""Findings about a task in a scene: unknown objects and places, configurations out of range."""
+"""Findings about a task in a scene: unknown objects and places, configurations out of range, contradictions."""
 
 from __future__ import annotations
 
@@ -28,6 +28,7 @@ def task_findings(loaded: LoadedTask, scene: Scene) -> tuple[Finding, ...]:
         if isinstance(step, MoveStep):
             found += _of_joints(loaded, scene, step.target)
     found += _of_held(loaded, scene)
+    found += _of_chosen_grasps(loaded, scene)
     return tuple(sorted(set(found)))
 
 
@@ -47,6 +48,23 @@ def _of_held(loaded: LoadedTask, scene: Scene) -> Iterator[Finding]:
             held, gripped = step.object or scene.workpiece.id, step.name
         elif step.hand is HandAction.OPENS:
             held = ""
+
+
+def _of_chosen_grasps(loaded: LoadedTask, scene: Scene) -> Iterator[Finding]:
+    """Grips where a move to a configuration or a pose determines the grasp, though the scene lets it be chosen."""
+    if scene.task.candidates is None:
+        return
+    last: MoveStep | None = None
+    for step, at in zip(loaded.program.steps, loaded.places, strict=True):
+        if isinstance(step, MoveStep):
+            last = step
+        elif step.hand is HandAction.CLOSES and last is not None and not last.target.waypoint:
+            kind = "configuration" if last.target.configuration_rad else "pose"
+            message = (
+                f"{step.name!r} grips at the {kind} of {last.name!r}, and the grasp is to be chosen among candidates"
+            )
+            hint = "state the grasp in the scene ('grasp: as_stated'), or move to grasp before it"
+            yield loaded.document.finding("task.unused-grasp", message, at, hint=hint)
 
 
 def _of_mentions(loaded: LoadedTask, scene: Scene, mentions: Iterable[Mention], at: Location) -> Iterator[Finding]:
