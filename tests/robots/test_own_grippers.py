@@ -304,10 +304,38 @@ ONE_FINGER = re.sub(
     r"  <link name=\"right\">(?s:.*?)</link>\n|  <joint name=\"right_joint\"(?s:.*?)</joint>\n", "", JAWS
 )
 
+PALM = (
+    '<link name="palm"><inertial><mass value="0.4"/>'
+    '<inertia ixx="5e-4" iyy="5e-4" izz="6e-4" ixy="0" ixz="0" iyz="0"/></inertial>'
+    '<collision><geometry><box size="0.1 0.1 0.06"/></geometry></collision></link>'
+)
+
+
+def sliding_finger(number, azimuth_deg, follows):
+    """A link with a face towards the axis of the palm, on a slide at an azimuth."""
+    return (
+        f'<link name="f{number}"><inertial><mass value="0.03"/>'
+        '<inertia ixx="7e-6" iyy="7e-6" izz="1e-6" ixy="0" ixz="0" iyz="0"/></inertial>'
+        '<collision><origin xyz="0 0 0.03"/><geometry><box size="0.01 0.02 0.05"/></geometry></collision></link>'
+        f'<joint name="j{number}" type="prismatic"><parent link="palm"/><child link="f{number}"/>'
+        f'<origin xyz="0 0 0.03" rpy="0 0 {math.radians(azimuth_deg)}"/><axis xyz="1 0 0"/>'
+        f'<limit lower="0.006" upper="0.04" effort="20" velocity="0.05"/>{follows}</joint>'
+    )
+
+
+FOLLOWS = '<mimic joint="j0"/>'
+FINGERS = [sliding_finger(0, 30, ""), sliding_finger(1, 150, FOLLOWS), sliding_finger(2, 270, FOLLOWS)]
+THREE_FINGERS = f'<robot name="three">{PALM}{"".join(FINGERS)}</robot>'
+SEVERAL = (
+    "gripper.urdf has 3 fingers that slide towards its axis, and a linkage has two pads that face each other (state it "
+    "by its sizes in a gripper file (kind: fingers, azimuths: [30 deg, 150 deg, 270 deg]))"
+)
+
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
+        (THREE_FINGERS, SEVERAL),
         (
             ONE_FINGER.replace("<collision>", "<visual>").replace("</collision>", "</visual>"),
             "no two links with a coll",

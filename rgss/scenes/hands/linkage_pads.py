@@ -70,15 +70,7 @@ def linkage_of(links: tuple[LinkageLink, ...], pads: tuple[int, int], driven: Dr
     Raises:
         PadError: The pads do not close on an object along the tool axis.
     """
-    bare = Linkage(
-        links=links,
-        pads=(),
-        driven=driven.link,
-        opened=driven.lower,
-        closed=driven.upper,
-        effort=driven.effort,
-        speed=driven.speed,
-    )
+    bare = without_pads(links, driven)
     _require_metres(bare)
     for index in pads:
         if not links[index].hulls_m:
@@ -92,6 +84,24 @@ def linkage_of(links: tuple[LinkageLink, ...], pads: tuple[int, int], driven: Dr
     found = [_face(bare, index, angle) for index, angle in zip(pads, (azimuth, azimuth + math.pi), strict=True)]
     boss_m = max(boss_m for _, boss_m in found)
     return _closing(replace(bare, pads=tuple(pad for pad, _ in found)), boss_m)
+
+
+def without_pads(links: tuple[LinkageLink, ...], driven: DrivenRange) -> Linkage:
+    """Mechanism whose pads and open end are not known yet.
+
+    Args:
+        links: The links in topological order.
+        driven: The driven joint.
+    """
+    return Linkage(
+        links=links,
+        pads=(),
+        driven=driven.link,
+        opened=driven.lower,
+        closed=driven.upper,
+        effort=driven.effort,
+        speed=driven.speed,
+    )
 
 
 def _require_metres(linkage: Linkage) -> None:
@@ -194,7 +204,7 @@ def _face(linkage: Linkage, index: int, azimuth: float) -> tuple[LinkagePad, flo
             f"has no flat face of 4 mm on the pad {link.name!r}: {width:.3g} mm x {length:.3g} mm",
             ("pads",),
             "give the collision shape a face that is parallel to the tool axis, or state the gripper by its sizes "
-            "(kind: parallel)",
+            "(kind: parallel; kind: fingers for more than two fingers)",
         )
     inner, aside, height = face.depth_m, sum(face.across_m) / 2, sum(face.along_m) / 2
     place = (inner * x - aside * y, inner * y + aside * x, height)

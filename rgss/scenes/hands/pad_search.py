@@ -10,9 +10,10 @@ from pathlib import Path
 
 from rgss.errors import DefinitionError
 from rgss.scenes.document import CollisionShapes
+from rgss.scenes.hands.finger_azimuths import finger_azimuths_deg
 from rgss.scenes.hands.linkage_document import LinkageGripperDocument
 from rgss.scenes.hands.linkage_gripper import driven_range
-from rgss.scenes.hands.linkage_pads import PadError, linkage_of
+from rgss.scenes.hands.linkage_pads import PadError, linkage_of, without_pads
 from rgss.scenes.hands.linkage_urdf import links_of, mechanism_problems, palm_of, prune
 from rgss.scenes.linkage import Linkage
 from rgss.scenes.pose import Pose
@@ -66,6 +67,7 @@ def find_pads(urdf: Path, *, palm: str | None, project: Path, mounts: Sequence[P
         if found:
             reached.append((max(_depth_m(linkage) for linkage in found), mount, found))
     if not reached:
+        _refuse_several_fingers(root, name, mounts, urdf.name)
         message, hint = "has no two links that close on an object", "a pad is a link with a flat face"
         if problems:
             # Links are in topological order: the last pair is that of the fingertips. About another axis than that of
@@ -79,6 +81,26 @@ def find_pads(urdf: Path, *, palm: str | None, project: Path, mounts: Sequence[P
     foremost = [one for one in inner if not any(_is_before(other, one) for other in inner)]
     one, other = max(foremost, key=_face_m2).pads
     return FoundPads(links=(inner[0].links[one.link].name, inner[0].links[other.link].name), mount=mount)
+
+
+def _refuse_several_fingers(root: ET.Element, palm: str, mounts: Sequence[Pose], shown: str) -> None:
+    """Refuse a mechanism of three or more fingers that slide towards an axis, as it has no pair of pads.
+
+    Raises:
+        DefinitionError: It is one; with its azimuths as `kind: fingers` has them.
+    """
+    azimuths: tuple[int, ...] = ()
+    for mount in mounts:
+        links = links_of(root, palm, mount)
+        found = finger_azimuths_deg(without_pads(links, driven_range(root, links)))
+        azimuths = max(azimuths, found, key=len)
+    if len(azimuths) > _PADS:
+        listed = ", ".join(f"{azimuth} deg" for azimuth in azimuths)
+        raise DefinitionError(
+            f"{shown} has {len(azimuths)} fingers that slide towards its axis, and a linkage has two pads that face "
+            "each other",
+            hint=f"state it by its sizes in a gripper file (kind: fingers, azimuths: [{listed}])",
+        )
 
 
 def _mechanism(urdf: Path, palm: str | None, project: Path) -> tuple[ET.Element, str]:
