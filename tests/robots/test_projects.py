@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
 import re
 import shutil
 import xml.etree.ElementTree as ET
@@ -200,6 +201,16 @@ def test_an_arm_that_points_down_at_none_of_its_places(tmp_path, capsys):
     assert "no layout was found in which serial grasps a cup on a table with its tool pointing down: with the " in error
     assert "the tool points down at none of 63 places within its reach" in error
     assert "An arm that cannot turn its tool down needs a scene and a task of its own)" in error
+
+
+def test_an_arm_whose_tool_points_down_but_at_none_of_the_places(tmp_path, capsys):
+    """One joint moves a tool that always points down on a circle."""
+    urdf = tmp_path / "arm.urdf"
+    urdf.write_text(serial_urdf((FOUR[0], Link("fixed", (0.5, 0.0, -0.03), (math.pi, 0.0, 0.0)))), encoding="utf-8")
+    assert main(["init", "--robot", str(urdf), str(tmp_path / "new")]) == 2
+    error = " ".join(capsys.readouterr().err.split())
+    assert "the tool points down, but the joints bring it so to none of 63 places within its reach" in error
+    assert "one with too few joints for that needs a scene and a task of its own)" in error
 
 
 def test_an_arm_that_its_urdf_mounts_at_a_tilt(tmp_path, capsys, monkeypatch):

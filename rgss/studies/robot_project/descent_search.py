@@ -26,10 +26,14 @@ _LARGEST_AZIMUTH_RAD, _LEAST_AZIMUTH_RAD = math.radians(35.0), math.radians(12.0
 _USED_OF_RANGE = 0.45
 _VERTICAL_COSINE = 0.999
 _BASE_M = 0.6
+_DESCENTS = 4
 
 NOT_VERTICAL = "its first joint does not turn about a vertical axis on a level base"
-NEVER_DOWN = f"the tool points down at none of {len(_RADIUS_SHARES) * len(_HEIGHT_SHARES)} places within its reach"
-"""Reason that no smaller hand mends."""
+_PLACES = len(_RADIUS_SHARES) * len(_HEIGHT_SHARES)
+NEVER_DOWN = f"the tool points down at none of {_PLACES} places within its reach"
+DOWN_ELSEWHERE = f"the tool points down, but the joints bring it so to none of {_PLACES} places within its reach"
+UNMENDED = frozenset({NEVER_DOWN, DOWN_ELSEWHERE})
+"""Reasons that no smaller hand mends."""
 
 Cell = tuple[int, int]
 
@@ -60,6 +64,21 @@ def angles_from_vertical_rad(robot: Robot) -> dict[str, float]:
     return {axis: math.acos(min(1.0, max(-1.0, cosine))) for axis, cosine in cosines.items()}
 
 
+def turns_down(robot: Robot) -> bool:
+    """True if an arm on a level base brings the axis z of its flange straight down in some configuration.
+
+    Args:
+        robot: The arm.
+    """
+    from scipy.optimize import minimize
+
+    arm = Arm(replace(robot, base=Pose()), Pose())
+    nearest = sorted(sampled_configurations(robot), key=lambda q: float(arm.tool_matrix(q)[2, 2]))[:_DESCENTS]
+    bounds = [(joint.lower_rad, joint.upper_rad) for joint in robot.joints]
+    ends = (minimize(lambda q: float(arm.tool_matrix(q)[2, 2]), q, bounds=bounds) for q in nearest)
+    return any(float(end.fun) < -_VERTICAL_COSINE for end in ends)
+
+
 def descent_search(robot: Robot, geometry: GripperGeometry, *, scale: float) -> DescentSearch:
     """Search for layouts on a grid of distances and heights about the arm's first axis.
 
@@ -84,7 +103,7 @@ def descent_search(robot: Robot, geometry: GripperGeometry, *, scale: float) -> 
     x, y, _ = arm.first_axis_m
     grid = _Grid(inverse, (x, y, middle_height_m(level)), reach_m)
     sector = (first.lower_rad, first.upper_rad, math.copysign(1.0, float(axis[2])))
-    reasons = [NEVER_DOWN]
+    reasons: list[str] = []
     for share in _RISE_SHARES:
         rise_m = min(0.24, share * reach_m)
         found = {cell: width for cell in grid.cells() if (width := _sector(grid, cell, rise_m, sector)) is not None}
@@ -108,6 +127,8 @@ def descent_search(robot: Robot, geometry: GripperGeometry, *, scale: float) -> 
             has_low_post=True,
         )
         return DescentSearch(layouts=tuple(_layout(rough, grid, cell, wide[cell]) for cell in kept[:_MOST_TRIED]))
+    if not reasons:
+        reasons = [DOWN_ELSEWHERE if turns_down(robot) else NEVER_DOWN]
     return DescentSearch(layouts=(), reason=reasons[-1])
 
 

@@ -6,7 +6,7 @@ import itertools
 import math
 import re
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path, PurePosixPath
@@ -14,7 +14,12 @@ from pathlib import Path, PurePosixPath
 from rgss.errors import DefinitionError
 from rgss.scenes import GripperGeometry, Robot, load_gripper_file
 from rgss.studies.project import load_project
-from rgss.studies.robot_project.descent_search import NEVER_DOWN, NOT_VERTICAL, angles_from_vertical_rad
+from rgss.studies.robot_project.descent_search import (
+    DOWN_ELSEWHERE,
+    NOT_VERTICAL,
+    UNMENDED,
+    angles_from_vertical_rad,
+)
 from rgss.studies.robot_project.draft import DraftedRobot, drafted_robot
 from rgss.studies.robot_project.drafted_gripper import DraftedGripper
 from rgss.studies.robot_project.first_trial import carries_object, has_scene_errors
@@ -132,7 +137,7 @@ def _write_files(
         texts = with_gripper(texts, own)
     sizes = tuple(hand_sizes(drafted.robot, () if own is None else own.cups))
     for size, axis in itertools.product(sizes, axes):
-        if reasons.get(axis) in (POINTS_INTO_ARM, NEVER_DOWN):
+        if reasons.get(axis) in {POINTS_INTO_ARM, *UNMENDED}:
             continue
         _write_texts(project, texts, size, renamed=renamed)
         drafted = draft(tool_axis=axis)
@@ -152,12 +157,26 @@ def _write_files(
     )
     raise UnfitShapesError(
         f"no layout was found in which {id_} grasps a cup on a table with its tool pointing down: {found}",
-        hint="if the URDF mounts the arm at a tilt, take the tilt out of its base's joint, and turn the robot in the "
-        "scene (robot: roll, pitch). Another arm without a vertical first axis needs a scene and a task of its own"
-        if set(reasons.values()) == {NOT_VERTICAL}
-        else f"is {drafted.flange} the link that carries the gripper (--flange), and one of these its axis out of "
-        "the arm (--tool-axis)? An arm that cannot turn its tool down needs a scene and a task of its own",
+        hint=_layout_hint(set(reasons.values()), drafted.flange),
         is_concave=is_any_mesh_concave(project),
+    )
+
+
+def _layout_hint(reasons: Set[str], flange: str) -> str:
+    """Hint for an arm without a layout, by the reasons along the axes that were tried."""
+    if reasons == {NOT_VERTICAL}:
+        return (
+            "if the URDF mounts the arm at a tilt, take the tilt out of its base's joint, and turn the robot in the "
+            "scene (robot: roll, pitch). Another arm without a vertical first axis needs a scene and a task of its own"
+        )
+    if reasons == {DOWN_ELSEWHERE}:
+        return (
+            "tables are laid out for arms that choose distance and height of the tool; one with too few joints for "
+            "that needs a scene and a task of its own"
+        )
+    return (
+        f"is {flange} the link that carries the gripper (--flange), and one of these its axis out of the arm "
+        "(--tool-axis)? An arm that cannot turn its tool down needs a scene and a task of its own"
     )
 
 
