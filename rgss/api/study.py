@@ -33,6 +33,7 @@ from rgss.api.sweep import sweep_study, variant_terms
 from rgss.api.trade import Trade
 from rgss.api.trial import Drawing, Trial, payload_of, run_one
 from rgss.assessment import VariantMeasures, read_record
+from rgss.counted import counted
 from rgss.decision import ScreeningResult, measure_survivors
 from rgss.decision.robustness import Robustness
 from rgss.decision.what_if import suppose
@@ -83,7 +84,7 @@ class Study:
     def __repr__(self) -> str:
         study = self.project.study
         return (
-            f"Study({study.id!r}, {len(self._designs)} variants × {study.replicates} seeds, "
+            f"Study({study.id!r}, {counted(len(self._designs), 'variant')} × {counted(study.replicates, 'seed')}, "
             f"{study.fidelity.value} fidelity)"
         )
 

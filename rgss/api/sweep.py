@@ -8,6 +8,7 @@ from functools import partial
 from numbers import Integral
 
 from rgss.api.argument_terms import whole_argument
+from rgss.counted import counted
 from rgss.decision import sweep_in_stages
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError, SimulationError
@@ -138,6 +139,7 @@ class _Runner:
             trials = sum(len(lost.trials) for lost in self._lost)
             first = self._lost[0].failure
             raise SimulationError(
-                f"{trials} trials could not be run; first failure: {first.what}: {first.kind.value}: {first.detail}",
+                f"{counted(trials, 'trial')} could not be run; first failure: {first.what}: {first.kind.value}: "
+                f"{first.detail}",
                 hint="the others are stored; sweep again to retry these",
             )

@@ -19,6 +19,7 @@ from rgss.api.trade_frames import (
     weights_frame,
 )
 from rgss.assessment import VariantMeasures
+from rgss.counted import counted
 from rgss.decision import choose, trade_problem
 from rgss.decision.robustness import Robustness, analyse_robustness
 from rgss.decision.sensitivity import Sensitivity, analyse_sensitivity
@@ -51,7 +52,7 @@ class Trade:
 
     def __repr__(self) -> str:
         supposed = "" if self.scenario is None else ", under suppositions"
-        return f"Trade({self.project.study.id!r}, {len(self.measured)} variants{supposed})"
+        return f"Trade({self.project.study.id!r}, {counted(len(self.measured), 'variant')}{supposed})"
 
     def _repr_html_(self) -> str:
         return decision_view(self.decision, title=repr(self))

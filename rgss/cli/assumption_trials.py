@@ -6,6 +6,8 @@ import argparse
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from rgss.counted import counted
+
 if TYPE_CHECKING:
     from rgss.assessment import VariantMeasures
     from rgss.decision.assumptions import AssumptionOutcome
@@ -83,7 +85,7 @@ def _run(options: argparse.Namespace, project: Project, specs: Sequence[TrialSpe
         raise DefinitionError(f"--jobs must be at least 1, got {options.jobs}")
     if not specs:
         return
-    print(f"Running {len(specs)} trials that the suppositions need.", file=sys.stderr)
+    print(f"Running {counted(len(specs), 'trial')} for the suppositions.", file=sys.stderr)
 
     def on_finished(trial: FinishedTrial) -> None:
         """Single trials are not reported."""
@@ -99,6 +101,7 @@ def _run(options: argparse.Namespace, project: Project, specs: Sequence[TrialSpe
         lost = sum(len(one.trials) for one in result.lost)
         first = result.lost[0].failure
         raise SimulationError(
-            f"{lost} trials could not be run; first failure: {first.what}: {first.kind.value}: {first.detail}",
+            f"{counted(lost, 'trial')} could not be run; first failure: {first.what}: {first.kind.value}: "
+            f"{first.detail}",
             hint="the others are stored; run the command again to retry these",
         )

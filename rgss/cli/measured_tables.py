@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from rgss.cli.output import number, print_table
+from rgss.counted import counted
 
 if TYPE_CHECKING:
     from rgss.assessment import VariantMeasures
@@ -26,8 +27,7 @@ def print_verdict_counts(project: Project, measured: Sequence[VariantMeasures]) 
     from rgss.measures import Verdict
 
     trials = sum(len(entry.records) for entry in measured)
-    count = f"{len(measured)} variant{'' if len(measured) == 1 else 's'}"
-    print(f"Study {project.study.id}: {count}, {trials} trial{'' if trials == 1 else 's'}")
+    print(f"Study {project.study.id}: {counted(len(measured), 'variant')}, {counted(trials, 'trial')}")
     found = [
         (one, Counter(entry.verdicts[one.id] for entry in measured)) for one in requirements_with_criteria(project)
     ]

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from rgss.counted import counted
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -50,9 +52,9 @@ def _project_lines(folder: Path, project: Project) -> Iterator[str]:
     variants = len(project.designs.expand())
     yield (
         f"Project {folder.name}: {len(requirements.stakeholder)} stakeholder and {len(requirements.system)} system "
-        f"requirements, {len(project.measures.measures)} measures"
+        f"requirements, {counted(len(project.measures.measures), 'measure')}"
     )
-    yield f"Study {study.id}: {variants} variants, {study.fidelity.value} fidelity ({study.label})"
+    yield f"Study {study.id}: {counted(variants, 'variant')}, {study.fidelity.value} fidelity ({study.label})"
     if others:
         yield f"Other studies: {', '.join(others)}"
 

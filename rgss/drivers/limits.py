@@ -10,6 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.counted import counted
 from rgss.errors import DefinitionError
 from rgss.scenes import Joint, JointKind
 
@@ -130,7 +131,7 @@ class Guard:
         """
         names = self._limits.names
         if len(measured_rad) != len(names):
-            return f"the robot reports {len(measured_rad)} joints, the task moves {len(names)}"
+            return f"the robot reports {counted(len(measured_rad), 'joint')}, the task moves {len(names)}"
         reason = self._against_range(start_rad)
         if reason:
             return reason

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.counted import counted
 from rgss.documents import Document, JointQuantity, load_document
 from rgss.errors import DocumentError
 from rgss.findings import Finding
@@ -136,7 +137,9 @@ def _robot_findings(entry: ExcitationDocument, document: Document, robot: Robot)
     yield from _kind_findings(entry, document, robot)
     for pose, configuration in entry.poses.items():
         if len(configuration) != len(names):
-            problem = f"the pose has {len(configuration)} positions, the robot {len(names)} joints"
+            problem = (
+                f"the pose has {counted(len(configuration), 'position')}, the robot {counted(len(names), 'joint')}"
+            )
             yield document.finding("excitation.pose", problem, ("poses", pose))
             continue
         wrong = [

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from rgss.assessment import Aspect, CaseSuccess, Driver, DriversOfFailures, FailureDrivers
+from rgss.counted import counted
 from rgss.reports.plain_text import aligned_table
 
 _SHOWN = 5
@@ -21,7 +22,7 @@ def driver_lines(found: DriversOfFailures) -> Iterator[str]:
     if not found.seeds:
         yield "Nothing was drawn for these trials: neither the scene nor the study has 'uncertainty' or 'workload'."
         return
-    yield f"Drivers of failures: {found.trials} trials, {found.seeds} seeds"
+    yield f"Drivers of failures: {counted(found.trials, 'trial')}, {counted(found.seeds, 'seed')}"
     yield ""
     for one in found.failures:
         yield driver_sentence(one)
@@ -44,7 +45,7 @@ def driver_sentence(one: FailureDrivers) -> str:
     Args:
         one: The kind with its drivers.
     """
-    where = f"{_place(one)} ({one.trials} trials, {one.seeds} seeds)"
+    where = f"{_place(one)} ({counted(one.trials, 'trial')}, {counted(one.seeds, 'seed')})"
     if not one.significant:
         return f"{where}: no draw stands out; more seeds would show weaker effects."
     named = [f"{driver_name(each)} (AUC {each.auc:.2f}, p {_compared(each.adjusted_p)})" for each in one.significant]

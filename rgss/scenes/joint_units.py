@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 
+from rgss.counted import counted
 from rgss.documents import Document, JointQuantity
 from rgss.findings import Finding
 from rgss.scenes.document import RobotDocument
@@ -43,7 +44,7 @@ def home_findings(entry: RobotDocument, document: Document) -> Iterable[Finding]
     if len(entry.home) != len(entry.joints):
         yield document.finding(
             "scene.home",
-            f"home has {len(entry.home)} positions, and there are {len(entry.joints)} joints",
+            f"home has {counted(len(entry.home), 'position')}, and the arm {counted(len(entry.joints), 'joint')}",
             ("home",),
             hint="give a position for each joint, from the base to the flange",
         )

@@ -64,7 +64,7 @@ def test_signals_begin_and_end_at_rest_where_they_began(tmp_path):
         ("[0.5 rad/s]", "[0.5 rad/s, -1 rad/s]", "speeds must be positive, got -1"),
         ("[2 Hz]", "[20 Hz]", "fewer than 20 samples a cycle"),
         ("rate:", "joints: [c]\nrate:", "unknown joint 'c'"),
-        ("[0 rad, 0 rad]", "[0 rad]", "the pose has 1 positions, the robot 2 joints"),
+        ("[0 rad, 0 rad]", "[0 rad]", "the pose has 1 position, the robot 2 joints"),
         ("[0 rad, 0 rad]", "[0 rad, 0.95 rad]", "beyond its range"),
         ("hold: 0.2 s", "hold: 3 s", "beyond its range"),
         ("[0.5 rad/s], hold: 0.2 s", "[2.5 rad/s], hold: 0.1 s", "exceeds the speed limit of joint 'a'"),

@@ -66,7 +66,7 @@ def test_a_joint_that_is_left_out_is_named(kitchen):
     line = next(line for line in text.splitlines() if "joint_6" in line)
     kitchen.change("robots/six.yaml", line + "\n", "")
     found = kitchen.findings("robot")
-    assert any("home has 6 positions, and there are 5 joints" in finding for finding in found)
+    assert any("home has 6 positions, and the arm 5 joints" in finding for finding in found)
     names = ", ".join(f"joint_{number}" for number in range(1, 7))
     assert any(f"the movable joints {names}" in finding for finding in found)
 

@@ -138,7 +138,7 @@ def test_the_length_of_an_axis_changes_neither_places_nor_torques(tmp_path):
             "'slide' is prismatic in the URDF, and its range must be linear",
         ),
         ("torque: 50 N*m", "torque: 50 N", "joint 'turn' is revolute in the URDF, and its torque must be angular"),
-        ("home: [100 mm, 30 deg]", "home: [100 mm]", "home has 1 positions, and there are 2 joints"),
+        ("home: [100 mm, 30 deg]", "home: [100 mm]", "home has 1 position, and the arm 2 joints"),
         (
             "home: [100 mm, 30 deg]",
             "home: [700 mm, 30 deg]",

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from rgss.cli.options import sweep_words
 from rgss.cli.safe_output import errors_are_seen
+from rgss.counted import counted
 
 if TYPE_CHECKING:
     from rgss.decision import UntilDecided
@@ -125,7 +126,7 @@ def _refuse_contradictions(options: argparse.Namespace, project: Project) -> Non
 
 def _report_look(look: int, trials: int) -> None:
     if errors_are_seen():
-        print(f"look {look}: {trials} trials", file=sys.stderr)
+        print(f"look {look}: {counted(trials, 'trial')}", file=sys.stderr)
 
 
 def _forecast(found: Forecast) -> dict[str, object]:

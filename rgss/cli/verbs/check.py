@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rgss.cli.options import STUDY_HELP
+from rgss.counted import counted
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -262,15 +263,16 @@ def _login_name() -> str:
 def _summary(projects: Sequence[Project], problems: int, notes: int) -> str:
     held = [
         f"{len(project.requirements.stakeholder)} stakeholder and {len(project.requirements.system)} system "
-        f"requirements, {len(project.measures.measures)} measures, {len(project.designs.expand())} variants"
+        f"requirements, {counted(len(project.measures.measures), 'measure')}, "
+        f"{counted(len(project.designs.expand()), 'variant')}"
         for project in projects
     ]
     if len(projects) > 1:
         held = [f"{project.study.label}: {one}" for project, one in zip(projects, held, strict=True)]
     return (
         "\n".join(held)
-        + f": {problems} finding{'' if problems == 1 else 's'}"
-        + (f", {notes} note{'' if notes == 1 else 's'} (--all shows {'it' if notes == 1 else 'them'})" if notes else "")
+        + f": {counted(problems, 'finding')}"
+        + (f", {counted(notes, 'note')} (--all shows {'it' if notes == 1 else 'them'})" if notes else "")
     )
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from rgss.cli.options import add_study, chosen_project
 from rgss.cli.safe_output import errors_are_seen
+from rgss.counted import counted
 
 if TYPE_CHECKING:
     from rgss.evidence import EvidenceStore
@@ -129,7 +130,7 @@ def _update(
     if options.json:
         print_json({"baseline": label, "trials": trials, "changes": len(baseline.history)})
     else:
-        print(printable(label), f"written: {trials} trials, change {len(baseline.history)} of its history.")
+        print(printable(label), f"written: {counted(trials, 'trial')}, change {len(baseline.history)} of its history.")
     return CLEAN
 
 

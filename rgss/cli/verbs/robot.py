@@ -7,6 +7,8 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rgss.counted import counted
+
 if TYPE_CHECKING:
     from rgss.scenes import Joint
     from rgss.studies.robot_project import RobotSummary
@@ -59,7 +61,9 @@ def _show(summary: RobotSummary) -> None:
     from rgss.scenes import JointKind
 
     robot = summary.robot
-    print(f"{robot.id}: {len(robot.joints)} joints to {robot.flange}, {sum(summary.masses_kg.values()):.4g} kg")
+    print(
+        f"{robot.id}: {counted(len(robot.joints), 'joint')} to {robot.flange}, {sum(summary.masses_kg.values()):.4g} kg"
+    )
     print()
     rows = [(joint.name, joint.kind.value, *_limits(joint)) for joint in robot.joints]
     print_table(["joint", "kind", "range", "speed", "effort"], rows)

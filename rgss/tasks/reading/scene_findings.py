@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from rgss.counted import counted
 from rgss.findings import Finding
 from rgss.scenes import Scene
 from rgss.tasks.reading.reader import Location
@@ -84,7 +85,7 @@ def _of_joints(loaded: LoadedTask, scene: Scene, target: Target) -> Iterator[Fin
         return
     place = ("configurations", target.name)
     if len(angles) != len(joints):
-        message = f"configuration {target.name!r} has {len(angles)} joints, the robot has {len(joints)}"
+        message = f"configuration {target.name!r} has {counted(len(angles), 'joint')}, the robot has {len(joints)}"
         hint = f"joints: {', '.join(joint.name for joint in joints)}"
         yield loaded.document.finding("task.joints", message, place, hint=hint)
         return
