@@ -51,20 +51,20 @@ class TimedTask:
         segments: The segments, each beginning where the one before it ends.
 
     Raises:
-        DefinitionError: The task does not begin with a motion.
+        DefinitionError: The task has no motion.
     """
 
     segments: tuple[Segment, ...]
 
     def __post_init__(self) -> None:
-        if not self.segments or self.segments[0].motion is None:
-            raise DefinitionError("a timed task must begin with a motion", hint="its start is where the robot must be")
+        if all(segment.motion is None for segment in self.segments):
+            raise DefinitionError("a timed task must have a motion", hint="its start is where the robot must be")
 
     @property
     def start_rad(self) -> tuple[float, ...]:
-        """Joint positions at which the task begins."""
-        motion = self.segments[0].motion
-        return () if motion is None else _at(motion, 0.0)
+        """Joint positions at which the task begins, those of its first motion."""
+        motions = (segment.motion for segment in self.segments)
+        return next((_at(motion, 0.0) for motion in motions if motion is not None), ())
 
 
 class TaskCursor:

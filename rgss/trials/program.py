@@ -25,19 +25,18 @@ def run_program(
     Args:
         plant: The plant, not yet started.
         references: Targets of the moves; the program ends before the first move without targets.
-        task: The task. Its first step is a move.
+        task: The task. Steps before its first move run at the configuration in which that begins.
         checkpoint: Callback before each phase; it may block, or end the program by raising.
 
     Returns:
         The phases that ran, in order.
     """
-    steps = task.steps
-    first = references.get(steps[0].name)
+    first = references.get(task.moves[0].name)
     if first is None:
         return ()
     plant.start(tuple(first.positions_rad[0].tolist()))
     results: list[PhaseResult] = []
-    for step in steps:
+    for step in task.steps:
         if checkpoint is not None:
             checkpoint()
         if not isinstance(step, MoveStep):

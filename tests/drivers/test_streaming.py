@@ -197,11 +197,21 @@ def test_times_are_positive():
         StreamSettings(ramp_s=0.0)
 
 
-def test_a_task_begins_with_a_motion():
+def test_a_task_has_a_motion():
     wait = Segment(name="close", gripper=GripperState.CLOSED, wait_s=1.0)
     for segments in ((), (wait,)):
-        with pytest.raises(DefinitionError, match="a timed task must begin with a motion"):
+        with pytest.raises(DefinitionError, match="a timed task must have a motion"):
             TimedTask(segments=segments)
+
+
+def test_a_task_that_begins_with_a_wait_begins_where_its_first_motion_does():
+    task = pick_task()
+    wait = Segment(name="before", gripper=GripperState.OPEN, wait_s=1.0)
+
+    later = TimedTask(segments=(wait, *task.segments))
+
+    assert later.start_rad == task.start_rad != ()
+    assert TaskCursor(later, 0.01).segment is wait
 
 
 def test_a_wait_is_as_long_at_every_rate():

@@ -84,7 +84,8 @@ def test_loops_give_each_step_a_name_of_its_own(tmp_path):
         (REACH + "  - check: {}\n", "task.yaml:4:12: error: the check states no condition"),
         (REACH + "  - wait: {duration: 0 s}\n", "task.yaml:4:22: error: duration must be greater than zero"),
         (REACH + "  - {}\n", "a step has exactly one kind, got none"),
-        ("  - wait: {duration: 1 s}\n", "the first step must be a move"),
+        ("  - wait: {duration: 1 s}\n", "error: a task must have a move (add a move) [task.no-move]"),
+        ("  - wait: {duration: 1 s}\n  - grip: {}\n" + REACH, "'grip' needs a move before it"),
         ("  - move: {to: grasp, speed: 2}\n", "speed must be a share in (0, 1], got 2"),
         ("  - move: {to: grasp, time_limit: 0 s}\n", "time_limit must be greater than zero"),
         ("  - move: {to: grasp, mode: joint, time_limit: 1 s}\n", "only a planned move has a planning limit"),
@@ -144,3 +145,12 @@ def test_a_straight_line_does_not_end_at_a_configuration(tmp_path):
     text = "task: t\nconfigurations: {c: [0 deg]}\nsteps:\n  - move: {configuration: c, mode: straight}\n"
 
     assert "not at a configuration" in findings_of(tmp_path, text)[0]
+
+
+def test_a_task_may_begin_with_a_check_or_a_wait(tmp_path):
+    text = "task: t\nsteps:\n  - check: {at_rest: true}\n  - wait: {duration: 1 s}\n" + CARRY + "  - release: {}\n"
+
+    task = program_of(tmp_path, text)
+
+    assert task.phases[:3] == ("check", "wait", "move_to_grasp")
+    assert [stage.turn for stage in stages_of(task, "w")] == [1] * 6

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import get_args
 
 import numpy as np
@@ -117,6 +118,14 @@ def test_it_starts_once_where_the_first_motion_begins_in_plain_numbers(reference
     starts = [call for call in plant.calls if call[0] == "start"]
     assert starts == [("start", START_RAD)]
     assert all(type(angle) is float for angle in starts[0][1])
+
+
+def test_steps_before_the_first_motion_run_where_it_begins(references):
+    plant, task = ScriptedPlant(), default_task()
+    wait = WaitStep(name="wait", duration_s=0.5)
+    results = run_program(plant, references, task=replace(task, steps=(CHECK, wait, *task.steps)))
+    assert [result.phase for result in results] == ["check", "wait", *Phase]
+    assert plant.calls[:3] == [("start", START_RAD), ("check", CHECK), ("wait", wait)]
 
 
 @pytest.mark.parametrize("phase", Phase)

@@ -52,8 +52,8 @@ def load_task(path: Path, *, label: str | None = None) -> LoadedTask:
     placed = list(placed_steps(entry.steps, reader, Position(at=("steps",))))
     start = None if entry.start is None else target_of(entry.start, reader, Position(at=("start",)))
     findings = reader.findings
-    if not findings and not (placed and isinstance(placed[0][0], MoveStep)):
-        reader.report("task.empty", "the first step must be a move", ("steps",), "begin with a move")
+    if not findings and not any(isinstance(step, MoveStep) for step, _ in placed):
+        reader.report("task.no-move", "a task must have a move", ("steps",), "add a move")
     if not findings:
         findings += _name_findings(document, placed)
         findings += hand_findings(document, placed)

@@ -9,7 +9,7 @@ import pytest
 
 from rgss.evidence import Failure, PhaseOutcome
 from rgss.scenes import NamedPlace, Pose
-from rgss.tasks import CheckStep
+from rgss.tasks import CheckStep, Nearness
 from rgss.trials.monitors import violated_condition
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.plants import ControlSettings
@@ -38,6 +38,22 @@ def test_a_check_ends_the_task_unless_its_conditions_hold(spec_of):
         PhaseOutcome.COMPLETED,
         PhaseOutcome.FAILED,
         PhaseOutcome.NOT_RUN,
+    ]
+
+
+@pytest.mark.engine
+def test_a_check_before_the_first_move_is_made_at_the_start(spec_of):
+    spec = spec_of()
+    near = Nearness(within_m=0.01, point_m=(0.0, 0.0, 0.0))
+    before = (CheckStep(name="free", is_at_rest=True, held=False), CheckStep(name="there", near=near))
+
+    record = run_trial(replace(spec, task=replace(spec.task, steps=(*before, *spec.task.steps))))
+
+    assert (record.failure, record.failed_phase) == (Failure.CHECK_FAILED, "there")
+    assert [phase.outcome for phase in record.phases] == [
+        PhaseOutcome.COMPLETED,
+        PhaseOutcome.FAILED,
+        *[PhaseOutcome.NOT_RUN] * len(spec.task.steps),
     ]
 
 
