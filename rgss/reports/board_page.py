@@ -55,7 +55,7 @@ def board_to_html(
         _failures(document["trials"], document["variants"]["id"]),
         [(name, _short(str(value))) for name, value in document["provenance"]["study"]],
     )
-    failed = [one for one in pictures if one.failed]
+    failed = sorted((one for one in pictures if one.failed), key=lambda one: not one.worst)
     repairs, excluded = _repairs(document["conflicts"]), _excluded(document["conflicts"])
     room = sum(map(len, (*decision["reasons"], *decision["cautions"])))
     longest = _REASON_ROOM if room <= _REASON_ROOM else _LONGEST
@@ -101,7 +101,7 @@ def board_to_html(
 
 
 def _texts_of(one: TrialPictures) -> dict[str, str]:
-    return {"title": one.title, "note": _short(one.note), "replay": one.replay}
+    return {"title": one.title, "note": _short(one.note), "replay": one.replay, "worst": one.worst}
 
 
 def _open_lines(glance: Mapping[str, Any]) -> list[str]:

@@ -79,6 +79,7 @@ class TrialPictures:
         variant: Id of its variant; None if it is irrelevant.
         still: A PNG of the carried object; empty without one.
         failed: True if the trial failed.
+        worst: A sentence on why it is the worst failure; empty for other trials.
     """
 
     title: str
@@ -90,6 +91,7 @@ class TrialPictures:
     variant: int | None = None
     still: bytes = b""
     failed: bool = False
+    worst: str = ""
 
 
 def study_report_to_html(
@@ -148,7 +150,7 @@ def study_report_to_html(
         compared_trials=compared_trials(document),
         report_sections=_SECTIONS[1:] if glance is None else _SECTIONS,
         pictures=[_picture(one) for one in pictures],
-        worst_failure=next((place for place, one in enumerate(pictures) if one.failed), None),
+        worst_failure=next((place for place, one in enumerate(pictures) if one.worst), None),
         pictures_notice=pictures_notice,
         tornado=_markup(tornado),
         data=_markup(packed_json(embedded_json(first)) if packed else plain),
@@ -206,6 +208,7 @@ def _picture(one: TrialPictures) -> dict[str, Any]:
         "title": one.title,
         "note": one.note,
         "replay": one.replay,
+        "worst": one.worst,
         "filmstrip": data_address("image/png", one.filmstrip),
         "film": data_address("video/webm", one.film),
         "replays": [] if one.player is None else [as_context(one.player)],

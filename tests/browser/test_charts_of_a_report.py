@@ -166,7 +166,7 @@ def test_no_line_of_the_parallel_coordinates_runs_through_a_number(reader, page,
 def test_pictures_of_failures_are_folded_until_a_link_leads_there(reader, study, pictures, tmp_path):
     (first,) = pictures
     file = tmp_path / "report.html"
-    shown = (first, replace(first, title="Variant 1, which failed", failed=True))
+    shown = (first, replace(first, title="Variant 1, which failed", failed=True, worst="The only one."))
     file.write_text(study_report_to_html(study.document, study.trace, pictures=shown), encoding="utf-8")
     reader.open(file)
     folded = "return Array.from(document.querySelectorAll('#pictures .shots'), (one) => one.open)"

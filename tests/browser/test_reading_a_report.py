@@ -13,6 +13,7 @@ from rgss.studies.project import load_project
 
 pytestmark = pytest.mark.browser
 
+WHY = "Of 7 failed trials of variant 7, the most frequent kind, arm collision, 3, and of it the smallest seed."
 HIGHEST = 15_000
 """Pixels of the page at a width of 1,440, with everything but the tables of evidence folded as it opens."""
 
@@ -20,11 +21,15 @@ HIGHEST = 15_000
 @pytest.fixture(scope="module")
 def whole_page(study, pictures, tmp_path_factory):
     """The report with its diagrams, and with pictures of a trial that failed."""
-    failed = dataclasses.replace(pictures[0], title="Variant 7, seed 2: first that failed", failed=True)
+    failed = dataclasses.replace(pictures[0], title="Variant 7, seed 2: worst", failed=True, worst=WHY)
+    other = dataclasses.replace(failed, title="Variant 1, seed 1: first that failed", worst="")
     requirements = load_project(study.folder).requirements
     file = tmp_path_factory.mktemp("whole") / "report.html"
     html = study_report_to_html(
-        study.document, study.trace, drawings=drawings_for_page(diagrams_of(requirements)), pictures=(*pictures, failed)
+        study.document,
+        study.trace,
+        drawings=drawings_for_page(diagrams_of(requirements)),
+        pictures=(*pictures, other, failed),
     )
     file.write_text(html, encoding="utf-8")
     return file
@@ -84,9 +89,13 @@ def test_five_questions_are_answered_in_two_clicks_each(reader, whole_page, stud
     assert clicks.count == 1
 
     clicks = opened()
+    worst = study.document["trials"]["worst"]["why"]
+    assert clicks.sees(find(reader, "#worst-why"))
+    assert worst in find(reader, "#worst-why").text
     clicks.on(reader.driver.find_element(By.PARTIAL_LINK_TEXT, "The worst failure"))
     figure = find(reader, "#worst-failure")
-    assert "first that failed" in figure.text
+    assert "Variant 7, seed 2: worst" in figure.text
+    assert WHY in figure.text
     clicks.on(figure.find_element(By.XPATH, ".//summary[. = 'Replay in three dimensions']"))
     reader.until("return document.querySelector('#worst-failure [data-replay]').dataset.state === 'ready'")
     assert clicks.count == 2

@@ -128,6 +128,7 @@ def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLo
         film=film,
         player=packed_trial(seen, spec),
         failed=not one.record.success,
+        worst=one.worst,
     )
 
 

@@ -65,8 +65,21 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         "bullets": bullets[:MOST_BULLETS],
         "more_limits": max(0, len(bullets) - MOST_BULLETS),
         "changes": list(_changes(decision)),
-        # A column of equal entries is one number, and -1 is a success.
-        "has_failures": document["trials"]["failure"] != -1,
+        "worst": _worst(document),
+    }
+
+
+def _worst(document: Mapping[str, Any]) -> Plain | None:
+    """The worst failure: its trial in words, why it is shown, and where its evidence is; None without one."""
+    trials = document["trials"]
+    worst = trials["worst"]
+    if worst is None:
+        return None
+    variant = document["variants"]["id"][trials["variant"][worst["trial"]]]
+    return {
+        "title": f"Variant {variant}, seed {trials['seed'][worst['trial']]}",
+        "why": worst["why"],
+        "to": f"#variant-{variant}/{trials['key'][worst['trial']]}",
     }
 
 

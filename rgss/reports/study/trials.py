@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from rgss.assessment import VariantMeasures
 from rgss.evidence import Failure, PhaseOutcome, TrialRecord
 from rgss.reports.plain_numbers import Plain, condensed, plain_number, plain_numbers
+from rgss.reports.study.worst_failure import worst_failure
 from rgss.trace.evidence import KEY_DIGITS
 
 MOST_TIMELINES = 1_000
@@ -22,36 +23,48 @@ class NotableTrial:
         key: Its key in the evidence.
         record: Its record.
         why: The reason, in a few words.
+        worst: A sentence on why it is the worst failure; empty for other trials.
     """
 
     key: str
     record: TrialRecord
     why: str
+    worst: str = ""
 
 
 def notable_trials(measured: Sequence[VariantMeasures], chosen: int | None) -> tuple[NotableTrial, ...]:
-    """The deciding trial, and one of each kind of failure.
+    """The deciding trial, the worst failure, and a trial of each other kind of failure.
 
     The deciding trial is the first success of the chosen variant in the order of the seeds, or its
-    first trial if none succeeded. A kind of failure is shown by its first trial, in the order of
-    variants and seeds, in which a state was completed, so that it shows motion; otherwise by its first
-    trial.
+    first trial if none succeeded; it may be the worst failure itself, see `worst_failure`. Another kind of
+    failure is shown by its first trial, in the order of variants and seeds, in which a state was completed,
+    so that it shows motion; otherwise by its first trial.
 
     Args:
         measured: Every variant with its trials, by ascending id.
         chosen: The chosen variant; None if there is none.
     """
-    found = []
+    found: list[NotableTrial] = []
+    worst = worst_failure(measured, chosen)
     for entry in measured:
         if entry.variant.id == chosen and entry.records:
             pairs = list(zip(entry.trials, entry.records, strict=True))
             key, record = next((pair for pair in pairs if pair[1].success), pairs[0])
-            found.append(NotableTrial(key=key, record=record, why="the deciding trial: the chosen variant"))
+            why = "the deciding trial: the chosen variant"
+            shown_worst = "" if worst is None or worst.key != key else worst.why
+            found.append(NotableTrial(key=key, record=record, why=why, worst=shown_worst))
+    shown = {one.key for one in found}
+    if worst is not None and worst.key not in shown:
+        kind = _words(worst.failure.value)
+        found.append(
+            NotableTrial(key=worst.key, record=worst.record, why=f"the worst failure, {kind}", worst=worst.why)
+        )
+    kinds = {one.record.failure for one in found}
     first: dict[Failure, NotableTrial] = {}
     for entry in measured:
         for key, record in zip(entry.trials, entry.records, strict=True):
             failure = record.failure
-            if failure is None:
+            if failure is None or failure in kinds:
                 continue
             there = first.get(failure)
             if there is None or (_moved(record) and not _moved(there.record)):
@@ -93,6 +106,14 @@ def trial_columns(measured: Sequence[VariantMeasures], notable: Sequence[Notable
             }
             for one in notable
         ],
+        "worst": next(
+            (
+                {"trial": next(index for index, (_, key, _) in enumerate(rows) if key == one.key), "why": one.worst}
+                for one in notable
+                if one.worst
+            ),
+            None,
+        ),
         "timelines": {
             str(index): _timeline(record) for index, (_, key, record) in enumerate(rows) if every or key in wanted
         },

@@ -135,7 +135,9 @@ def test_trials_their_failures_and_their_commands(told, side):
     notable = [(trials["key"][one["trial"]], one["why"]) for one in trials["notable"]]
     first = next(entry for entry in measured if entry.variant.id == decision.chosen)
     assert notable[0] == (first.trials[0][:12], "the deciding trial: the chosen variant")
-    assert [why for _, why in notable[1:]] == ["a failure of the kind “planning limit”"]
+    assert [why for _, why in notable[1:]] == ["the worst failure, planning limit"]
+    assert trials["worst"]["trial"] == trials["notable"][1]["trial"]
+    assert trials["worst"]["why"].startswith("No trial of variant ")
     assert "The report was made without films" in text
     assert len(trials["timelines"]) == len(keys) == len(trial_specs(project))
 
@@ -334,13 +336,14 @@ def test_a_notable_trial_is_run_again_and_filmed(side):
     project, *_ = side
     look = report_pictures.FilmLook(width=200, height=150, rate_hz=1.0)
     (spec,) = trial_specs(project, variants=[project.designs.variant(28)], seeds=[1])
-    one = NotableTrial(key="ab" * 32, record=run_trial(spec), why="the deciding trial")
+    one = NotableTrial(key="ab" * 32, record=run_trial(spec), why="the deciding trial", worst="The only one.")
 
     (picture,), notice = report_pictures.trial_pictures(project, [one], look=look)
 
     assert notice == ""
     assert picture.title == "Variant 28, seed 1: the deciding trial"
     assert picture.note == "It succeeded."
+    assert picture.worst == "The only one."
     assert picture.replay == "rgss replay abababababab"
     assert picture.filmstrip.startswith(b"\x89PNG")
     with av.open(io.BytesIO(picture.film)) as film:

@@ -26,7 +26,12 @@ def measure(name, unit, weight, value, low=None, high=None):
 
 DOCUMENT = {
     "variants": {"id": [1, 2]},
-    "trials": {"failure": [-1, 3]},
+    "trials": {
+        "variant": [0, 1],
+        "seed": [1, 4],
+        "key": ["aa", "bb"],
+        "worst": {"trial": 1, "why": "The only failed trial of variant 2."},
+    },
     "measures": [
         measure("time", "s", 0.4, [30.0, 20.0], [25.0, 18.0], [35.0, 23.0]),
         measure("share", "1", 0.6, [0.5, 0.95], [0.3, 0.88], [0.7, 0.99]),
@@ -102,10 +107,13 @@ def test_limits_without_a_chart_are_counted():
     assert shown["more_limits"] == 3
 
 
-def test_whether_a_trial_failed():
-    assert first_screen_content(DOCUMENT)["has_failures"] is True
-    assert first_screen_content(DOCUMENT | {"trials": {"failure": 3}})["has_failures"] is True
-    assert first_screen_content(DOCUMENT | {"trials": {"failure": -1}})["has_failures"] is False
+def test_the_worst_failure_with_its_reason_and_its_evidence():
+    assert first_screen_content(DOCUMENT)["worst"] == {
+        "title": "Variant 2, seed 4",
+        "why": "The only failed trial of variant 2.",
+        "to": "#variant-2/bb",
+    }
+    assert first_screen_content(DOCUMENT | {"trials": {"worst": None}})["worst"] is None
 
 
 def test_a_chart_is_to_scale():

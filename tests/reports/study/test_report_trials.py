@@ -1,4 +1,4 @@
-"""Which trials a report shows: the deciding one, and of each kind of failure one with something to see."""
+"""Which trials a report shows: the deciding one, the worst failure, and one of each other kind of failure."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import pytest
 
 from rgss.evidence import Failure, PhaseOutcome
 from rgss.reports.study.trials import notable_trials
+from rgss.reports.study.worst_failure import worst_failure
 from tests.fixtures.eight_states import Phase
 
 
@@ -52,16 +53,74 @@ def test_a_failure_is_shown_by_the_first_trial_in_which_something_moved(later):
         ),
         3,
     )
-    assert [one.key for one in found] == ["3/2", "2/1", "1/2"]
+    assert [one.key for one in found] == ["3/2", "3/1", "2/1"]
     assert [one.why for one in found] == [
         "the deciding trial: the chosen variant",
+        "the worst failure, object dropped",
         "a failure of the kind “planning limit”",
-        "a failure of the kind “object dropped”",
     ]
+    assert [one.worst for one in found] == ["", "The only failed trial of variant 3.", ""]
 
 
 def test_where_nothing_ever_moved_it_is_the_first():
     found = notable_trials(
-        measured(trial(4, 1, Failure.INVALID_START, 0), trial(4, 2, Failure.INVALID_START, 0), trial(5, 1)), None
+        measured(
+            trial(4, 1, Failure.INVALID_START, 0),
+            trial(4, 2, Failure.INVALID_START, 0),
+            trial(5, 1, Failure.NOT_UPRIGHT),
+            trial(5, 2, Failure.NOT_UPRIGHT),
+            trial(5, 3, Failure.NOT_UPRIGHT),
+        ),
+        None,
     )
-    assert [one.key for one in found] == ["4/1"]
+    assert [one.key for one in found] == ["5/1", "4/1"]
+
+
+def test_a_deciding_trial_that_failed_may_be_the_worst_failure_itself():
+    found = notable_trials(measured(trial(4, 1, Failure.ARM_COLLISION), trial(5, 1, Failure.ARM_COLLISION)), 4)
+    assert [(one.key, one.why) for one in found] == [("4/1", "the deciding trial: the chosen variant")]
+    assert found[0].worst == "The only failed trial of variant 4."
+
+
+def test_the_worst_failure_is_the_most_frequent_of_the_choice_that_is_no_planning_limit():
+    found = worst_failure(
+        measured(
+            *(trial(1, seed, Failure.OBJECT_DROPPED) for seed in range(1, 9)),
+            *(trial(2, seed, Failure.PLANNING_LIMIT) for seed in range(1, 5)),
+            trial(2, 5, Failure.OBJECT_DROPPED),
+            trial(2, 6, Failure.ARM_COLLISION),
+            trial(2, 7, Failure.ARM_COLLISION),
+        ),
+        2,
+    )
+    assert found.key == "2/6"
+    assert found.why == (
+        "Of 7 failed trials of variant 2, the most frequent kind, arm collision, 2 (planning limits, 4, are not "
+        "counted), and of it the smallest seed."
+    )
+
+
+def test_equally_frequent_kinds_and_a_choice_that_never_failed():
+    records = [
+        trial(1, 3, Failure.OBJECT_DROPPED),
+        trial(1, 4, Failure.ARM_COLLISION),
+        trial(2, 2, Failure.ARM_COLLISION),
+        trial(2, 5, Failure.OBJECT_DROPPED),
+        trial(3, 1),
+    ]
+    found = worst_failure(measured(*records), 3)
+    assert found.key == "2/2"
+    assert found.why == (
+        "No trial of variant 3 failed; of 4 failed trials of all variants, one of the most frequent kinds, arm "
+        "collision, 2, and of it the smallest seed."
+    )
+    assert worst_failure(measured(*records), None).why.startswith("Of 4 failed trials of all variants, one of")
+
+
+def test_planning_limits_alone_have_a_worst_failure_too():
+    found = worst_failure(measured(trial(2, 3, Failure.PLANNING_LIMIT), trial(2, 2, Failure.PLANNING_LIMIT)), 2)
+    assert found.key == "2/2"
+    assert found.why == (
+        "Of 2 failed trials of variant 2, the most frequent kind, planning limit, 2, and of it the smallest seed."
+    )
+    assert worst_failure(measured(trial(1, 1)), 1) is None
