@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 
 import pytest
 from selenium.webdriver.common.by import By
@@ -24,9 +25,20 @@ def find(reader, words: str) -> dict[str, list[str]]:
     field.clear()
     reader.script("document.getElementById('found').hidden = true; document.getElementById('found').replaceChildren()")
     reader.script("document.getElementById('found-count').textContent = ''")
-    field.send_keys(words)
+    # At once: on a busy machine typing takes longer than the page waits for the next letter.
+    field.click()
+    reader.script(
+        "arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('input', {bubbles: true}))",
+        field,
+        words,
+    )
     reader.until("return document.getElementById('found-count').textContent !== ''")
     return reader.script(FOUND)
+
+
+def kinds(reader) -> list[str]:
+    """The kinds of what was found, in order; the driver sorts the keys of objects."""
+    return reader.script("return Array.from(document.querySelectorAll('#found h3'), (one) => one.textContent)")
 
 
 def verdicts_of_chosen(study) -> dict[str, str]:
@@ -59,6 +71,42 @@ def test_the_search_finds_names_the_beginnings_of_words_and_what_is_misspelled(r
     assert find(reader, "31")["Variants"] == ["Variant 31"]
     assert find(reader, "zzzzqq") == {}
     assert reader.text("#found-count") == "Nothing found"
+
+
+@pytest.mark.parametrize("words", ["Variant 30", "variant 7", "28"])
+def test_a_variant_named_by_its_title_or_number_comes_first(reader, page, words):
+    reader.open(page)
+    found = find(reader, words)
+    assert kinds(reader)[0] == "Variants"
+    assert found["Variants"] == [f"Variant {words.split()[-1]}"]
+
+
+def test_a_number_does_not_find_the_decimals_of_another(reader, page):
+    reader.open(page)
+    texts = "return Array.from(document.querySelectorAll('#found li'), (one) => one.textContent)"
+    for words in ("28", "25"):
+        find(reader, words)
+        shown = [one for one in reader.script(texts) if not one.startswith("Variant ") and "and " not in one[:4]]
+        assert all(re.search(rf"(?<![\d.]){words}(?![\d.]*\d)", one) or one.endswith("…") for one in shown)
+
+
+@pytest.mark.parametrize(
+    ("words", "kind", "title"),
+    [("SYS-024", "Requirements", "SYS-024: "), ("t_e", "Measures", "t_e: "), ("provenance", "Sections", "Provenance")],
+)
+def test_an_id_or_a_title_comes_before_what_mentions_it(reader, page, words, kind, title):
+    reader.open(page)
+    found = find(reader, words)
+    assert kinds(reader)[0] == kind
+    assert found[kind][0].startswith(title)
+    assert len(found) > 1
+
+
+def test_a_verdict_finds_the_requirements_first(reader, page):
+    reader.open(page)
+    for verdict in ("met", "inconclusive"):
+        find(reader, verdict)
+        assert kinds(reader)[0] == "Requirements"
 
 
 def test_the_search_finds_parts_of_a_name_without_spaces(reader, study, tmp_path):

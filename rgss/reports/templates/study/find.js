@@ -65,10 +65,10 @@ const startSorting = () => {
 };
 
 // ------------------------------------------------------- full-text search
-// A word with punctuation is found as a whole and by its parts; a verdict of two words is one word.
+// A word with punctuation is found as a whole and by its parts, a number only as a whole; a verdict of two words is one word.
 const SIGNS = /[^\p{L}\p{N}_.=-]+/u;
 const wholeWords = (text) => wordsOf(text).join(" ").split(SIGNS).map((word) => word.replace(/^[.=-]+|[.=-]+$/g, "")).filter(Boolean);
-const withParts = (text) => wholeWords(text).flatMap((word) => (word in VERDICTS ? [word] : [word, ...word.split(/[_.=-]/).filter((part) => part && part !== word)]));
+const withParts = (text) => wholeWords(text).flatMap((word) => (word in VERDICTS || /^[\d.]+$/.test(word) ? [word] : [word, ...word.split(/[_.=-]/).filter((part) => part && part !== word)]));
 
 const everything = () => {
   const found = [];
@@ -103,6 +103,16 @@ const everything = () => {
   return found;
 };
 
+// How well a title fits: 0 if it, its id or its name is what is sought, 1 if it has all words, 2 if only the text beside it does.
+const fitOf = (title, text) => {
+  const plain = title.trim().toLowerCase(), sought = text.trim().toLowerCase();
+  if ([plain, ...plain.split(": ")].includes(sought)) return 0;
+  const words = wholeWords(title);
+  return wholeWords(text).every((word) => words.includes(word)) ? 1 : 2;
+};
+// Of equal fit, what a reader names comes before rows and pictures that mention it.
+const KIND_ORDER = ["Variants", "Requirements", "Measures", "Parameters", "Failures", "Sections", "Rows of tables", "Diagrams"];
+
 const startFind = () => {
   const field = byId("find"), box = byId("found"), told = byId("found-count");
   let index = null, entries = [];
@@ -113,9 +123,9 @@ const startFind = () => {
     index.addAll(entries);
   };
   // The first kind of match that there is: whole words, beginnings, parts (of words, or of a script without spaces), similar words.
-  const sought = (text) => {
+  const sought = (text, onlyWhole) => {
     const words = wordsOf(text);
-    const ways = [
+    const ways = onlyWhole ? [() => index.search(text)] : [
       () => index.search(text),
       () => index.search(text, { prefix: true }),
       () => entries.filter((one) => words.every((word) => !(word in VERDICTS) && one.all.includes(word))),
@@ -136,18 +146,24 @@ const startFind = () => {
     const words = wordsOf(field.value);
     if (!words.length) { close(); return; }
     make();
+    const number = /^\s*(?:variant\s+)?(\d+)\s*$/i.exec(field.value);
+    const named = number ? placeOf.get(Number(number[1])) : undefined;
     const groups = new Map();
-    for (const one of sought(field.value)) {
-      if (!groups.has(one.kind)) groups.set(one.kind, []);
+    const fits = new Map();
+    const ranked = sought(field.value, named !== undefined).map((one) => ({ ...one, fit: fitOf(one.title, field.value) }));
+    for (const one of ranked.sort((left, right) => left.fit - right.fit)) {
+      if (!groups.has(one.kind)) { groups.set(one.kind, []); fits.set(one.kind, one.fit); }
       groups.get(one.kind).push(one);
     }
-    const those = variants.id.map((_, place) => place).filter((place) => words.every((word) => finds(place, word)));
+    const those = named !== undefined ? [named] : variants.id.map((_, place) => place).filter((place) => words.every((word) => finds(place, word)));
     if (those.length) {
+      fits.set("Variants", named === undefined ? 3 : -1);
       const listed = those.slice(0, MOST_FOUND).map((place) => ({ title: `Variant ${variants.id[place]}`, text: `${KINDS[kindOf[place]].name}; ${varying.map((one) => `${one.name} ${show(at(one.values, place), one.unit)}`).join(", ")}`, to: `#variant-${variants.id[place]}` }));
       groups.set("Variants", Object.assign(listed, { count: those.length }));
     }
     let count = 0;
-    box.replaceChildren(...Array.from(groups, ([kind, entries]) => {
+    const inOrder = Array.from(groups).sort(([one], [other]) => fits.get(one) - fits.get(other) || KIND_ORDER.indexOf(one) - KIND_ORDER.indexOf(other));
+    box.replaceChildren(...inOrder.map(([kind, entries]) => {
       const all = entries.count ?? entries.length;
       count += all;
       return list(kind, entries, all - MOST_FOUND);
