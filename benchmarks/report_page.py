@@ -59,6 +59,8 @@ def enlarged(document: dict[str, Any], count: int, *, seed: int = 1) -> dict[str
     variants["rank"] = [ranks.get(place) for place in range(count)]
     for parameter in large["parameters"]:
         column(parameter, "values", move=True)
+    for named in large["filters"]:
+        column(named, "entries")
     for measure in large["measures"]:
         column(measure, "value", "low", "high", move=True)
         column(measure, "n")

@@ -1,7 +1,7 @@
 """Design space: parameters, levels and ranges, components, rules and variants."""
 
 from rgss.designs.catalogue import CatalogueModel, load_catalogue
-from rgss.designs.choosing import picked
+from rgss.designs.choosing import picked, value_columns
 from rgss.designs.compatibility import Condition, Limit, Rule
 from rgss.designs.components import Catalogue, Component, Role, SourcedValue
 from rgss.designs.constraints import Constraint

@@ -25,6 +25,7 @@ from rgss.trace.views import share_in_words, value_in_words
 SCRIPTS = (
     "study/core.js",
     "study/address.js",
+    "study/filters.js",
     "study/tables.js",
     "study/downloads.js",
     "study/parallel.js",

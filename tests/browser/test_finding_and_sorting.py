@@ -9,7 +9,9 @@ import pytest
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
+from rgss.designs import picked
 from rgss.reports.study_page import study_report_to_html
+from rgss.studies.project import load_project
 
 pytestmark = pytest.mark.browser
 
@@ -183,6 +185,47 @@ def test_a_table_finds_verdicts_alone_and_of_a_requirement(reader, page, study):
         "return document.querySelectorAll('#verdict-table tbody tr').length === arguments[0]",
         planner["values"].count("STRIDE"),
     )
+
+
+def filtered(reader, words: str) -> tuple[list[int], str]:
+    """The variants that the Find of the table of verdicts leaves, and what is said beside it."""
+    field = reader.driver.find_element(By.CSS_SELECTOR, "#verdict-table input")
+    reader.script(
+        "arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('input', {bubbles: true}))",
+        field,
+        words,
+    )
+    return sorted(int(row[0]) for row in reader.rows("#verdict-table")), reader.text("#verdict-table output")
+
+
+def test_a_table_takes_the_filters_of_the_command_line(reader, page, study):
+    reader.open(page)
+    space = load_project(study.folder).designs
+    terms = ["gripper=three", "fingers=two", "Fingers=TWO", "gripper.fingers=3", "planner=rrt", "d8=RRT", "d8!=RRT"]
+    terms += ["component.gripper=three", "design.d8=trrt", "planner=rrt,fingers=two", "gripper_mass=light"]
+    for term in terms:
+        wanted = [one.id for one in picked(space, [term])]
+        assert 0 < len(wanted) < 72
+        assert filtered(reader, term)[0] == wanted, term
+    assert filtered(reader, "gripper=three planner=rrt")[0] == [
+        one.id for one in picked(space, ["gripper=three", "planner=rrt"])
+    ]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("plannr=rrt", "0 rows; nothing is named plannr: did you mean planner?"),
+        ("planner=rtr", "0 rows; planner is never rtr: did you mean rrt?"),
+        ("fingers=nine", "0 rows; fingers is never nine: known are three, two"),
+        ("qqqqqq=1", "0 rows; nothing is named qqqqqq"),
+    ],
+)
+def test_an_unknown_filter_of_a_table_gets_a_suggestion(reader, page, words, said):
+    reader.open(page)
+    assert filtered(reader, words) == ([], said)
+    find(reader, words)
+    assert reader.text("#found-count") == said.replace("0 rows", "Nothing found")
 
 
 def test_a_column_sorts_up_down_and_not_at_all(reader, page, study):

@@ -5,7 +5,7 @@ from collections import Counter
 
 import pytest
 
-from rgss.designs import picked
+from rgss.designs import picked, value_columns
 from rgss.designs.balance import LARGEST_BLOCK, balanced_part
 from rgss.errors import DefinitionError
 
@@ -49,6 +49,20 @@ def ids(space, *terms):
 )
 def test_terms_choose_variants(project, terms, expected):
     assert ids(project.load(), *terms) == expected
+
+
+def test_columns_of_values_choose_the_same_variants_as_the_terms(project):
+    space = project.load()
+    variants = space.expand()
+    seen = set()
+    for column in value_columns(space, variants):
+        for place, value in enumerate(column.values):
+            having = [one.id for one, entry in zip(variants, column.entries, strict=True) if entry == place]
+            assert having == ids(space, f"{column.name}={value}")
+            seen.add((column.name, value))
+    # A component, and the level that selects it, which are not in one column.
+    assert {("gripper", "large"), ("gripper", "low"), ("fingers", "two"), ("planner", "prm")} <= seen
+    assert len({column.values for column in value_columns(space, variants) if column.name == "gripper"}) == 2
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from rgss.reports.study.planning import planning_columns
 from rgss.reports.study.provenance import assumptions_of, provenance_of
 from rgss.reports.study.trials import notable_trials, trial_columns
 from rgss.reports.study.variants import (
+    filter_columns,
     measure_columns,
     parameter_columns,
     requirement_columns,
@@ -65,6 +66,7 @@ def report_document(
         "fidelity": project.study.fidelity.value,
         "variants": variant_columns(measured, decision, found),
         "parameters": parameter_columns(project, measured, found),
+        "filters": filter_columns(project, measured),
         "measures": measure_columns(project, measured),
         "requirements": requirement_columns(project, measured, decision),
         "weights": weight_columns(project, found),

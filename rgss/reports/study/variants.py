@@ -8,6 +8,7 @@ import numpy as np
 
 from rgss.assessment import VariantMeasures, requirements_with_criteria
 from rgss.decision.robustness import Robustness
+from rgss.designs import value_columns
 from rgss.measures import Measure, MeasureKind
 from rgss.reports.plain_numbers import (
     FEWER_DIGITS,
@@ -68,6 +69,12 @@ def parameter_columns(project: Project, measured: Sequence[VariantMeasures], fou
         columns.append(
             {
                 "id": definition.id,
+                "sets": definition.sets,
+                "ranged": [
+                    one.id
+                    for one in project.designs.factors
+                    if one.span is not None and one.span.parameter == definition.id
+                ],
                 "name": definition.name.replace("_", " "),
                 "unit": definition.unit,
                 "description": definition.description,
@@ -77,6 +84,17 @@ def parameter_columns(project: Project, measured: Sequence[VariantMeasures], fou
             }
         )
     return sorted(columns, key=lambda column: not column["varies"])
+
+
+def filter_columns(project: Project, measured: Sequence[VariantMeasures]) -> list[Plain]:
+    """Values of factors and roles that select variants, as after ``--only``; -1 for a variant without one of them.
+
+    Args:
+        project: The project.
+        measured: Every variant.
+    """
+    found = value_columns(project.designs, [entry.variant for entry in measured])
+    return [{"name": one.name, "values": list(one.values), "entries": condensed(one.entries)} for one in found]
 
 
 def measure_columns(project: Project, measured: Sequence[VariantMeasures]) -> list[Plain]:

@@ -168,7 +168,8 @@ const startFind = () => {
       count += all;
       return list(kind, entries, all - MOST_FOUND);
     }));
-    told.textContent = count ? `${count} found` : "Nothing found";
+    const wrong = filterProblem(words);
+    told.textContent = count ? `${count} found` : wrong ? `Nothing found; ${wrong}` : "Nothing found";
     box.hidden = count === 0;
   };
   let waiting = 0;

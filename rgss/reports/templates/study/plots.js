@@ -140,7 +140,7 @@ const startMeasures = () => {
     label: "Measures of the shown variants",
     columns: [...variantColumns, ...effectiveness.map((measure) => ({ head: withUnit(measure.id, measure.unit), title: measure.name, number: true, cell: (place) => show(at(measure.value, place)) + (interval(measure, place) ? ` (${interval(measure, place)})` : ""), sort: (place) => at(measure.value, place), ends: measure.from_trials ? (place) => [at(measure.low, place), at(measure.high, place)] : null, to: (place) => figureAddress(variants.id[place], measure.id) })),
       { head: "trials", number: true, cell: (place) => show(at(variants.trials, place)), value: (place) => at(variants.trials, place), to: (place) => figureAddress(variants.id[place], "trials") }],
-    rows: byRank, search: finds,
+    rows: byRank, search: finds, problem: filterProblem,
   });
   onShown(update);
   const tell = () => {

@@ -6,7 +6,7 @@ onShown(verdictsTable());
 onShown(tableIn("parallel-table", {
   label: "The shown variants",
   columns: [...variantColumns, ...parameterColumns, ...effectivenessColumns, valueColumn],
-  rows: byRank, search: finds,
+  rows: byRank, search: finds, problem: filterProblem,
 }));
 startMeasures();
 startPareto();

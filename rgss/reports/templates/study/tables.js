@@ -47,11 +47,12 @@ const sortable = (heads, changed) => {
   return { heads, apply };
 };
 
+// problem(words) → what is wrong with them, in a sentence; empty if nothing is.
 // columns: [{head, cell(row) → text or node, number, to(row) → link to its evidence, sort(row) → sort key}];
 // rows() → list of rows; search(row, word) → true if the row has it; key(row) → its name in links; source: origin of its figures.
 // Tables of at most MOST_PRINTED rows are printed whole; a longer one prints its page and says which rows it has.
 const paged = [];
-const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROWS, key = null, source = "" }) => {
+const pagedTable = (host, { label, columns, rows, search = null, problem = null, size = PAGE_ROWS, key = null, source = "" }) => {
   let first = 0;
   let found = [];
   let printing = false;
@@ -91,7 +92,8 @@ const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROW
       return line;
     }));
     const many = !whole && found.length > size;
-    told.textContent = many ? `Rows ${first + 1} to ${first + page.length} of ${found.length}` : `${found.length} ${found.length === 1 ? "row" : "rows"}`;
+    const wrong = found.length || problem === null ? "" : problem(wordsOf(wanted.value));
+    told.textContent = wrong ? `0 rows; ${wrong}` : many ? `Rows ${first + 1} to ${first + page.length} of ${found.length}` : `${found.length} ${found.length === 1 ? "row" : "rows"}`;
     back.hidden = on.hidden = !many;
     back.disabled = first === 0;
     on.disabled = first + size >= found.length;
@@ -166,8 +168,15 @@ const saidOf = (() => {
     return texts.get(place);
   };
 })();
-// A whole number matches a variant's id, a verdict its verdicts; other words match its search terms.
+// A whole number matches a variant's id, name=value its filter, a verdict its verdicts; other words match its search terms.
+const filterMade = new Map();
 const finds = (place, word) => {
+  if (!filterMade.has(word)) filterMade.set(word, filterOf(word));
+  const filter = filterMade.get(word);
+  if (filter) return filter.holds?.(place) ?? false;
+  // Parts that a comma separates are alternatives, as after --only.
+  const parts = word.split(",").filter(Boolean);
+  if (parts.length > 1 && parts.every((one) => filterOf(one) || /^\d+$/.test(one))) return parts.some((one) => finds(place, one));
   if (/^\d+$/.test(word)) return String(variants.id[place]) === word;
   const { text, verdicts } = saidOf(place);
   return verdicts.has(word) || (!(word in VERDICTS) && text.includes(word));

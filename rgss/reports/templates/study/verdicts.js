@@ -40,5 +40,5 @@ const verdictsTable = () => tableIn("verdict-table", {
     })),
   ],
   rows: byRank,
-  search: finds,
+  search: finds, problem: filterProblem,
 });
