@@ -73,6 +73,15 @@ def test_five_questions_are_answered_in_two_clicks_each(reader, whole_page, stud
     which = find(reader, "#glance-title")
     assert clicks.sees(which)
     assert str(decision["chosen"]) in which.text
+    design = find(reader, "#glance-design")
+    assert clicks.sees(design)
+    place = study.document["variants"]["id"].index(decision["chosen"])
+    planner = next(one for one in study.document["parameters"] if one["name"] == "planner")
+    assert f"planner {planner['values'][place]}" in design.text
+    rivals = [one for one in decision["ties"] if one != decision["chosen"]]
+    rivals += [one for one in decision["rivals"] if one not in rivals]
+    assert rivals
+    assert which.text.partition("tied with ")[2].startswith(", ".join(map(str, rivals[:4])))
     is_open, would_change = reader.driver.find_elements(By.CSS_SELECTOR, ".glance-lists h3")
     assert (is_open.text, would_change.text) == ("What is open", "What would change it")
     assert clicks.sees(is_open)

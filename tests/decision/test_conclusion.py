@@ -180,6 +180,16 @@ def with_rivals(made, *rivals: Rival):
     return dataclasses.replace(made, robustness=dataclasses.replace(made.robustness, analysis=analysis))
 
 
+def test_the_document_of_a_report_lists_the_same_ties(made):
+    def rival(row, probability):
+        return Rival(row=row, probability=probability, within_margin=True, replicates=None, measure=None)
+
+    variants = made.robustness.analysis.variants
+    part = decision_part(with_rivals(made, rival(6, 0.4), rival(2, 0.1)))
+    assert part["rivals"] == [variants[6], variants[2]]
+    assert decision_part(with_rivals(made))["rivals"] == []
+
+
 @pytest.mark.parametrize(
     ("replicates", "measure", "words"),
     [

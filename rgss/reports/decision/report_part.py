@@ -42,6 +42,7 @@ def decision_part(made: StudyDecision) -> Plain:
         "runner_up": decision.runner_up,
         "ties": list(decision.ties),
         "near_ties": list(decision.near_ties),
+        "rivals": _rivals(made.robustness),
         "program": decision.program,
         "objectives": list(decision.objectives),
         "counts": {"alternatives": decision.counts.alternatives, "feasible": decision.counts.feasible},
@@ -93,6 +94,14 @@ def portfolio_sentence(portfolio: PortfolioDecision) -> str:
     members = ", ".join(portfolio.members)
     serve = "together serve" if len(portfolio.members) > 1 else "serves"
     return f"Portfolio: {members} {serve} every study: {served}. {proof[0].upper()}{proof[1:]}."
+
+
+def _rivals(found: RobustnessFindings | None) -> list[int]:
+    """Variants that the evidence does not separate from the choice, by falling probability."""
+    weighting = None if found is None else found.analysis.weighting
+    if found is None or weighting is None or weighting.uncertainty is None:
+        return []
+    return list(found.variants(tuple(one.row for one in weighting.uncertainty.rivals)))
 
 
 def _robustness(found: RobustnessFindings | None) -> Plain:

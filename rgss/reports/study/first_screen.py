@@ -7,7 +7,7 @@ from typing import Any
 
 from rgss.reports.decision import variants_text
 from rgss.reports.plain_numbers import Plain
-from rgss.reports.study.column_entries import entry_at
+from rgss.reports.study.column_entries import entry_at, entry_text
 from rgss.trace.views import value_in_words
 
 MOST_BULLETS = 6
@@ -34,6 +34,7 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
     if chosen is None:
         return None
     place = document["variants"]["id"].index(chosen)
+    equal = [one for one in decision["ties"] if one != chosen]
     requirements = [one for one in document["requirements"] if one["measure"]]
     by_record = [one for one in document["requirements"] if one["id"] in decision["failed_records"]]
     by_test = [
@@ -53,8 +54,14 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
     bullets = [bullet for one in ranked if (bullet := _bullet(one, units, place)) is not None]
     return {
         "chosen": chosen,
-        "tied": [one for one in decision["ties"] if one != chosen],
-        "near": decision["near_ties"],
+        "levels": [
+            {"name": one["name"], "value": entry_text(entry_at(one["values"], place), one["unit"])}
+            for one in document["parameters"]
+            if one["varies"]
+        ],
+        "equal": equal,
+        # A design of equal value is tied as well, and is not named twice.
+        "tied": [one for one in decision["rivals"] if one != chosen and one not in equal],
         "met": len(judged) - len(open_) - len(missed),
         "open": [{"id": one["id"], "text": one["text"]} for one in open_],
         "missed": [

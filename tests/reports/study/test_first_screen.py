@@ -45,10 +45,16 @@ DOCUMENT = {
         requirement("R4", "mass", "<", 3, "not_run"),
         {**requirement("R5", "", "<=", 0, "met"), "measure": None},
     ],
+    "parameters": [
+        {"name": "planner", "unit": "", "varies": True, "values": ["RRT", "TRRT"]},
+        {"name": "speed", "unit": "m/s", "varies": True, "values": [0.5, 1.0]},
+        {"name": "opening", "unit": "m", "varies": False, "values": 0.1},
+    ],
     "decision": {
         "chosen": 2,
         "ties": [2],
         "near_ties": [1],
+        "rivals": [],
         "failed_tests": [],
         "failed_records": [],
         "modelling": {
@@ -74,7 +80,7 @@ def changed(**decision):
 
 def test_what_is_open_comes_first_and_then_what_weighs_most():
     shown = first_screen_content(DOCUMENT)
-    assert (shown["chosen"], shown["tied"], shown["near"], shown["met"]) == (2, [], [1], 2)
+    assert (shown["chosen"], shown["equal"], shown["tied"], shown["met"]) == (2, [], [], 2)
     assert [one["requirement"] for one in shown["bullets"]] == ["R2", "R1", "R3"]
     assert shown["open"] == [{"id": "R2", "text": "R2 in words."}, {"id": "R4", "text": "R4 in words."}]
     assert shown["missed"] == []
@@ -96,6 +102,18 @@ def test_what_a_verification_record_says_is_not_met_is_missed_and_told_once():
         {"id": "R3", "text": "R3 in words. Its verification record says so."},
         {"id": "R5", "text": "R5 in words. Its verification record says so."},
     ]
+
+
+def test_the_levels_of_the_choice_in_words():
+    assert first_screen_content(DOCUMENT)["levels"] == [
+        {"name": "planner", "value": "TRRT"},
+        {"name": "speed", "value": "1 m/s"},
+    ]
+
+
+def test_designs_of_equal_value_and_designs_that_the_evidence_does_not_separate():
+    shown = first_screen_content(changed(ties=[2, 5], rivals=[5, 1, 4]))
+    assert (shown["equal"], shown["tied"]) == ([5], [1, 4])
 
 
 def test_limits_without_a_chart_are_counted():
@@ -162,7 +180,7 @@ def test_without_a_choice_there_is_none():
 def test_a_missed_requirement_of_the_choice_comes_first():
     shown = first_screen_content(changed(chosen=1, ties=[1, 2]))
     assert [one["id"] for one in shown["missed"]] == ["R1", "R2"]
-    assert shown["tied"] == [2]
+    assert shown["equal"] == [2]
     assert [one["requirement"] for one in shown["bullets"]] == ["R2", "R1", "R3"]
     assert shown["bullets"][0]["verdict"] == "not_met"
 
