@@ -1,15 +1,19 @@
-"""Arms that cannot turn their tool to every pose, and gantries: from a URDF to a decision."""
+"""Arms that cannot turn their tool to every pose or by a whole turn, and gantries: from a URDF to a decision."""
 
 from __future__ import annotations
 
 import json
 import math
 
+import numpy as np
 import pytest
 import yaml
 
 from rgss.cli.main import main
-from tests.fixtures.serial_arms import FIVE, GANTRY, SCARA, serial_urdf
+from rgss.scenes import Waypoint
+from rgss.studies import load_project, trial_specs
+from rgss.trials import cell_of, waypoint_configurations
+from tests.fixtures.serial_arms import FIVE, GANTRY, SCARA, Link, Y, serial_urdf
 
 
 @pytest.fixture
@@ -66,3 +70,32 @@ def test_a_gantry_hangs_above_its_tables(project_of):
         y + 0.5 * math.sin(turn) + 0.45 * math.cos(turn),
     )
     assert middle == pytest.approx((0.0, 0.0), abs=0.02)
+
+
+SHORT_OF_A_TURN = (-2.8, 2.8)
+
+
+@pytest.mark.engine
+@pytest.mark.parametrize(("last", "is_free"), [(SHORT_OF_A_TURN, True), ((-6.2, 6.2), False)])
+def test_an_arm_that_would_turn_over_between_the_tables_turns_its_gripper_instead(tmp_path, last, is_free):
+    """A last joint that cannot make the stated yaw at both tables in one configuration of the other joints."""
+    links = (
+        Link("revolute", (0.0, 0.0, 0.11), range=SHORT_OF_A_TURN),
+        Link("revolute", (0.0, 0.0, 0.1), axis=Y, range=SHORT_OF_A_TURN),
+        Link("revolute", (0.0, 0.0, 0.3), axis=Y, range=SHORT_OF_A_TURN),
+        Link("revolute", (0.0, 0.0, 0.25), range=SHORT_OF_A_TURN),
+        Link("revolute", (0.0, 0.0, 0.1), axis=Y, range=SHORT_OF_A_TURN),
+        Link("revolute", (0.0, 0.0, 0.15), range=last),
+    )
+    urdf = tmp_path / "six.urdf"
+    urdf.write_text(serial_urdf(links), encoding="utf-8")
+
+    assert main(["init", "--robot", str(urdf), str(tmp_path / "new")]) == 0
+
+    text = (tmp_path / "new" / "scenes" / "kitchen.yaml").read_text(encoding="utf-8")
+    assert ("free_yaw: true" in text) is is_free
+    project = load_project(tmp_path / "new")
+    (spec,) = trial_specs(project.nominal(), variants=[project.designs.variant(2)], seeds=[1])
+    stops = waypoint_configurations(cell_of(spec))
+    carry = np.abs(stops[Waypoint.PLACE_APPROACH] - stops[Waypoint.GRASP_DEPARTURE])
+    assert carry.max() < 2.5

@@ -32,6 +32,8 @@ _PEDESTAL, _PEDESTAL_GAP_M = "pedestal", 0.15
 _LEAST_REACH_M = 0.2
 _POSE_FREEDOMS = 6
 _CARRY_STATES = 64
+# Between two tables side by side, a joint that turns farther carries the object round by another configuration.
+_FARTHEST_CARRY_RAD = 2.5
 _TURN_RAD = 6.29
 """One turn, rounded up so that written ranges are short."""
 
@@ -45,12 +47,14 @@ class FittedCell:
         home: Joint positions above the object, in rad or m.
         lower: Lower ends of the joints' ranges, of more than one turn that of the turn about the task.
         upper: Their upper ends.
+        carry_rad: Greatest change of a joint from table to table.
     """
 
     layout: Layout
     home: tuple[float, ...]
     lower: tuple[float, ...]
     upper: tuple[float, ...]
+    carry_rad: float
 
 
 class CellSearch:
@@ -115,9 +119,21 @@ class CellSearch:
         for layout in tried:
             found = self._fitted(layout, is_direct=is_direct)
             if found is not None:
-                yield found
+                yield self._carrying_round_less(found, layout, is_direct=is_direct)
             elif self._reason == POINTS_INTO_ARM:
                 return
+
+    def _carrying_round_less(self, found: FittedCell, tried: Layout, *, is_direct: bool) -> FittedCell:
+        """Cell, or that with the gripper turned as suits the arm if the arm would turn over between the tables.
+
+        A range of the last joint below a turn may exclude the stated yaw at one of the tables; the cup is round.
+        """
+        if tried.is_yaw_free or found.carry_rad <= _FARTHEST_CARRY_RAD:
+            return found
+        before = self._reason, self._unserved
+        free = self._fitted(replace(tried, is_yaw_free=True), is_direct=is_direct)
+        self._reason, self._unserved = before
+        return found if free is None or free.carry_rad > _FARTHEST_CARRY_RAD else free
 
     def _fitted(self, tried: Layout, *, is_direct: bool) -> FittedCell | None:
         self._tried += 1
@@ -148,7 +164,8 @@ class CellSearch:
             return None
         lower, upper = _ranges(self._robot, np.array([q for one in stops for q in one.values()]))
         home = stops[0][Waypoint.GRASP_DEPARTURE].tolist()
-        return FittedCell(layout=layout, home=tuple(home), lower=lower, upper=upper)
+        carries = [np.abs(one[Waypoint.PLACE_APPROACH] - one[Waypoint.GRASP_DEPARTURE]).max() for one in stops]
+        return FittedCell(layout=layout, home=tuple(home), lower=lower, upper=upper, carry_rad=float(max(carries)))
 
     def _scene(self, layout: Layout) -> Scene:
         self._path.write_text(scene_text(layout, robot=self._robot_file), encoding="utf-8")
