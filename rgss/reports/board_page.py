@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from rgss.reports.decision import tornado_svg
+from rgss.reports.decision import tornado_svgs
 from rgss.reports.page import render_page, template_text
 from rgss.reports.study import comparison_rows, data_address, entry_at, entry_text, first_screen_content
 from rgss.reports.study_page import TrialPictures, chosen_picture
@@ -80,7 +80,7 @@ def board_to_html(
         best_heads=heads,
         best=rows,
         left_out=" ".join(filter(None, (_ranked_in_words(ranked, len(rows)), *_columns_left(document)))),
-        tornado=Markup("" if tornado is None else tornado_svg(tornado, most_bars=_MOST_ROWS)),  # noqa: S704 - own drawing
+        tornado=Markup("" if tornado is None else tornado_svgs(tornado, most_bars=_MOST_ROWS)),  # noqa: S704 - own drawing
         tornado_more="" if tornado is None else _more(tornado.moving, _MOST_ROWS, "inputs of the tornado"),
         repairs=repairs[:_MOST_LINES],
         repairs_more=_more(repairs, _MOST_LINES, "repairs"),

@@ -116,7 +116,7 @@ def study_report_to_html(
         drawings_notice: A note on the diagrams; may be empty.
         pictures: Pictures of the notable trials.
         pictures_notice: A note on the pictures, such as why there are none.
-        tornado: The picture of the sensitivity, from `rgss.reports.decision.tornado_svg`.
+        tornado: The picture of the sensitivity, from `rgss.reports.decision.tornado_svgs`.
 
     Raises:
         DefinitionError: The package ``jinja2`` or ``plotly`` is not installed.

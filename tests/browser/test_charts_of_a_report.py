@@ -13,7 +13,7 @@ import pytest
 
 from rgss.decision.sensitivity import InputKind, RangeBasis, Tornado, TornadoBar, TornadoEnd
 from rgss.reports.board_page import board_to_html
-from rgss.reports.decision.tornado_picture import tornado_svg
+from rgss.reports.decision.tornado_picture import tornado_svgs
 from rgss.reports.study.first_screen import first_screen_content
 from rgss.reports.study_page import study_report_to_html
 from tests.fixtures.processes import wait_until
@@ -237,7 +237,7 @@ def test_texts_of_the_tornado_are_at_least_12_px_and_the_page_does_not_scroll(re
     text = (
         board_to_html(document, tornado=tornado)
         if board
-        else study_report_to_html(document, study.trace, tornado=tornado_svg(tornado))
+        else study_report_to_html(document, study.trace, tornado=tornado_svgs(tornado))
     )
     file.write_text(text, encoding="utf-8")
     reader.driver.execute_cdp_cmd(
@@ -245,12 +245,23 @@ def test_texts_of_the_tornado_are_at_least_12_px_and_the_page_does_not_scroll(re
     )
     reader.driver.get(file.as_uri())
     size = (
-        "const svg = document.querySelector('svg.tornado'), text = svg.querySelector('text');"
+        "const svg = [...document.querySelectorAll('svg.tornado')].find((one) => one.checkVisibility());"
+        "const text = svg.querySelector('text');"
         "return parseFloat(getComputedStyle(text).fontSize) * svg.getBoundingClientRect().width"
         " / svg.viewBox.baseVal.width"
     )
     assert reader.script(size) >= 12
     assert reader.script("return document.documentElement.scrollWidth") <= width
+    # Every bar is in view without scrolling sideways, and no bar is under a name.
+    seen = (
+        "const svg = [...document.querySelectorAll('svg.tornado')].filter((one) => one.checkVisibility());"
+        "const box = (one) => one.getBoundingClientRect(), host = box(svg[0].parentElement);"
+        "const names = [...svg[0].querySelectorAll('text')].map(box);"
+        "return [svg.length, [...svg[0].querySelectorAll('rect')].every((one) => box(one).left >= host.left &&"
+        " box(one).right <= host.right + 1 && !names.some((name) => name.left < box(one).right - 1 &&"
+        " name.right > box(one).left + 1 && name.top < box(one).bottom - 2 && name.bottom > box(one).top + 2))]"
+    )
+    assert reader.script(seen) == [1, True]
     assert reader.accessibility_findings() == []
 
 
@@ -261,7 +272,7 @@ def test_a_board_prints_the_largest_bars_at_a_size_that_is_read(reader, study, t
     reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
     try:
         size = reader.script(
-            "const svg = document.querySelector('svg.tornado'), box = svg.getBoundingClientRect();"
+            "const svg = document.querySelector('svg.tornado.wide'), box = svg.getBoundingClientRect();"
             "const drawn = svg.viewBox.baseVal, text = getComputedStyle(svg.querySelector('text'));"
             "return parseFloat(text.fontSize) * Math.min(box.width / drawn.width, box.height / drawn.height)"
         )
@@ -272,7 +283,7 @@ def test_a_board_prints_the_largest_bars_at_a_size_that_is_read(reader, study, t
 
 
 def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
-    document, drawn = with_tornado(study.document), tornado_svg(tornado_of())
+    document, drawn = with_tornado(study.document), tornado_svgs(tornado_of())
     file = tmp_path / "report.html"
     file.write_text(study_report_to_html(document, study.trace, tornado=drawn), encoding="utf-8")
     reader.open(file)

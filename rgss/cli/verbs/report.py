@@ -150,7 +150,7 @@ def _rendered(
 ) -> bytes:
     """The board edition or the whole report."""
     from rgss.reports import board_to_html, study_report_to_html
-    from rgss.reports.decision import tornado_svg
+    from rgss.reports.decision import tornado_svgs
     from rgss.reports.diagrams import diagrams_of, drawings_for_page, missing_diagrams
 
     if options.board:
@@ -162,7 +162,7 @@ def _rendered(
         drawings_notice=missing_diagrams(project.requirements),
         pictures=pictures,
         pictures_notice=notice,
-        tornado="" if tornado is None else tornado_svg(tornado),
+        tornado="" if tornado is None else tornado_svgs(tornado),
     )
     # A folder's name that is no UTF-8 has characters that none encodes.
     return page.encode("utf-8", errors="backslashreplace")

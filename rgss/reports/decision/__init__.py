@@ -21,7 +21,7 @@ if TYPE_CHECKING:
         usable_resamples_sentence,
         weighing_lines,
     )
-    from rgss.reports.decision.tornado_picture import tornado_svg
+    from rgss.reports.decision.tornado_picture import tornado_svgs
     from rgss.reports.decision.until_decided import open_paragraph, until_decided_summary
     from rgss.reports.decision.words import ids_text, quantity_text, variants_text
 else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from html import escape
 
 from rgss.decision.sensitivity import Tornado, TornadoBar, TornadoEnd
@@ -12,16 +13,55 @@ from rgss.reports.decision.words import amount, score, variants_text
 MOST_BARS = 25
 """Most inputs that are drawn; the document has all."""
 
-_WIDTH, _ROW, _BAR, _TOP = 960.0, 26.0, 16.0, 44.0
-_LEFT, _RIGHT = 330.0, 930.0
+_BAR, _TOP, _LABEL = 16.0, 44.0, 18.0
 
 
-def tornado_svg(tornado: Tornado, *, most_bars: int = MOST_BARS) -> str:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TornadoLayout:
+    """Layout of the picture, in its units, which are about pixels.
+
+    Attributes:
+        name: Its class in the style sheet.
+        width: Width of the picture.
+        left: Left end of the axis.
+        right: Right end of the axis.
+        label_above: True if the name of an input is above its bar, False if it is to the left.
+    """
+
+    name: str
+    width: float
+    left: float
+    right: float
+    label_above: bool
+
+    @property
+    def row(self) -> float:
+        """Height of the row of an input."""
+        return 26.0 + (_LABEL if self.label_above else 0.0)
+
+
+WIDE = TornadoLayout(name="wide", width=960.0, left=330.0, right=930.0, label_above=False)
+NARROW = TornadoLayout(name="narrow", width=360.0, left=16.0, right=340.0, label_above=True)
+"""For the width of a telephone, where names to the left would leave no room for the bars."""
+
+
+def tornado_svgs(tornado: Tornado, *, most_bars: int = MOST_BARS) -> str:
+    """The picture in its narrow and its wide layout, of which the style sheet shows one; empty as `tornado_svg`.
+
+    Args:
+        tornado: The sensitivity of a choice.
+        most_bars: Most bars, of the inputs that move the lead the most.
+    """
+    return "".join(tornado_svg(tornado, most_bars=most_bars, layout=layout) for layout in (NARROW, WIDE))
+
+
+def tornado_svg(tornado: Tornado, *, most_bars: int = MOST_BARS, layout: TornadoLayout = WIDE) -> str:
     """Picture of the bars; empty if no input moves the lead, or there is none.
 
     Args:
         tornado: The sensitivity of a choice.
         most_bars: Most bars, of the inputs that move the lead the most.
+        layout: Its layout.
 
     Returns:
         An ``svg`` element without scripts, references or style attributes.
@@ -32,36 +72,44 @@ def tornado_svg(tornado: Tornado, *, most_bars: int = MOST_BARS) -> str:
         return ""
     base = tornado.lead or 0.0
     least, most = min([0.0, base, *leads]), max([0.0, base, *leads])
-    scale = (_RIGHT - _LEFT) / ((most - least) or 1.0)
+    scale = (layout.right - layout.left) / ((most - least) or 1.0)
 
     def across(lead: float) -> float:
-        return _LEFT + (lead - least) * scale
+        return layout.left + (lead - least) * scale
 
-    height = _TOP + _ROW * len(bars) + 12.0
+    height = _TOP + layout.row * len(bars) + 12.0
     label = f"Tornado: lead of variant {tornado.chosen} over the range of each input; the table has the figures"
     parts = [
-        f'<svg class="tornado" viewBox="0 0 {_WIDTH:g} {height:g}" role="img" aria-label="{label}">',
-        _text(_LEFT, 16.0, f"lead {least:+.4f}", "start"),
-        _text(_RIGHT, 16.0, f"{most:+.4f}", "end"),
+        (
+            f'<svg class="tornado {layout.name}" viewBox="0 0 {layout.width:g} {height:g}" role="img" '
+            f'aria-label="{label}">'
+        ),
+        _text(layout.left, 16.0, f"lead {least:+.4f}", "start"),
+        _text(layout.right, 16.0, f"{most:+.4f}", "end"),
         _line(across(0.0), height, "none"),
         _text(across(0.0), 32.0, "0", "middle"),
     ]
     for row, bar in enumerate(bars):
-        parts += _bar(bar, _TOP + row * _ROW, base, across)
+        parts += _bar(bar, _TOP + row * layout.row, base, across, layout)
     if tornado.lead is not None:
         parts += [_line(across(base), height, "now"), _text(across(base), 32.0, score(base), "middle")]
     return "".join([*parts, "</svg>"])
 
 
-def _bar(bar: TornadoBar, top: float, base: float, across: Callable[[float], float]) -> Iterator[str]:
-    middle = top + _ROW / 2.0
+def _bar(
+    bar: TornadoBar, top: float, base: float, across: Callable[[float], float], layout: TornadoLayout
+) -> Iterator[str]:
+    middle = top + layout.row - 13.0
     ends = [(bar.low, "low"), (bar.high, "high")]
-    yield _text(_LEFT - 12.0, middle + 4.0, bar.id, "end")
+    if layout.label_above:
+        yield _text(layout.left, top + _LABEL - 4.0, bar.id, "start")
+    else:
+        yield _text(layout.left - 12.0, middle + 4.0, bar.id, "end")
     for end, kind in sorted(ends, key=lambda one: -_length(one[0], base)):
         if end.lead is None and end.feasible:
             continue
         missed = end.lead is None
-        reach = _LEFT if end.lead is None else across(end.lead)
+        reach = layout.left if end.lead is None else across(end.lead)
         left, right = min(reach, across(base)), max(reach, across(base))
         thickness = 3.0 if missed else _BAR
         wins = variants_text(end.winners) if end.winners else "nothing is feasible"
@@ -73,7 +121,7 @@ def _bar(bar: TornadoBar, top: float, base: float, across: Callable[[float], flo
             f'width="{right - left:.2f}" height="{thickness:g}"><title>{_safe(f"{title}; {wins}")}</title></rect>'
         )
     if not all(end.feasible for end, _ in ends):
-        yield _text(_LEFT - 5.0, middle + 4.0, "✕", "middle")
+        yield _text(layout.left - 5.0, middle + 4.0, "✕", "middle")
 
 
 def _length(end: TornadoEnd, base: float) -> float:

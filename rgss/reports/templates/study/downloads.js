@@ -96,7 +96,7 @@ const svgPen = (width, height) => {
 
 // The tornado is inline SVG; its file includes the colours of the page's style sheet.
 const startTornado = () => {
-  const host = byId("tornado"), drawn = host?.querySelector("svg");
+  const host = byId("tornado"), drawn = host?.querySelector("svg.wide");
   if (!drawn) return;
   const side = (name, index, beyond) => [{ head: name, cell: (row) => row.numbers.ends[index].value }, { head: `${name} lead`, cell: (row) => row.numbers.ends[index].lead },
     { head: `${name} feasible`, cell: (row) => (row.numbers.ends[index].feasible ? "yes" : "no") }, { head: `${name} wins`, cell: (row) => row.ends[index].wins }, { head: `changes ${beyond}`, cell: (row) => row.numbers.ends[index].flip }];
