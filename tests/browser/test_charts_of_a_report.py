@@ -163,6 +163,27 @@ def test_no_line_of_the_parallel_coordinates_runs_through_a_number(reader, page,
         assert top + tall >= float(label.get("y")) + 2
 
 
+@pytest.mark.parametrize("width", [390, 1440])
+def test_axes_say_which_end_is_better_and_the_chosen_bar_has_its_number(reader, page, study, width):
+    reader.open(page, width=width)
+
+    def layout(name):
+        reader.script("document.getElementById(arguments[0]).scrollIntoView()", f"{name}-plot")
+        reader.until("return document.getElementById(arguments[0]).querySelector('.main-svg') !== null", f"{name}-plot")
+        return reader.script(
+            "const {xaxis: x, yaxis: y} = document.getElementById(arguments[0]).layout;"
+            "return {x: x.title?.text, y: y.title?.text, ticks: x.ticktext ?? null}",
+            f"{name}-plot",
+        )
+
+    assert layout("weights")["x"] == "weighted value, higher is better"
+    shown = layout("acceptability")
+    assert shown["y"] == "share of draws, higher is better"
+    assert f"<b>{study.document['decision']['chosen']}</b>" in shown["ticks"]
+    assert layout("effects")["y"].endswith(("lower is better", "higher is better"))
+    assert layout("timeline")["x"] == "time [s], shorter is better"
+
+
 def test_pictures_of_failures_are_folded_until_a_link_leads_there(reader, study, pictures, tmp_path):
     (first,) = pictures
     file = tmp_path / "report.html"

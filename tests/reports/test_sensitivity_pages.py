@@ -114,6 +114,21 @@ def test_a_lead_that_only_an_end_has_is_drawn_from_0_without_a_present_one(torna
     assert "0.0000" not in texts
 
 
+@pytest.mark.parametrize(
+    ("lead", "low", "high", "numbers"),
+    [
+        (0.1, -0.1, 0.3, ["-0.1", "0", "0.2", "0.3", "0.1000"]),
+        (0.0158, 0.0009, 0.0201, ["0", "0.005", "0.01", "0.02", "0.0158"]),
+    ],
+)
+def test_the_axis_has_round_numbers_once_and_says_which_end_is_better(tornado, lead, low, high, numbers):
+    moving = bar("weight.a", end(0.4, low), end(0.6, high))
+    root = ET.fromstring(tornado_svg(replace(tornado, lead=lead, bars=(moving,))))  # noqa: S314 (made here)
+    texts = [one.text for one in root if one.tag == "text"]
+    assert texts[0] == "lead, greater is better"
+    assert [one for one in texts[1:] if one != "weight.a"] == numbers
+
+
 def test_the_picture_is_well_formed_and_to_scale(tornado):
     root = ET.fromstring(tornado_svg(tornado))  # noqa: S314 (made here)
     rectangles = [one for one in root if one.tag == "rect"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from html import escape
@@ -14,6 +15,9 @@ MOST_BARS = 25
 """Most inputs that are drawn; the document has all."""
 
 _BAR, _TOP, _LABEL = 16.0, 44.0, 18.0
+_APART = 44.0
+"""Least distance of the middles of two numbers on the axis."""
+_FEWEST_STEPS = 3.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,11 +88,14 @@ def tornado_svg(tornado: Tornado, *, most_bars: int = MOST_BARS, layout: Tornado
             f'<svg class="tornado {layout.name}" viewBox="0 0 {layout.width:g} {height:g}" role="img" '
             f'aria-label="{label}">'
         ),
-        _text(layout.left, 16.0, f"lead {least:+.4f}", "start"),
-        _text(layout.right, 16.0, f"{most:+.4f}", "end"),
+        _text(layout.left, 16.0, "lead, greater is better", "start"),
         _line(across(0.0), height, "none"),
-        _text(across(0.0), 32.0, "0", "middle"),
     ]
+    for tick in _ticks(least, most):
+        parts.append(_line(across(tick), _TOP, "tick"))
+        # The present lead has a label of its own, which a round number must not touch.
+        if tornado.lead is None or abs(across(tick) - across(base)) > _APART:
+            parts.append(_text(across(tick), 32.0, f"{tick:.3g}", "middle"))
     for row, bar in enumerate(bars):
         parts += _bar(bar, _TOP + row * layout.row, base, across, layout)
     if tornado.lead is not None:
@@ -124,12 +131,20 @@ def _bar(
         yield _text(layout.left - 5.0, middle + 4.0, "✕", "middle")
 
 
+def _ticks(least: float, most: float) -> list[float]:
+    """Round numbers from the least to the most, among them 0."""
+    power = 10.0 ** math.floor(math.log10((most - least) or 1.0))
+    step = next((power * part for part in (1.0, 0.5) if (most - least) / (power * part) >= _FEWEST_STEPS), 0.2 * power)
+    return [place * step for place in range(math.ceil(least / step - 1e-9), math.floor(most / step + 1e-9) + 1)]
+
+
 def _length(end: TornadoEnd, base: float) -> float:
     return float("inf") if end.lead is None else abs(end.lead - base)
 
 
 def _line(x: float, height: float, kind: str) -> str:
-    return f'<line class="{kind}" x1="{x:.2f}" y1="{_TOP - 6.0:g}" x2="{x:.2f}" y2="{height - 6.0:g}"/>'
+    first, last = (_TOP - 10.0, _TOP - 4.0) if kind == "tick" else (_TOP - 6.0, height - 6.0)
+    return f'<line class="{kind}" x1="{x:.2f}" y1="{first:g}" x2="{x:.2f}" y2="{last:g}"/>'
 
 
 def _text(x: float, y: float, text: str, anchor: str) -> str:

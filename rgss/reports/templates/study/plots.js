@@ -209,7 +209,7 @@ const startWeights = () => {
     if (!rows.length) return null;
     const names = rows.map((row) => `variant ${variants.id[row.place]}`);
     return { traces: weighted.map((one, index) => ({ type: "bar", orientation: "h", name: plotText(one.id), y: names, x: rows.map((row) => parts(row)[index]), marker: filling(PALETTE[index % PALETTE.length], index), hovertemplate: "%{x:.4f}<extra>%{fullData.name}</extra>", meta: rows.map((row) => variants.id[row.place]) })),
-      layout: { barmode: "stack", yaxis: { autorange: "reversed", type: "category" }, xaxis: { title: { text: "weighted value" }, range: [0, 1] } } };
+      layout: { barmode: "stack", yaxis: { autorange: "reversed", type: "category" }, xaxis: { title: { text: "weighted value, higher is better" }, range: [0, 1] } } };
   });
   rankingWatchers.push(redraw);
   const update = tableIn("weights-table", {
@@ -237,8 +237,12 @@ const startAcceptability = () => {
     const bars = rows();
     if (!bars.length) return null;
     const ink = getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
+    // Where not every bar has room for its number, the chosen one keeps it.
+    const step = Math.ceil((30 * bars.length) / Math.max(1, byId("acceptability-plot").clientWidth - 100));
+    const own = bars.findIndex((one) => one.variant === data.decision.chosen);
+    const named = bars.filter((one, index) => index === own || (index % step === 0 && (own < 0 || Math.abs(index - own) >= step)));
     return { traces: [{ type: "bar", x: bars.map((one) => String(one.variant)), y: bars.map((one) => one.first), error_y: { type: "data", symmetric: false, color: ink, thickness: 1, array: bars.map((one) => Math.min(1 - one.first, 1.96 * one.error)), arrayminus: bars.map((one) => Math.min(one.first, 1.96 * one.error)) }, marker: { color: bars.map((one) => KINDS[kindOf[placeOf.get(one.variant)]].colour), pattern: { shape: bars.map((one) => (kindOf[placeOf.get(one.variant)] === INFEASIBLE ? "/" : "")), fillmode: "replace", bgcolor: "#8a8a8a", fgcolor: "#ffffff", size: 7, solidity: 0.15 } }, hoverinfo: "text", text: bars.map((one) => plotText(`variant ${one.variant}: first in ${percent(one.first)}`)), textposition: "none", meta: bars.map((one) => one.variant) }],
-      layout: { xaxis: { type: "category", title: { text: "variant" } }, yaxis: { title: { text: "share of draws" }, rangemode: "tozero", tickformat: ".0%" } } };
+      layout: { xaxis: { type: "category", title: { text: own < 0 ? "variant" : "variant (chosen: bold)" }, tickmode: "array", tickangle: 0, tickvals: named.map((one) => String(one.variant)), ticktext: named.map((one) => (one.variant === data.decision.chosen ? `<b>${one.variant}</b>` : String(one.variant))) }, yaxis: { title: { text: "share of draws, higher is better" }, rangemode: "tozero", tickformat: ".0%" } } };
   });
   onShown(tableIn("acceptability-table", {
     label: "Acceptability of the shown variants",
@@ -290,7 +294,7 @@ const startEffects = () => {
     if (shownPlaces.length < total) {
       traces.push({ x: across(found), y: found.map((row) => row.brushed), mode: "markers", name: "mean of the shown variants", marker: { symbol: "x", size: 10, color: "#d55e00" } });
     }
-    return { traces, layout: { xaxis: narrow ? { type: "linear", tickvals: found.map((_, index) => index), ticktext: found.map((row) => plotText(row.level)), tickangle: -90 } : { type: "multicategory" }, yaxis: { title: { text: plotText(`mean of ${withUnit(one.measure, one.unit)}`) } }, height: 390 } };
+    return { traces, layout: { xaxis: narrow ? { type: "linear", tickvals: found.map((_, index) => index), ticktext: found.map((row) => plotText(row.level)), tickangle: -90 } : { type: "multicategory" }, yaxis: { title: { text: plotText(`mean of ${withBetter(measureOf.get(one.measure))}`) } }, height: 390 } };
   });
   const update = tableIn("effects-table", {
     label: "Main effects",

@@ -106,7 +106,7 @@ const startTimeline = () => {
     const names = found.map((row, index) => `${index + 1} ${row.phase}${row.outcome === "completed" ? "" : ` (${row.outcome})`}`);
     const bar = (label, start, length, colour, shape) => ({ type: "bar", orientation: "h", name: label, y: names, base: start, x: length, marker: filling(colour, shape), hovertemplate: "%{x:.3g} s<extra>%{fullData.name}</extra>" });
     return { traces: [bar("planning", found.map((row) => row.start), found.map((row) => row.planning), "#e69f00", 1), bar("phase", found.map((row) => row.start + row.planning), found.map((row) => row.moving), "#0072b2", 0)],
-      layout: { barmode: "overlay", yaxis: { type: "category", autorange: "reversed" }, xaxis: { title: { text: "time [s]" }, rangemode: "tozero" } } };
+      layout: { barmode: "overlay", yaxis: { type: "category", autorange: "reversed" }, xaxis: { title: { text: "time [s], shorter is better" }, rangemode: "tozero" } } };
   });
   const update = tableIn("timeline-table", {
     label: "Phases of the trial",
