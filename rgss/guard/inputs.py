@@ -20,7 +20,7 @@ BASELINE_SUFFIX = ".baseline.json"
 """Suffix of a baseline, which replaces that of the study's file."""
 
 _CODE = "rgss-"
-_COMPARED_ELSEWHERE = frozenset({"inputs", "versions", "inputs_digest", "files", "revision", "machine"})
+_COMPARED_ELSEWHERE = frozenset({"inputs", "versions", "inputs_digest", "files", "revision", "machine", "study"})
 
 
 def inputs_of_trials(watched: Iterable[WatchedTrials]) -> Inputs:

@@ -206,12 +206,15 @@ def test_whatever_a_provenance_names_is_compared(project_of):
         numerics: Mapping[str, str] = field(default_factory=dict)
         kernel: str = ""
 
-    here = Richer(inputs={}, versions={"ompl": "9", "rgss-plan": "d"}, numerics={"blas": "Haswell"}, kernel="k")
+    here = Richer(
+        inputs={}, versions={"ompl": "9", "rgss-plan": "d"}, numerics={"blas": "Haswell"}, kernel="k", study="s.yaml"
+    )
     there = replace(here, numerics={"blas": "Zen"}, machine="M")
     origin = origin_of_trials(project_of(), [here, there])
     assert (origin.engines["numerics.blas"], origin.engines["kernel"]) == ("Haswell | Zen", "k")
     assert (origin.engines["ompl"], origin.machine) == ("9", "M")
-    assert "rgss-plan" not in origin.engines
+    # The study is that of the baseline by its file, not an engine.
+    assert {"rgss-plan", "study"}.isdisjoint(origin.engines)
 
 
 def test_what_changed_is_named(compared):
