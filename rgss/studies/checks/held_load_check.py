@@ -27,15 +27,15 @@ def held_load_findings(project: Project, document: Document) -> Iterator[Finding
         return
     from rgss.trials import HeldLoad, held_loads
 
-    loads: dict[Gripper, tuple[HeldLoad, ...]] = {}
+    loads: dict[tuple[Gripper, float], tuple[HeldLoad, ...]] = {}
     unborne: dict[str, list[tuple[HeldLoad, int]]] = {}
     specs = trial_specs(project, seeds=(project.study.seed,))
     for spec in specs:
-        # The robot of all designs is that of the scene: what differs in the hand is the gripper.
-        if spec.gripper not in loads:
+        alike = spec.gripper, spec.scene.robot.tool_acceleration_m_s2
+        if alike not in loads:
             stated = replace(spec, uncertainty=NOTHING_UNCERTAIN, workload=ONE_WORKLOAD)
-            loads[spec.gripper] = tuple(held_loads(stated))
-        for load in loads[spec.gripper]:
+            loads[alike] = tuple(held_loads(stated))
+        for load in loads[alike]:
             if not load.is_borne:
                 unborne.setdefault(load.object, []).append((load, spec.variant))
     told = unborne_objects(project)
@@ -44,7 +44,7 @@ def held_load_findings(project: Project, document: Document) -> Iterator[Finding
         of_object = unborne.get(name, [])
         if not of_object or name in told:
             continue
-        best = max((load for load, _ in of_object), key=lambda load: load.factor)
+        best = max((load for load, _ in of_object), key=lambda load: load.factor / load.needed)
         variants = [variant for _, variant in of_object]
         is_of_all = len(variants) == len(specs)
         yield document.finding(

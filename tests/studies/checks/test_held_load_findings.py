@@ -11,6 +11,7 @@ import pytest
 from rgss.evidence import Fidelity
 from rgss.findings import Severity
 from rgss.studies import object_limit_findings
+from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.studies.scene_findings import check_scene
 
@@ -53,6 +54,24 @@ def test_a_widget_with_its_mass_at_one_end(yumi):
     assert every.hint == "grip it nearer to its centre of mass, or with more force or friction"
     text = (REPOSITORY / yumi.study.scene).read_text(encoding="utf-8").splitlines()[every.line - 1]
     assert text.strip().startswith("mass:")
+
+
+def test_designs_that_accelerate_less_are_told_apart(yumi, monkeypatch):
+    """Of equal grippers those fail whose lift takes more; the figures are those of the one that fails least."""
+    gentle = [spec for spec in trial_specs(yumi, seeds=(1,)) if spec.gripper.finger_force_n == 5.0]
+    robot = gentle[0].scene.robot
+    specs = [
+        replace(one, scene=replace(one.scene, robot=replace(robot, tool_acceleration_m_s2=acceleration)))
+        for one, acceleration in zip(gentle, (1.0, 12.0, 30.0, 1.0, 1.0, 1.0, 1.0, 1.0), strict=True)
+    ]
+    heavy = replace(yumi.scene.workpiece, mass_kg=0.5)
+    specs = [replace(one, scene=replace(one.scene, workpiece=heavy)) for one in specs]
+    monkeypatch.setattr("rgss.studies.checks.held_load_check.trial_specs", lambda *_, **__: specs)
+    (one,) = found_in(yumi)
+    assert one.severity is Severity.INFO
+    assert f"of 2 variants, such as {specs[1].variant}:" in one.message
+    assert "bear 2.04 times" in one.message
+    assert "takes 2.22 times" in one.message
 
 
 def test_what_no_friction_bears_is_told_once(yumi):
