@@ -10,7 +10,6 @@ import os
 import re
 import signal
 import sys
-from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -94,15 +93,8 @@ def _share(named: str, wanted: str) -> frozenset[Path]:
     return files_of_share(files, int(number), int(count))
 
 
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark the tests that are known to take long, and let several processes begin with the files of few tests.
-
-    A file is run by one process, and those of few tests are mostly whole studies: at the end they would leave the
-    other processes without work for minutes.
-    """
-    if hasattr(config, "workerinput"):
-        tests_of = Counter(item.path for item in items)
-        items.sort(key=lambda item: tests_of[item.path])
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests that are known to take long."""
     slow = slow_tests()
     for item in items:
         if name_of(item.nodeid) in slow or file_of(item.nodeid) in slow:
