@@ -63,7 +63,7 @@ const replays = (() => {
         ? `The object is perceived ${first.distance_mm} mm and ${first.angle_deg}° from where it is (violet).`
         : `Objects are perceived (violet) beside where they are: ${lead.perceived.map((one) => `${one.object} by ${one.distance_mm} mm and ${one.angle_deg}°`).join(", ")}.`;
       side.append(made("h3", { textContent: "Phases" }), this.chapters);
-      side.append(made("p", { className: "replay-note" }, `${perceived} The longest arrow is ${lead.greatest_force_n.toFixed(1)} N.`));
+      side.append(made("p", { className: "replay-note" }, `${perceived} An arrow is the force at the instant shown, the longest ${lead.greatest_force_n.toFixed(1)} N; the plots have the greatest between instants.`));
       this.plotPlace = made("div", { className: "replay-plots" });
       this.place.append(made("div", { className: "replay-stage" }, this.stage, this.scrub, bar, shows), side, this.plotPlace);
       this.stage.addEventListener("keydown", (event) => this.key(event));
