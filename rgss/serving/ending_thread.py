@@ -6,8 +6,8 @@ import ctypes
 import threading
 from collections.abc import Callable
 
-PATIENCE_S = 10.0
-"""So long its end is waited for."""
+PATIENCE_S = 2.0
+"""So long its end is waited for: one that waits for another process, as for a replay, does no harm at the exit."""
 
 
 class EndingThread(threading.Thread):

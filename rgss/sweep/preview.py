@@ -159,7 +159,7 @@ def _is_of(study: str, trial: Trial, stored: StoredTrial, store: EvidenceStore) 
     """True if a stored trial of the same number was run for the study, as far as is recorded."""
     if study and stored.provenance.study:
         return stored.provenance.study == study
-    # Of a store of an earlier release the scene tells the studies of one project apart.
+    # An earlier release did not record the study; the studies of one project mostly have different scenes.
     then = _inputs_of(stored, store)
     return then is None or then["scene"]["id"] == trial.spec.scene.id
 

@@ -8,9 +8,10 @@ import pytest
 
 from rgss.evidence import TrialRecord
 from rgss.studies.expansion import trial_specs
-from rgss.studies.project import Project
+from rgss.studies.project import Project, load_project
 from rgss.trials.pieces.run import Pieces
 from rgss.trials.trial_spec import TrialSpec
+from tests.fixtures.shipped_project import REPOSITORY
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,6 +43,14 @@ def spec_of(project):
         return spec
 
     return make
+
+
+@pytest.fixture(scope="session")
+def lite6() -> TrialSpec:
+    """The design of the Lite6 that presses hardest, and a cube of 30 mm."""
+    project = load_project(REPOSITORY, "studies/lite6_cubes.yaml")
+    (spec,) = trial_specs(project, variants=[project.designs.variant(30)], seeds=[1])
+    return spec
 
 
 @pytest.fixture(scope="session")

@@ -38,11 +38,11 @@ def held_load_findings(project: Project, document: Document) -> Iterator[Finding
         for load in loads[alike]:
             if not load.is_borne:
                 unborne.setdefault(load.object, []).append((load, spec.variant))
-    told = unborne_objects(project)
+    unborne_at_rest = unborne_objects(project)
     for index, object_ in enumerate(project.scene.objects):
         name = object_.workpiece.id
         of_object = unborne.get(name, [])
-        if not of_object or name in told:
+        if not of_object or name in unborne_at_rest:
             continue
         best = max((load for load, _ in of_object), key=lambda load: load.factor / load.needed)
         variants = [variant for _, variant in of_object]

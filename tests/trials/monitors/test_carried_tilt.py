@@ -4,24 +4,13 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from rgss.evidence import Failure
-from rgss.studies import load_project, trial_specs
 from rgss.trials.pieces import run_trial
 
 pytestmark = pytest.mark.engine
-
-REPOSITORY = Path(__file__).parents[3]
-
-
-@pytest.fixture(scope="module")
-def lite6():
-    """The design of the Lite6 that presses hardest, and a cube of 30 mm."""
-    project = load_project(REPOSITORY, "studies/lite6_cubes.yaml")
-    return next(spec for spec in trial_specs(project, seeds=(1,)) if spec.variant == 30)
 
 
 @pytest.mark.parametrize(

@@ -3,28 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from rgss.evidence import Failure
 from rgss.scenes import Box
-from rgss.studies import load_project, trial_specs
 from rgss.trials import held_loads
 from rgss.trials.pieces import run_trial
 from tests.trials.hands.gripper_files import gripper_of
 from tests.trials.objects.two_objects import on_the_ground
 
 pytestmark = pytest.mark.engine
-
-REPOSITORY = Path(__file__).parents[3]
-
-
-@pytest.fixture(scope="module")
-def lite6():
-    """The design of the Lite6 that presses hardest, and a cube of 30 mm."""
-    project = load_project(REPOSITORY, "studies/lite6_cubes.yaml")
-    return next(spec for spec in trial_specs(project, seeds=(1,)) if spec.variant == 30)
 
 
 def with_cube(spec, mass_kg, across_m):
