@@ -21,13 +21,16 @@ def lazy_exports(package: str, file: str) -> tuple[Callable[[str], Any], Callabl
         file: Its ``__init__`` file.
 
     Returns:
-        The two functions; the first raises ``AttributeError`` for a name that is not exported.
+        The two functions; the first also knows ``__all__`` and raises ``AttributeError`` for a name that is not
+        exported.
     """
     definers: dict[str, tuple[str, str]] = {}
 
     def load(name: str) -> Any:
         if not definers:
             definers.update(_definers(Path(file)))
+        if name == "__all__":  # asked for by `from package import *`
+            return sorted(definers)
         if name not in definers:
             raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])
         module, original = definers[name]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
+import importlib
 import re
+import sys
 
 
 def names_defined_in(tree):
@@ -93,3 +95,16 @@ def test_an_export_that_nothing_imports_is_found():
     }
 
     assert unused_exports(sources, ["```python\nfrom rgss.pack import C\n```"]) == ["rgss.pack: B"]
+
+
+def test_a_lazy_package_gives_a_star_import_what_it_exports(files, repository):
+    packages = [
+        ".".join(path.parent.relative_to(repository).parts)
+        for path in files
+        if path.name == "__init__.py" and "lazy_exports(__name__" in path.read_text(encoding="utf-8")
+    ]
+    exported = {name: importlib.import_module(name).__all__ for name in packages}
+
+    assert len(packages) > 30
+    assert [name for name, names in exported.items() if not names or set(names) - set(dir(sys.modules[name]))] == []
+    assert "decide" in exported["rgss.tradeoff"]
