@@ -2,7 +2,7 @@
 
 from rgss.physics.camera import VIEWS, Camera, View
 from rgss.physics.contact_world import ContactWorld
-from rgss.physics.contacts import Contacts, FingerContact
+from rgss.physics.contacts import Contacts, FingerContact, RobotContact
 from rgss.physics.hand_view import HandView
 from rgss.physics.hands import least_iterations, light_fingers, light_object, passing_mass_kg
 from rgss.physics.opening import OtherEngineSettings, open_world

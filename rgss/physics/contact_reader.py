@@ -66,6 +66,7 @@ class ContactReader:
         robot_bodies: tuple[tuple[str, str], ...] = ()
         workpiece_bodies: tuple[str, ...] = ()
         pressing_links: tuple[str, ...] = ()
+        struck: list[tuple[str, str | None, float, Any]] = []
         robot, workpiece = self._robot, self._workpiece
         names, finger_of_link = self._scene_names, self._finger_of_link
         is_robot_touching = False
@@ -90,18 +91,22 @@ class ContactReader:
                 pair = (self._link_names[link], names[partner])
                 if pair not in robot_bodies:
                     robot_bodies = (*robot_bodies, pair)
+                struck.append((*pair, -sign, point))
                 continue
             finger = finger_of_link.get(link)
             if finger is None:
                 other += force
                 if self._link_names[link] not in pressing_links:
                     pressing_links = (*pressing_links, self._link_names[link])
+                struck.append((self._link_names[link], None, -sign, point))
                 continue
             forces[finger] += force
             # The engine reports friction as it acts on body A.
             pressed.append((sign, point))
         if is_robot_touching:
-            return Contacts(tuple(forces), other, tuple(pressed), robot_bodies, workpiece_bodies, pressing_links)
+            return Contacts(
+                tuple(forces), other, tuple(pressed), robot_bodies, workpiece_bodies, pressing_links, tuple(struck)
+            )
         # This is the case half of the time, with one body under the workpiece or none.
         resting = self._resting.get(workpiece_bodies)
         if resting is None:

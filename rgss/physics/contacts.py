@@ -18,6 +18,8 @@ class Contacts(NamedTuple):
         robot_bodies: Pairs (link, body) of the robot touching the scene.
         workpiece_bodies: Scene bodies that the workpiece touches.
         pressing_links: Names of those other links, in the order of the engine.
+        struck: All contact points of the robot but those between fingers and workpiece, each with the link, the body
+        (None for the workpiece), the sign of its normal on the robot, and the point as reported by the engine.
     """
 
     finger_forces_n: tuple[float, ...]
@@ -26,6 +28,18 @@ class Contacts(NamedTuple):
     robot_bodies: tuple[tuple[str, str], ...]
     workpiece_bodies: tuple[str, ...]
     pressing_links: tuple[str, ...]
+    struck: tuple[tuple[str, str | None, float, Any], ...] = ()
+
+    @property
+    def robot_contacts(self) -> tuple[RobotContact, ...]:
+        """Contacts of the robot's parts with the scene, and of what is no finger with the workpiece."""
+        found = []
+        for link, body, sign, point in self.struck:
+            # Position on body B, normal from B to A, and the force along it.
+            x, y, z = point[7]
+            share = sign * point[9]
+            found.append(RobotContact(link, body, point[6], (share * x, share * y, share * z)))
+        return tuple(found)
 
     @property
     def finger_force_sum_n(self) -> float:
@@ -53,6 +67,23 @@ class Contacts(NamedTuple):
     def fingers_touching(self) -> int:
         """Number of fingers in contact with the workpiece."""
         return sum(force > 0.0 for force in self.finger_forces_n)
+
+
+@dataclass(frozen=True, slots=True)
+class RobotContact:
+    """Contact point of a part of the robot that is not meant to touch.
+
+    Attributes:
+        link: The link, or the finger.
+        body: The body of the scene, or another object; None for the workpiece.
+        position_m: The point in the world, at the start of the step.
+        force_n: Normal force on the link, in the world.
+    """
+
+    link: str
+    body: str | None
+    position_m: tuple[float, float, float]
+    force_n: tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,12 +3,14 @@
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pybullet
 import pytest
 
-from rgss.physics import Contacts, PhysicsSettings, World
+from rgss.physics import Contacts, PhysicsSettings, RobotContact, World
+from rgss.physics.contact_reader import ContactReader
 from rgss.physics.world_builder import WorldBuilder
 from rgss.scenes import Pose
 from rgss.scenes.assembly import assembled_urdf
@@ -106,6 +108,8 @@ def test_fingers_pressed_into_the_counter_are_reported_by_name(cell):
         contacts = world.contacts()
     fingers = {f"finger_{finger + 1}" for finger in range(cell.gripper.geometry.fingers)}
     assert set(contacts.robot_bodies) == {(finger, cell.scene.support) for finger in fingers}
+    assert {(one.link, one.body) for one in contacts.robot_contacts} == {*contacts.robot_bodies}
+    assert all(one.force_n[2] > 0.9 * math.hypot(*one.force_n) > 0.0 for one in contacts.robot_contacts)
     assert contacts.finger_forces_n == (0.0,) * cell.gripper.geometry.fingers
 
 
@@ -157,6 +161,10 @@ def test_the_grippers_base_on_the_cup_is_another_force(cell):
     assert contacts.pressing_links == ("gripper_base",)
     assert contacts.fingers_touching == 0
     assert contacts.robot_bodies == ()
+    assert {(one.link, one.body) for one in contacts.robot_contacts} == {("gripper_base", None)}
+    assert math.fsum(one.force_n[2] for one in contacts.robot_contacts) == pytest.approx(
+        contacts.other_force_n, rel=1e-3
+    )
 
 
 @pytest.mark.engine
@@ -246,3 +254,24 @@ def test_the_points_of_the_fingers_are_on_the_wall_of_the_cup_also_while_it_move
                 seen += 1
     assert fastest > 0.8
     assert seen > 400
+
+
+@pytest.mark.parametrize("robot_is_named_first", [True, False])
+def test_the_force_on_a_link_is_the_same_whichever_body_the_engine_names_first(robot_is_named_first):
+    """The engine's normal points from the body named second to the first."""
+    robot, wall, link = 5, 7, 3
+    bodies, links = ((robot, wall), (link, -1)) if robot_is_named_first else ((wall, robot), (-1, link))
+    normal = (0.0, 0.6, 0.8) if robot_is_named_first else (0.0, -0.6, -0.8)
+    point = (0, *bodies, *links, (1.0, 2.0, 3.0), (1.0, 2.0, 3.0), normal, -1e-4, 10.0, 0, (0, 0, 0), 0, (0, 0, 0))
+    reader = ContactReader(
+        SimpleNamespace(getContactPoints=lambda *_: [point]),
+        0,
+        robot=robot,
+        workpiece=6,
+        finger_of_link={},
+        link_names={link: "forearm"},
+        scene_names={wall: "wall"},
+    )
+
+    (found,) = reader.contacts().robot_contacts
+    assert found == RobotContact("forearm", "wall", (1.0, 2.0, 3.0), pytest.approx((0.0, 6.0, 8.0)))

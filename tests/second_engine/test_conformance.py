@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from rgss.errors import DefinitionError, SimulationError
@@ -155,6 +156,35 @@ def test_an_arm_that_stands_in_the_counter_is_told(settings, scene, gripper_with
         pairs = world.contacts().robot_bodies
     assert "finger_0" in {name for _, name in pairs}
     assert {link for link, _ in pairs} & {"gripper_base", "wrist_3_link", "finger_0", "finger_1"}
+
+
+def test_what_fingers_stand_in_presses_them_out(settings, scene, gripper_with):
+    gripper = gripper_with(2)
+    with open_world(scene, gripper, settings) as free:
+        free.reset_arm(scene.robot.home_rad)
+        tool = free.tool_pose()
+    assert tool.rotate((0.0, 0.0, 1.0)) == pytest.approx((0.0, 0.0, -1.0), abs=1e-3)
+    x, y, z = tool.position_m
+    top_m = z - 0.03 + 0.002  # the fingertips reach 30 mm below the grasp centre
+    slab = replace(
+        scene.bodies[0], id="slab", shape=Box(size_m=(0.3, 0.3, 0.02)), pose=Pose(position_m=(x, y, top_m - 0.01))
+    )
+    with open_world(replace(scene, bodies=(*scene.bodies, slab)), gripper, settings) as world:
+        world.reset_arm(scene.robot.home_rad)
+        world.command_arm(scene.robot.home_rad, (0.0,) * 6)
+        world.step()
+        contacts = world.contacts()
+        found = contacts.robot_contacts
+
+    assert {(one.link, one.body) for one in found} == {*contacts.robot_bodies}
+    assert {link for link, _ in contacts.robot_bodies} == {
+        link for link, body in contacts.robot_bodies if body == "slab"
+    }
+    assert len({one.link for one in found}) == 2
+    for one in found:
+        assert one.position_m[2] == pytest.approx(top_m, abs=3e-3)
+        assert np.hypot(x - one.position_m[0], y - one.position_m[1]) < 0.1
+        assert one.force_n[2] > 0.9 * np.linalg.norm(one.force_n) > 0.0
 
 
 @pytest.mark.parametrize("mass_kg", [0.0, float("nan"), float("inf"), -1.0])

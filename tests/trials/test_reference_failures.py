@@ -8,6 +8,7 @@ from rgss.evidence import Failure, record_digest
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.trials.pieces.run import run_trial
+from rgss.trials.replay.replayed_trial import run_replayed_trial
 from tests.fixtures.shipped_project import copy_as_shipped
 
 pytestmark = pytest.mark.engine
@@ -30,9 +31,14 @@ def reference(tmp_path_factory):
 def test_a_failure_that_is_no_planning_limit_is_found_again(reference, variant, seed, failure):
     (spec,) = trial_specs(reference, variants=[reference.designs.variant(variant)], seeds=[seed])
     record = run_trial(spec)
+    replayed = run_replayed_trial(spec)
+    last = replayed.scene.touches[-1:]
 
     assert record.failure is failure
-    assert record_digest(run_trial(spec)) == record_digest(record)
+    assert record_digest(replayed.record) == record_digest(record)
+    if failure is Failure.ARM_COLLISION:
+        assert [f"{one.link} touched {one.body}" for one in last] == [record.failure_detail]
+        assert last[0].start_s == pytest.approx(replayed.trace.spans[-1].end_s)
 
 
 def test_the_same_seed_fails_otherwise_with_other_fingers(reference):

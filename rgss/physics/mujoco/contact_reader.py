@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.physics.contacts import Contacts, FingerContact
+from rgss.physics.contacts import Contacts, FingerContact, RobotContact
 from rgss.physics.mujoco.model import WorldModel
 from rgss.scenes import Pose
 
@@ -29,15 +29,20 @@ class PointContacts(Contacts):
         x, y, z = (math.fsum(friction[axis] for _, friction in self.pressed) for axis in range(3))
         return x, y, z
 
+    @property
+    def robot_contacts(self) -> tuple[RobotContact, ...]:
+        """Contacts of the robot's parts with the scene, and of what is no finger with the workpiece."""
+        return tuple(one for *_, one in self.struck)
+
 
 @dataclass(frozen=True, slots=True)
 class _Point:
-    """One contact of the workpiece.
+    """One contact of the workpiece, or of the robot with the scene.
 
     Attributes:
         index: Its index among the engine's contacts.
-        partner: The other shape.
-        sign: 1 if the engine's normal points into the workpiece, -1 otherwise.
+        partner: The other shape: of the workpiece's partner, or of the scene.
+        sign: 1 if the engine's normal points into the workpiece, or into the robot's link; -1 otherwise.
         row: Its first row among the constraint forces; negative if it is not part of the constraint problem.
     """
 
@@ -79,13 +84,15 @@ class MujocoContactReader:
 
     def contacts(self, standing: Contacts | None) -> Contacts:
         """Contacts of the last step; see `ContactWorld.contacts`."""
-        robot_bodies, points = self._sorted()
+        robot_points, points = self._sorted()
+        robot_bodies = dict.fromkeys((link, body) for link, body, _ in robot_points)
         if standing is not None and not robot_bodies and all(one.partner in self._body_of for one in points):
             return standing
         forces, other_n = [0.0] * self._fingers, 0.0
         pressed: list[tuple[float, Vector3]] = []
         workpiece_bodies: dict[str, None] = {}
         pressing_links: dict[str, None] = {}
+        struck = [self._robot_contact(*one) for one in robot_points]
         for point in points:
             body = self._body_of.get(point.partner)
             if body is not None:
@@ -95,7 +102,9 @@ class MujocoContactReader:
             finger = self._finger_of.get(point.partner)
             if finger is None:
                 other_n += normal_n
-                pressing_links[self._link_of[point.partner]] = None
+                link = self._link_of[point.partner]
+                pressing_links[link] = None
+                struck.append(self._robot_contact(link, None, replace(point, sign=-point.sign)))
             elif normal_n > _NO_FORCE:
                 forces[finger] += normal_n
                 pressed.append((1.0, self._friction_n(point)))
@@ -106,6 +115,7 @@ class MujocoContactReader:
             tuple(robot_bodies),
             tuple(workpiece_bodies),
             tuple(pressing_links),
+            tuple((one.link, one.body, 1.0, one) for one in struck),
         )
 
     def scene_force_n(self) -> float:
@@ -143,10 +153,10 @@ class MujocoContactReader:
             )
         return tuple(sorted(found, key=lambda contact: (contact.finger, contact.position_m[2])))
 
-    def _sorted(self) -> tuple[dict[tuple[str, str], None], Sequence[_Point]]:
-        """Pairs (link, body) of the robot in contact with the scene, and the contacts of the workpiece."""
+    def _sorted(self) -> tuple[Sequence[tuple[str, str, _Point]], Sequence[_Point]]:
+        """Contacts (link, body, point) of the robot with the scene, and those of the workpiece."""
         contact = self._data.contact
-        robot_bodies: dict[tuple[str, str], None] = {}
+        robot_points = []
         points = []
         pairs, rows = contact.geom.tolist(), contact.efc_address.tolist()
         for index, ((one, other), row) in enumerate(zip(pairs, rows, strict=True)):
@@ -157,8 +167,14 @@ class MujocoContactReader:
                 points.append(_Point(index, other, -1.0, row))
             elif one in self._link_of or other in self._link_of:
                 link, body = (one, other) if one in self._link_of else (other, one)
-                robot_bodies[self._link_of[link], self._body_of[body]] = None
-        return robot_bodies, points
+                into_link = 1.0 if link == other else -1.0
+                robot_points.append((self._link_of[link], self._body_of[body], _Point(index, body, into_link, row)))
+        return robot_points, points
+
+    def _robot_contact(self, link: str, body: str | None, point: _Point) -> RobotContact:
+        """Contact with the normal force on the link."""
+        force = self._normal_n(point) * point.sign * self._frame(point)[0]
+        return RobotContact(link, body, _triple(self._data.contact.pos[point.index]), _triple(force))
 
     def _normal_n(self, point: _Point) -> float:
         # With elliptic cones the first row of a contact is its normal force, the next two are its friction.

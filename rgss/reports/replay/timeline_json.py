@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rgss.evidence import PhaseOutcome
 from rgss.reports.replay.timeline import Plot, Series, Timeline, TimelinePhase
 from rgss.reports.trials import words
-from rgss.trials.replay import ReplayScene
+from rgss.trials.replay import LEAST_SHOWN_S, ReplayScene, Touch
 
 _DIGITS = 5
 """Significant digits of plotted values."""
@@ -37,6 +37,7 @@ def timeline_to_json(timeline: Timeline, scene: ReplayScene) -> dict[str, Any]:
         "phases": [_phase(phase) for phase in timeline.phases],
         "plots": [_plot(plot) for plot in (timeline.joint_positions, *timeline.quantities)],
         "contacts": [{"points_m": _rows(one.points_m), "forces_n": _rows(one.forces_n)} for one in scene.contacts],
+        "touches": [_touch(one) for one in scene.touches],
         "greatest_force_n": _number(timeline.greatest_force_n),
         "perceived": [
             {
@@ -47,6 +48,17 @@ def timeline_to_json(timeline: Timeline, scene: ReplayScene) -> dict[str, Any]:
             for one in scene.perceived
         ],
         "middle_m": list(scene.middle_m),
+    }
+
+
+def _touch(touch: Touch) -> dict[str, Any]:
+    return {
+        "link": words(touch.link.removesuffix("_link")),
+        "body": words(touch.body),
+        "start_s": round(touch.start_s, 6),
+        "end_s": round(max(touch.end_s, touch.start_s + LEAST_SHOWN_S), 6),
+        "point_m": [_number(value) for value in touch.point_m],
+        "force_n": [_number(value) for value in touch.force_n],
     }
 
 

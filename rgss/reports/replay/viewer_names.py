@@ -15,6 +15,9 @@ WORLD = "world"
 LONGEST_ARROW_M = 0.22
 """Length of the arrow of the greatest force, as on the page."""
 
+TOUCH_ARROW_M = 0.16
+"""Length of the arrow of a contact that is no grip, as on the page."""
+
 
 def frame_of(track: NodeTrack) -> str:
     """Frame of a body: its kind and its name, since a link and an object may have the same name."""

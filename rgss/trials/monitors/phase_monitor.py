@@ -152,7 +152,7 @@ class PhaseMonitor:
         }
 
     def _check_contacts(self, contacts: Contacts) -> None:
-        forces_n, other_n, _, robot_bodies, workpiece_bodies, pressing_links = contacts
+        forces_n, other_n, _, robot_bodies, workpiece_bodies, pressing_links, _ = contacts
         force_n = max(forces_n)
         if force_n > self._peak_force_n:
             self._peak_force_n = force_n

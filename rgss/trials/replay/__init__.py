@@ -5,7 +5,16 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.trials.replay.replay_scene import ContactForce, Line, LineKind, NodeKind, NodeTrack, ReplayScene
+    from rgss.trials.replay.replay_scene import (
+        LEAST_SHOWN_S,
+        ContactForce,
+        Line,
+        LineKind,
+        NodeKind,
+        NodeTrack,
+        ReplayScene,
+        Touch,
+    )
     from rgss.trials.replay.replayed_trial import ReplayedTrial, run_replayed_trial
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

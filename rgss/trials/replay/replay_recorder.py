@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from rgss.physics import Contacts, ContactWorld, FingerContact
 from rgss.scenes import Pose
+from rgss.trials.replay.replay_scene import Touch
+from rgss.trials.replay.touch_log import TouchLog
 
 Row = tuple[float, ...]
 _NO_CONTACT: Row = (math.nan,) * 6
@@ -41,6 +43,7 @@ class ReplayRecorder:
         self._travel_m: list[Row] = []
         self._poses: list[tuple[Pose, ...]] = []
         self._contacts: list[tuple[Row, ...]] = []
+        self._touches = TouchLog()
 
     def after_step(
         self,
@@ -54,6 +57,8 @@ class ReplayRecorder:
         del phase, grip_margin, commanded_force_n
         due = self._steps % self._stride == 0
         self._steps += 1
+        if struck := contacts.robot_contacts:
+            self._touches.add(self._steps * self._step_s, struck, workpiece=world.scene.workpiece.id)
         if not due:
             return
         self._times_s.append(self._steps * self._step_s)
@@ -109,6 +114,14 @@ class ReplayRecorder:
             Rows of shape (count, 6).
         """
         return np.array([rows[finger] for rows in self._contacts[:count]]).reshape(count, 6)
+
+    def touches(self, end_s: float) -> tuple[Touch, ...]:
+        """Contacts of the robot that are no grip and began up to a time.
+
+        Args:
+            end_s: The time.
+        """
+        return self._touches.touches(end_s)
 
     def _pose(self, world: ContactWorld, name: str) -> Pose:
         return world.workpiece_pose() if len(self._objects) == 1 else world.object_pose(name)

@@ -12,6 +12,9 @@ from rgss.physics import SeenSolid
 
 Series = NDArray[np.float64]
 
+LEAST_SHOWN_S = 0.1
+"""Least time for which a viewer shows a contact; most that end a trial last one step."""
+
 
 class NodeKind(str, Enum):
     """Kind of a node."""
@@ -64,6 +67,36 @@ class ContactForce:
     forces_n: Series
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Touch:
+    """Contact of a part of the robot that is not meant to touch, with the greatest force in it.
+
+    Attributes:
+        link: The link, or the finger.
+        body: The body of the scene or the object that it touches.
+        start_s: Time after the first step with this contact.
+        end_s: Time after the last one.
+        point_m: Point of the greatest force in the world, shape (3,).
+        force_n: Normal force on the link there, in the world, shape (3,).
+    """
+
+    link: str
+    body: str
+    start_s: float
+    end_s: float
+    point_m: tuple[float, float, float]
+    force_n: tuple[float, float, float]
+
+    def is_shown_at(self, time_s: float, end_s: float) -> bool:
+        """True if a viewer shows the contact: while it lasts, and for 0.1 s at least.
+
+        Args:
+            time_s: Time in the viewer.
+            end_s: Its last time; a contact that begins later ended the trial, and is shown then.
+        """
+        return min(self.start_s, end_s) - 1e-9 <= time_s <= max(self.end_s, self.start_s + LEAST_SHOWN_S)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Line:
     """Line of tool positions of a move.
@@ -102,6 +135,7 @@ class ReplayScene:
         time_s: Times of the samples, shape (n,).
         nodes: The rendered bodies.
         contacts: The force of each finger, or of the suction cup.
+        touches: What else of the robot touched, by start; contacts of less than 0.1 s apart are one.
         lines: Planned paths and graphs of the planner.
         perceived: Error of the perceived pose of each object.
         middle_m: Point between grasp and place in the world, the initial target of the viewer.
@@ -110,6 +144,7 @@ class ReplayScene:
     time_s: Series
     nodes: tuple[NodeTrack, ...]
     contacts: tuple[ContactForce, ...]
+    touches: tuple[Touch, ...]
     lines: tuple[Line, ...]
     perceived: tuple[PerceivedOffset, ...]
     middle_m: tuple[float, float, float]

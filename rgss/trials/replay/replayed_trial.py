@@ -112,6 +112,7 @@ def _scene_of(spec: TrialSpec, recorder: ReplayRecorder, end_s: float) -> Replay
             ContactForce(finger=finger, points_m=rows[:, :3], forces_n=rows[:, 3:])
             for finger, rows in enumerate(forces)
         ),
+        touches=recorder.touches(end_s),
         lines=planned_lines(spec),
         perceived=tuple(_offset(true.workpiece, one) for true, one in zip(true_scene.objects, seen, strict=True)),
         middle_m=(x, y, z + _ABOVE_M),

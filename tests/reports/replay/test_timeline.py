@@ -67,6 +67,19 @@ def test_there_is_no_arrow_without_contact(timeline):
     ]
 
 
+def test_what_else_the_robot_touches_is_told_in_words(timeline):
+    assert timeline["touches"] == [
+        {
+            "link": "upper arm",
+            "body": "the post",
+            "start_s": 0.5,
+            "end_s": 0.6,
+            "point_m": [0.2, 0.1, 0.3],
+            "force_n": [0.0, -80.0, 60.0],
+        }
+    ]
+
+
 def test_a_trial_without_contact_has_no_force():
     scene = made_scene()
     for one in scene.contacts:

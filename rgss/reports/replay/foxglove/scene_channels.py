@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rgss.physics import SeenSolid
 from rgss.reports.replay.foxglove.channels import Channel, published_schema
@@ -21,7 +22,7 @@ from rgss.reports.replay.foxglove.primitives import (
     vector,
 )
 from rgss.reports.replay.timeline import Timeline
-from rgss.reports.replay.viewer_names import LONGEST_ARROW_M, WORLD, frame_of
+from rgss.reports.replay.viewer_names import LONGEST_ARROW_M, TOUCH_ARROW_M, WORLD, frame_of
 from rgss.trials.replay import ContactForce, Line, LineKind, NodeKind, NodeTrack, ReplayScene
 
 START_S = 0.0
@@ -29,6 +30,7 @@ START_S = 0.0
 
 _LINE_COLOURS = {LineKind.PATH: (0.15, 0.64, 0.85, 1.0), LineKind.GRAPH: (0.77, 0.80, 0.84, 0.6)}
 _ARROW_COLOUR = (0.84, 0.15, 0.16, 1.0)
+_TOUCH_COLOUR = (1.0, 0.05, 0.55, 1.0)
 _SHAFT_M, _HEAD_M = 0.006, 0.016
 _LINE_STRIP, _LINE_LIST = 0, 2
 _LINE_PIXELS = 2.0
@@ -145,7 +147,8 @@ def _forces(timeline: Timeline, scene: ReplayScene) -> list[tuple[float, dict[st
                         frame=WORLD,
                         time_s=time_s,
                         arrows=_arrows(scene.contacts, sample, timeline.greatest_force_n),
-                    )
+                    ),
+                    entity("robot contacts", frame=WORLD, time_s=time_s, arrows=_touch_arrows(scene, time_s)),
                 ]
             ),
         )
@@ -162,16 +165,35 @@ def _arrows(contacts: Sequence[ContactForce], sample: int, greatest_n: float) ->
         length_m = LONGEST_ARROW_M * force_n / greatest_n
         head_m = min(_HEAD_M, length_m / 2)
         arrows.append(
-            {
-                "pose": pose(contact.points_m[sample].tolist(), rotation_from_x(contact.forces_n[sample])),
-                "shaft_length": length_m - head_m,
-                "shaft_diameter": _SHAFT_M,
-                "head_length": head_m,
-                "head_diameter": 2 * _SHAFT_M,
-                "color": colour(_ARROW_COLOUR),
-            }
+            _arrow(
+                contact.points_m[sample].tolist(), contact.forces_n[sample], length_m - head_m, head_m, _ARROW_COLOUR
+            )
         )
     return arrows
+
+
+def _touch_arrows(scene: ReplayScene, time_s: float) -> list[dict[str, Any]]:
+    """Arrows of one length that end at the link: their forces are not on the scale of those of the fingers."""
+    arrows = []
+    for touch in scene.touches:
+        along = np.array(touch.force_n)
+        if touch.is_shown_at(time_s, float(scene.time_s[-1])) and along.any():
+            tail = np.array(touch.point_m) - TOUCH_ARROW_M * along / np.linalg.norm(along)
+            arrows.append(_arrow(tail.tolist(), along, TOUCH_ARROW_M - _HEAD_M, _HEAD_M, _TOUCH_COLOUR))
+    return arrows
+
+
+def _arrow(
+    tail_m: list[float], along: NDArray[np.float64], shaft_m: float, head_m: float, of_colour: tuple[float, ...]
+) -> dict[str, Any]:
+    return {
+        "pose": pose(tail_m, rotation_from_x(along)),
+        "shaft_length": shaft_m,
+        "shaft_diameter": _SHAFT_M,
+        "head_length": head_m,
+        "head_diameter": 2 * _SHAFT_M,
+        "color": colour(of_colour),
+    }
 
 
 def _object_channels(

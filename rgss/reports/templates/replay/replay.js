@@ -4,6 +4,7 @@ const replays = (() => {
   const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
   const SHOWN = [["forces", "Contact forces"], ["path", "Planned path"], ["graph", "Planner's tree"], ["perceived", "Perceived pose"]];
   const STEP_S = 0.1;
+  const MOST_TOUCHES = 6;
   // A slow machine, or a page that was out of sight, plays slowly; it leaves nothing out.
   const LONGEST_FRAME_S = 0.25;
 
@@ -64,9 +65,23 @@ const replays = (() => {
         : `Objects are perceived (violet) beside where they are: ${lead.perceived.map((one) => `${one.object} by ${one.distance_mm} mm and ${one.angle_deg}°`).join(", ")}.`;
       side.append(made("h3", { textContent: "Phases" }), this.chapters);
       side.append(made("p", { className: "replay-note" }, `${perceived} An arrow is the force at the instant shown, the longest ${lead.greatest_force_n.toFixed(1)} N; the plots have the greatest between instants.`));
+      if (lead.touches.length > 0) side.append(made("h3", { textContent: "Touched (pink)" }), this.touches(lead.touches));
       this.plotPlace = made("div", { className: "replay-plots" });
       this.place.append(made("div", { className: "replay-stage" }, this.stage, this.scrub, bar, shows), side, this.plotPlace);
       this.stage.addEventListener("keydown", (event) => this.key(event));
+    }
+
+    // What the robot touched that it was not meant to; a button each that goes there.
+    touches(all) {
+      const rows = all.slice(0, MOST_TOUCHES).map(({ link, body, start_s: start, force_n: force }) => {
+        const button = made("button", { type: "button" },
+          made("span", { textContent: `${link} – ${body}` }),
+          made("span", { textContent: `${start.toFixed(2)} s, ${Math.hypot(...force).toFixed(0)} N` }));
+        button.addEventListener("click", () => { this.pause(); this.seek(start); });
+        return made("li", {}, button);
+      });
+      if (all.length > MOST_TOUCHES) rows.push(made("li", { textContent: `and ${all.length - MOST_TOUCHES} more` }));
+      return made("ol", { className: "replay-touches" }, ...rows);
     }
 
     checkbox(name, text) {

@@ -3,6 +3,8 @@
 const replayScene = (() => {
   const FINGERS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"];
   const LONGEST_ARROW_M = 0.22;
+  const TOUCH = "#e6007e";
+  const TOUCH_ARROW_M = 0.16;
   const PATH_RADIUS_M = 0.003;
   const VIEWS = {
     overview: { azimuth: 215, elevation: 22, distance: 2.6 },
@@ -65,7 +67,8 @@ const replayScene = (() => {
       for (const line of this.kinds.graph) line.material = Object.assign(line.material.clone(), { transparent: true, opacity: 0.55 });
       this.hand = this.kinds.link.find((node) => node.name.startsWith("gripper_base")) || this.kinds.link[this.kinds.link.length - 1];
       this.arrows = timeline.contacts.map((_, finger) => arrow(FINGERS[finger % FINGERS.length]));
-      for (const one of this.arrows) this.world.add(one);
+      this.touches = timeline.touches.map(() => onTop(arrow(TOUCH)));
+      for (const one of [...this.arrows, ...this.touches]) this.world.add(one);
       this.pose(timeline.start_s);
     }
 
@@ -75,6 +78,7 @@ const replayScene = (() => {
       this.mixer.setTime(at);
       const sample = sampleAt(timeline.time_s, at);
       this.pointArrows(sample);
+      this.pointTouches(at);
       const phase = timeline.phases[phaseAt(timeline.phases, at)];
       for (const line of [...this.kinds.path, ...this.kinds.graph]) {
         line.userData.current = phase !== undefined && line.userData.phase === phase.key;
@@ -83,22 +87,21 @@ const replayScene = (() => {
     }
 
     pointArrows(sample) {
-      const three = library();
       this.arrows.forEach((one, finger) => {
         const { points_m: points, forces_n: forces } = this.timeline.contacts[finger];
         const point = points[sample], force = forces[sample];
         one.visible = this.showsForces !== false && point !== null;
-        if (!one.visible) return;
-        const size = Math.hypot(...force);
-        const length = LONGEST_ARROW_M * size / this.timeline.greatest_force_n;
-        // The arrow's tip is where the finger presses.
-        const along = new three.Vector3(...force).normalize();
-        one.position.set(...point).addScaledVector(along, -length);
-        one.quaternion.setFromUnitVectors(new three.Vector3(0, 1, 0), along);
-        const head = Math.min(0.03, 0.4 * length);
-        one.userData.shaft.scale.set(1, Math.max(1e-4, length - head), 1);
-        one.userData.head.position.y = Math.max(0, length - head);
-        one.userData.head.scale.set(1, Math.max(1e-4, head), 1);
+        if (one.visible) aim(one, point, force, LONGEST_ARROW_M * Math.hypot(...force) / this.timeline.greatest_force_n);
+      });
+    }
+
+    // What is no grip: arrows of one length, since such a force is of another scale. What ended the trial began after the last sample.
+    pointTouches(time) {
+      this.touches.forEach((one, at) => {
+        const { start_s: start, end_s: end, point_m: point, force_n: force } = this.timeline.touches[at];
+        const began = Math.min(start, this.timeline.end_s);
+        one.visible = this.showsForces !== false && time >= began - 1e-6 && time <= end && Math.hypot(...force) > 0;
+        if (one.visible) aim(one, point, force, TOUCH_ARROW_M);
       });
     }
 
@@ -164,6 +167,18 @@ const replayScene = (() => {
     line.add(tube);
   };
 
+  // Lets the tip of an arrow end where the force acts.
+  const aim = (one, point, force, length) => {
+    const three = library();
+    const along = new three.Vector3(...force).normalize();
+    one.position.set(...point).addScaledVector(along, -length);
+    one.quaternion.setFromUnitVectors(new three.Vector3(0, 1, 0), along);
+    const head = Math.min(0.03, 0.4 * length);
+    one.userData.shaft.scale.set(1, Math.max(1e-4, length - head), 1);
+    one.userData.head.position.y = Math.max(0, length - head);
+    one.userData.head.scale.set(1, Math.max(1e-4, head), 1);
+  };
+
   const arrow = (colour) => {
     const three = library();
     const group = new three.Group();
@@ -173,6 +188,12 @@ const replayScene = (() => {
     group.add(shaft, head);
     Object.assign(group.userData, { shaft, head });
     return group;
+  };
+
+  // The force on a link comes out of the body that it touches, which would hide the arrow.
+  const onTop = (one) => {
+    for (const part of [one.userData.shaft, one.userData.head]) { part.renderOrder = 1; part.material.depthTest = false; part.material.transparent = true; }
+    return one;
   };
 
   class View {

@@ -195,7 +195,7 @@ def test_paths_and_graphs_are_lines(topics, scene):
 def test_forces_are_arrows_at_the_contacts(topics, scene):
     longest_m = 0.0
     for sample, (_, message) in enumerate(topics["/contact_forces"][1]):
-        (one,) = message["entities"]
+        one, _ = message["entities"]
         touching = [contact for contact in scene.contacts if np.isfinite(contact.forces_n[sample, 0])]
         assert len(one["arrows"]) == len(touching)
         for arrow, contact in zip(one["arrows"], touching, strict=True):
@@ -206,6 +206,23 @@ def test_forces_are_arrows_at_the_contacts(topics, scene):
             longest_m = max(longest_m, arrow["shaft_length"] + arrow["head_length"])
     assert scene.time_s[0] < 1.0 < scene.time_s[-1]
     assert longest_m == pytest.approx(0.22)
+
+
+def test_what_else_touches_is_an_arrow_to_the_link(topics, scene):
+    shown = {}
+    for time, (_, message) in zip(scene.time_s, topics["/contact_forces"][1], strict=True):
+        _, one = message["entities"]
+        if one["arrows"]:
+            (shown[time],) = one["arrows"]
+    (touch,) = scene.touches
+    arrow = next(iter(shown.values()))
+    along = Rotation.from_quat(list(arrow["pose"]["orientation"].values())).apply([1.0, 0.0, 0.0])
+    length_m = arrow["shaft_length"] + arrow["head_length"]
+
+    # The contact lasts one step, and is shown for a tenth of a second.
+    assert list(shown) == [time for time in scene.time_s if 0.5 <= time <= 0.6]
+    assert along == pytest.approx([0.0, -0.8, 0.6])
+    assert list(arrow["pose"]["position"].values()) + along * length_m == pytest.approx(touch.point_m)
 
 
 @pytest.mark.parametrize("direction", [(1, 0, 0), (-1, 0, 0), (-1, 1e-9, 0), (0, 2, 0), (0, 0, -3), (-1, 2, -3)])
