@@ -39,7 +39,7 @@ fast: setup ## run the tests that need no engine and take no time, in half a min
 	@.venv/bin/python -m tests.in_shares --quiet --durations=10 --durations-min=0.3 -m "not engine and not browser and not slow"
 
 test: setup ## run the whole test suite, on every core
-	@.venv/bin/pytest --quiet --numprocesses=auto --dist=loadfile --junitxml=.rgss/junit.xml
+	@.venv/bin/pytest --quiet --numprocesses=auto --dist=loadfile --no-loadscope-reorder --junitxml=.rgss/junit.xml
 
 regress: setup ## hold metrics and the decision of a small part of the study against the baseline
 	@.venv/bin/rgss regress --junit .rgss/regress.xml

@@ -21,7 +21,7 @@ from hypothesis import HealthCheck, settings
 from rgss.trials.code.kernel_environment import is_in_force, numeric_environment
 
 from .in_shares import files_of_share
-from .processor_time import ProcessorTimes, file_of, name_of, slow_tests
+from .processor_time import ProcessorTimes, file_of, long_files, name_of, slow_tests
 
 PROJECT = Path(__file__).parents[1]
 
@@ -93,8 +93,11 @@ def _share(named: str, wanted: str) -> frozenset[Path]:
     return files_of_share(files, int(number), int(count))
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the tests that are known to take long."""
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark the tests that are known to take long, and let several processes begin with the longest files."""
+    if hasattr(config, "workerinput"):
+        place = {file: at for at, file in enumerate(long_files())}
+        items.sort(key=lambda item: place.get(file_of(item.nodeid), len(place)))
     slow = slow_tests()
     for item in items:
         if name_of(item.nodeid) in slow or file_of(item.nodeid) in slow:

@@ -5,6 +5,10 @@ included, and writes the names of the tests that take long to `slow_tests.txt`. 
 depends on the machine far less than time by the clock, and with it a loaded machine makes the same
 list. Tests that are not in the list, new ones among them, are taken for quick.
 
+Several processes take a file each, those of most tests first. `long_files.txt` names the files that take
+longest, by the same measurement; they are begun before the others, so that no process works on one
+alone while the others have nothing left.
+
 The cost of a test is what it takes by itself and its share of what it uses with others: a fixture
 of a module or of the session is divided among the quick tests that use it. Tests of an engine or a
 browser take no share, since `make fast` leaves them out anyway.
@@ -23,9 +27,15 @@ import pytest
 
 LIST = Path(__file__).parent / "slow_tests.txt"
 LONGEST_S = 0.015
+LONG_FILES = Path(__file__).parent / "long_files.txt"
+LONG_FILE_S = 8.0
 _HEAD = f"""\
 # Tests whose mean processor time exceeds {LONGEST_S} s, their share of what tests use together included, and files
 # that have no others; `make fast` leaves them out. Written by: pytest --measure-slow
+"""
+_LONG_HEAD = f"""\
+# Files of tests that take more than {LONG_FILE_S:g} s of processor time, the longest first; processes that share the
+# tests begin with them. Written by: pytest --measure-slow
 """
 _OWN, _MADE, _USED = "processor_s", "shared_processor_s", "shared"
 
@@ -35,6 +45,13 @@ def slow_tests() -> frozenset[str]:
     """The names of the tests that take long, without their parameters, and of the files."""
     lines = LIST.read_text(encoding="utf-8").splitlines() if LIST.exists() else []
     return frozenset(line for line in lines if line and not line.startswith("#"))
+
+
+@cache
+def long_files() -> tuple[str, ...]:
+    """The files whose tests take longest, the longest first."""
+    lines = LONG_FILES.read_text(encoding="utf-8").splitlines() if LONG_FILES.exists() else []
+    return tuple(line for line in lines if line and not line.startswith("#"))
 
 
 def name_of(nodeid: str) -> str:
@@ -89,6 +106,17 @@ def slow_names(measured: Iterable[Measured], shared_s: dict[str, float]) -> set[
         found |= more
 
 
+def longest_first(file_s: dict[str, float]) -> list[str]:
+    """The files that take long, the longest first.
+
+    Args:
+        file_s: Processor time of each file.
+    """
+    return sorted(
+        (file for file, spent in file_s.items() if spent > LONG_FILE_S), key=lambda file: (-file_s[file], file)
+    )
+
+
 def _mean_s(tests: list[Measured], users: dict[str, int], shared_s: dict[str, float]) -> float:
     shares = (shared_s.get(each, 0.0) / users[each] for test in tests for each in test.shared or ())
     return (sum(test.own_s for test in tests) + sum(shares)) / len(tests)
@@ -104,6 +132,7 @@ class ProcessorTimes:
         self._within_s = 0.0
         self._measured: list[Measured] = []
         self._shared_s: dict[str, float] = {}
+        self._file_s: dict[str, float] = defaultdict(float)
 
     @pytest.hookimpl(hookwrapper=True)
     def pytest_fixture_setup(self, fixturedef: pytest.FixtureDef[object]) -> Iterator[None]:
@@ -143,13 +172,16 @@ class ProcessorTimes:
         used = found[_USED]
         shared = None if used is None else tuple(used)
         self._measured.append(Measured(name=name_of(report.nodeid), own_s=found[_OWN], shared=shared))
+        self._file_s[file_of(report.nodeid)] += found[_OWN] + sum(found[_MADE].values())
         for name, spent in found[_MADE].items():
             self._shared_s[name] = max(self._shared_s.get(name, 0.0), spent)
 
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
-        """Write the list; tests that were not run keep their places."""
+        """Write the lists; tests that were not run keep their places."""
         if hasattr(session.config, "workerinput"):
             return
+        if not session.config.option.markexpr:  # otherwise few of the long tests were run
+            LONG_FILES.write_text(_LONG_HEAD + "".join(f"{file}\n" for file in longest_first(self._file_s)), "utf-8")
         run = {test.name for test in self._measured}
         slow = slow_names(self._measured, self._shared_s)
         quick_files = {file_of(name) for name in run - slow}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -110,9 +110,8 @@ class CollisionModel:
         self._state = self._geometry.createData()
         for request, margin in zip(self._state.collisionRequests, margins, strict=True):
             request.security_margin = margin
-            _forget_history(request)
-        for request in self._state.distanceRequests:
-            _forget_history(request)
+        _forget_history(self._state.collisionRequests)
+        _forget_history(self._state.distanceRequests)
         self._bounds = SeparationBounds.of(self._geometry, self._clear)
         # The manager reads the margins at construction and keeps references to its arguments. With a few dozen solids,
         # comparing all boxes takes half the time of maintaining a tree.
@@ -246,18 +245,19 @@ def _uprightness(
     return math.cos(situation.largest_tilt_rad), axis
 
 
-def _forget_history(request: Any) -> None:
-    """Make a query depend on its configuration alone.
+def _forget_history(requests: Iterable[Any]) -> None:
+    """Make queries depend on their configuration alone.
 
     By default each query starts from the result of the previous one, so that a verdict within half a millimetre of
     contact can depend on earlier queries.
     """
-    request.gjk_tolerance = _QUERY_TOLERANCE
     with warnings.catch_warnings():
         # The attribute is deprecated in favour of gjk_initial_guess, but overrides it while it exists.
         warnings.simplefilter("ignore", DeprecationWarning)
-        if hasattr(request, "enable_cached_gjk_guess"):
-            request.enable_cached_gjk_guess = False
+        for request in requests:
+            request.gjk_tolerance = _QUERY_TOLERANCE
+            if hasattr(request, "enable_cached_gjk_guess"):
+                request.enable_cached_gjk_guess = False
 
 
 def _checked_pairs(situation: CollisionContext, scene: Scene, parts: Sequence[Part]) -> set[frozenset[str]]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -67,7 +67,7 @@ def shapes_of_mesh(
     Raises:
         DefinitionError: The file is not a mesh, or has no volume.
     """
-    return _shapes(path, sha256, scale, how)
+    return _shapes_of_content(_MeshContent(sha256=sha256, suffix=path.suffix.lower(), path=path), scale, how)
 
 
 def write_convex_parts(path: Path, folder: Path, *, scale: tuple[float, float, float]) -> tuple[str, ...]:
@@ -83,7 +83,7 @@ def write_convex_parts(path: Path, folder: Path, *, scale: tuple[float, float, f
     """
     import trimesh
 
-    parts = _shapes(path, "", scale, CollisionShapes.DECOMPOSE, _MOST_WRITTEN)
+    parts = _shapes(path, scale, CollisionShapes.DECOMPOSE, _MOST_WRITTEN)
     names = tuple(f"{path.stem}_{index}.stl" for index in range(len(parts)))
     for name, corners in zip(names, parts, strict=True):
         trimesh.Trimesh(corners).convex_hull.export(str(folder / name))
@@ -180,9 +180,24 @@ def mesh_mass(path: Path, *, scale: float = 1.0) -> MeshMass:
     return MeshMass(volume_m3=float(mesh.volume), centre_m=(x, y, z), gyration_m2=(xx, yy, zz, xy, xz, yz))
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _MeshContent:
+    """Content of a mesh; equal to that of a copy, since projects are copied."""
+
+    sha256: str
+    suffix: str
+    path: Path = field(compare=False)
+
+
 @lru_cache(maxsize=256)
+def _shapes_of_content(
+    content: _MeshContent, scale: tuple[float, float, float], how: CollisionShapes
+) -> tuple[Vertices, ...]:
+    return _shapes(content.path, scale, how)
+
+
 def _shapes(
-    path: Path, _sha256: str, scale: tuple[float, float, float], how: CollisionShapes, most: int = -1
+    path: Path, scale: tuple[float, float, float], how: CollisionShapes, most: int = -1
 ) -> tuple[Vertices, ...]:
     mesh = read_mesh(path, scale)
     if how is CollisionShapes.BOXES:

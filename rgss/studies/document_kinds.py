@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from importlib import resources
 from pathlib import PurePosixPath
 from typing import Any
@@ -64,7 +65,12 @@ class DocumentKind:
 
     def schema_text(self) -> str:
         """Its JSON Schema, as the text of a file."""
-        return json.dumps(self.schema(), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+        return _schema_text(self)
+
+
+@cache
+def _schema_text(kind: DocumentKind) -> str:
+    return json.dumps(kind.schema(), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 DOCUMENT_KINDS = (

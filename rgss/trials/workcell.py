@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from itertools import takewhile
 
@@ -20,8 +20,8 @@ _SHARE_KEPT = 0.25
 class Workcell:
     """Kinematics of the arm and collision models of each move, for planning and execution.
 
-    Its construction takes longer than the timing of a move, so pieces with the same scene and gripper shape share it;
-    it is immutable in use.
+    Its collision models take longer to build than a move to time, so pieces with the same scene and gripper shape share
+    it, and a model is built when it is first asked for: a check asks for few of them. It is immutable in use.
     """
 
     def __init__(
@@ -49,9 +49,9 @@ class Workcell:
         self.arm = Arm(scene.robot, geometry.grasp_centre)
         self.route = route_of(scene, geometry, self.task)
         contexts = {leg.step.name: (leg.scene, leg.context) for leg in self.route.legs}
-        self.planning: Mapping[str, CollisionModel] = _models(contexts, geometry, clearance_m)
+        self.planning: Mapping[str, CollisionModel] = _MoveModels(contexts, geometry, clearance_m)
         # Between two checked states, and by compliance of a held object, some clearance may be lost.
-        self.running: Mapping[str, CollisionModel] = _models(contexts, geometry, _SHARE_KEPT * clearance_m)
+        self.running: Mapping[str, CollisionModel] = _MoveModels(contexts, geometry, _SHARE_KEPT * clearance_m)
         # A stated grasp is no substitute for candidates: the task ends before the first move of an object without one.
         self.legs: tuple[Leg, ...] = tuple(takewhile(lambda leg: self.without_grasp(leg) is None, self.route.legs))
 
@@ -65,15 +65,36 @@ class Workcell:
         return next((one for one in map(self.ungrasped.get, names) if one is not None and not one.has_best), None)
 
 
-def _models(
-    contexts: Mapping[str, tuple[Scene, CollisionContext]], geometry: GripperGeometry, clearance_m: float
-) -> dict[str, CollisionModel]:
-    """Collision model of each move; moves in the same context share one."""
-    built: dict[tuple[Scene, CollisionContext], CollisionModel] = {}
-    for scene, context in contexts.values():
-        if (scene, context) not in built:
-            built[scene, context] = CollisionModel(scene, geometry, context, clearance_m=clearance_m)
-    return {name: built[key] for name, key in contexts.items()}
+class _MoveModels(Mapping[str, CollisionModel]):
+    """Collision model of each move, built when it is first asked for; moves in the same context share one."""
+
+    def __init__(
+        self,
+        contexts: Mapping[str, tuple[Scene, CollisionContext]],
+        geometry: GripperGeometry,
+        clearance_m: float,
+    ) -> None:
+        self._contexts = contexts
+        self._geometry = geometry
+        self._clearance_m = clearance_m
+        self._of_move: dict[str, CollisionModel] = {}
+        self._of_context: dict[tuple[Scene, CollisionContext], CollisionModel] = {}
+
+    def __getitem__(self, name: str) -> CollisionModel:
+        # A scene takes long to hash, and a search asks for the model of a move again and again.
+        found = self._of_move.get(name)
+        if found is None:
+            key = scene, context = self._contexts[name]
+            if key not in self._of_context:
+                self._of_context[key] = CollisionModel(scene, self._geometry, context, clearance_m=self._clearance_m)
+            found = self._of_move[name] = self._of_context[key]
+        return found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._contexts)
+
+    def __len__(self) -> int:
+        return len(self._contexts)
 
 
 @lru_cache(maxsize=4)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.processor_time import LONGEST_S, Measured, slow_names
+from tests.processor_time import LONGEST_S, Measured, long_files, longest_first, slow_names
 
 SHORT_S = 0.1 * LONGEST_S
 
@@ -35,3 +35,11 @@ def test_who_is_left_out_pays_for_nothing():
 
     assert slow_names(tests, {"fixture": 1.5 * LONGEST_S}) == {"quick", "slow"}
     assert slow_names(tests, {"fixture": 0.5 * LONGEST_S}) == {"slow"}
+
+
+def test_the_longest_files_come_first():
+    assert longest_first({"b": 20.0, "a": 20.0, "c": 30.0, "short": 1.0}) == ["c", "a", "b"]
+
+
+def test_each_long_file_exists(repository):
+    assert [file for file in long_files() if not (repository / file).is_file()] == []

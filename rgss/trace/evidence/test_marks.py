@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from rgss.errors import EvidenceError
@@ -75,14 +76,16 @@ def _read(path: Path, label: str) -> str:
         raise EvidenceError(f"{label} is not UTF-8", hint="save the file as UTF-8") from error
 
 
-def _marked_in(source: str, label: str) -> Iterator[MarkedTest]:
+@lru_cache(maxsize=4096)
+def _marked_in(source: str, label: str) -> tuple[MarkedTest, ...]:
+    """The marked tests of a file; cached, since each study of a project asks for those of all files."""
     try:
         module = ast.parse(source)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         line = getattr(error, "lineno", None) or 1
         raise EvidenceError(f"{label}:{line} is not Python", hint="correct it; its marks cannot be read") from error
     marks = [mark for statement in module.body for mark in _assigned_marks(statement)]
-    yield from _marked_below(module.body, marks, label, label)
+    return tuple(_marked_below(module.body, marks, label, label))
 
 
 def _marked_below(body: Iterable[ast.stmt], outer: list[ast.Call], prefix: str, label: str) -> Iterator[MarkedTest]:
