@@ -8,7 +8,7 @@ from rgss.designs import DesignVariant
 from rgss.evidence import EvidenceStore
 from rgss.evidence.store import trial_names
 from rgss.studies import Project, trial_specs
-from rgss.sweep import key_of
+from rgss.sweep import keys_of
 from rgss.trials.pieces import TrialSpec
 
 
@@ -35,8 +35,9 @@ def read_specs(
         DefinitionError: A variant's parameters or components are incomplete.
     """
     found: dict[int, dict[str, TrialSpec]] = {variant.id: {} for variant in variants}
-    for spec in trial_specs(project, variants=variants):
-        found[spec.variant][key_of(spec)] = spec
+    own = trial_specs(project, variants=variants)
+    for key, spec in zip(keys_of(own), own, strict=True):
+        found[spec.variant][key] = spec
     if store is None or not project.study.is_sequential:
         return found
     possible = _possible_specs(project, store, variants)
@@ -69,6 +70,7 @@ def _possible_specs(
     found: dict[int, dict[str, TrialSpec]] = {}
     for count, group in sorted(alike.items()):
         more = range(study.seed + study.replicates, study.seed + count)
-        for spec in trial_specs(project, variants=group, seeds=more):
-            found.setdefault(spec.variant, {})[key_of(spec)] = spec
+        specs = trial_specs(project, variants=group, seeds=more)
+        for key, spec in zip(keys_of(specs), specs, strict=True):
+            found.setdefault(spec.variant, {})[key] = spec
     return found

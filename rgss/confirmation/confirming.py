@@ -13,7 +13,7 @@ from rgss.decision import choose
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore
 from rgss.studies import Project, trial_specs
-from rgss.sweep import key_of
+from rgss.sweep import keys_of
 from rgss.trials.pieces import TrialSpec
 
 RunTrials = Callable[[Sequence[TrialSpec]], int]
@@ -90,7 +90,7 @@ def _specs(project: Project, selection: Selection) -> tuple[TrialSpec, ...]:
 def _confirmed(
     selection: Selection, wanted: Sequence[Sequence[TrialSpec]], store: EvidenceStore
 ) -> tuple[ConfirmedTrial, ...]:
-    keys = [[key_of(spec) for spec in specs] for specs in wanted]
+    keys = [keys_of(specs) for specs in wanted]
     found = store.records([key for row in keys for key in row])
     for row, specs in zip(keys, wanted, strict=True):
         for key, spec in zip(row, specs, strict=True):

@@ -13,7 +13,7 @@ from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, TrialRecord
 from rgss.measures import Range, Verdict, evaluate, replicate_ranges
 from rgss.studies import Project, trial_specs
-from rgss.sweep import key_of
+from rgss.sweep import keys_of
 from rgss.tradeoff import Alternative
 from rgss.tradeoff.sequential import (
     Decided,
@@ -166,9 +166,10 @@ def trial_twins(project: Project, variants: Sequence[DesignVariant]) -> Mapping[
     found = {}
     beside = _design_beside_trials(project)
     fixed = {one.id: sources(one) for one in variants}
-    for spec in trial_specs(project, variants=variants, seeds=[project.study.seed]):
+    specs = trial_specs(project, variants=variants, seeds=[project.study.seed])
+    for key, spec in zip(keys_of([replace(spec, variant=0) for spec in specs]), specs, strict=True):
         design = tuple(fixed[spec.variant].get(source) for source in beside)
-        found[spec.variant] = first.setdefault((key_of(replace(spec, variant=0)), design), spec.variant)
+        found[spec.variant] = first.setdefault((key, design), spec.variant)
     return found
 
 
@@ -212,7 +213,7 @@ class _Evidence:
         Raises:
             EvidenceError: A trial has none.
         """
-        keys = {key_of(spec): spec for spec in specs}
+        keys = dict(zip(keys_of(specs), specs, strict=True))
         found = self._store.records(list(keys))
         for key, spec in keys.items():
             if key not in found:

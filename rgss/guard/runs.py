@@ -12,7 +12,7 @@ from rgss.evidence import EvidenceStore, Provenance, TrialRecord
 from rgss.guard.designs import guard_findings, watched_designs
 from rgss.regression import Baseline, fingerprint, observed
 from rgss.studies import GuardedMetric, Project, RegressionGuard, WatchedRun, trial_specs
-from rgss.sweep import key_of
+from rgss.sweep import keys_of
 from rgss.trials.pieces import TrialSpec
 
 RunTrials = Callable[[Sequence[TrialSpec]], None]
@@ -72,14 +72,15 @@ class Records:
         Raises:
             EvidenceError: The store is damaged.
         """
-        specs = {
-            key_of(spec): (trials.run.id, spec)
-            for trials, count in wanted
-            for spec in trials.specs(count)
-            if (spec.variant, spec.seed) not in self._found.get(trials.run.id, {})
-        }
         # Runs of the same fidelity may share trials, which are run once and read for both.
-        shared = [(trials.run.id, spec, key_of(spec)) for trials, count in wanted for spec in trials.specs(count)]
+        shared = [
+            (trials.run.id, spec, key)
+            for trials, count in wanted
+            for spec, key in zip(trials.specs(count), keys_of(trials.specs(count)), strict=True)
+        ]
+        specs = {
+            key: (run, spec) for run, spec, key in shared if (spec.variant, spec.seed) not in self._found.get(run, {})
+        }
         self._run_trials([spec for _, spec in specs.values()])
         records = self._store.records(list(specs))
         for run, spec, key in shared:

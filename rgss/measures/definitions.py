@@ -232,6 +232,8 @@ class MeasureSet:
         used: For each measure, the ids of all measures and the symbols of all inputs and constants on which it depends,
         directly or not.
         metric_ranges: Ranges of metrics of trials, in SI; a metric that is absent may have any value.
+        trial_inputs: The inputs from trials, each with its metric, in the order of the file.
+        of_design: Ids of the measures whose inputs from trials are all declared as ``of_design``.
     """
 
     constants: tuple[Constant, ...]
@@ -242,6 +244,16 @@ class MeasureSet:
     evaluation_order: tuple[Measure, ...]
     used: Mapping[str, frozenset[str]]
     metric_ranges: Mapping[str, Range] = field(default_factory=dict)
+    trial_inputs: tuple[tuple[str, InputSymbol], ...] = field(init=False, repr=False, compare=False)
+    of_design: frozenset[str] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        """Sort the inputs once: measures are evaluated for each trial of each design."""
+        trial_inputs = tuple((symbol.metric, symbol) for symbol in self.inputs if symbol.from_trial)
+        varying = {symbol.id for _, symbol in trial_inputs if not symbol.of_design}
+        of_design = frozenset(measure.id for measure in self.measures if varying.isdisjoint(self.used[measure.id]))
+        object.__setattr__(self, "trial_inputs", trial_inputs)
+        object.__setattr__(self, "of_design", of_design)
 
     def measure(self, id: str) -> Measure:  # noqa: A002 - the domain's word
         """Measure by id.

@@ -72,7 +72,7 @@ def evaluate(
             )
             continue
         known = [value for row in counted if (value := _summarised(measure, row)) is not None]
-        if rule.statistic is Estimator.MEAN and _is_of_design(measure_set, measure):
+        if rule.statistic is Estimator.MEAN and measure.id in measure_set.of_design:
             estimates[measure.id] = _same(measure, known, variant)
         elif rule.statistic is Estimator.PROPORTION:
             complete = sum(value >= COMPLETE for value in known)
@@ -108,19 +108,13 @@ def replicate_ranges(
         if rule is None or rule.statistic is Estimator.RATIO:
             continue
         known = estimates[measure.id].value
-        if rule.statistic is Estimator.MEAN and _is_of_design(measure_set, measure) and known is not None:
+        if rule.statistic is Estimator.MEAN and measure.id in measure_set.of_design and known is not None:
             found[measure.id] = Range.of_number(known)
             continue
         within = _bounds(measure, possible.get(measure.id, Range()))
         low = max(within.low, 0.0) if measure.least is None and measure.is_never_negative else within.low
         found[measure.id] = Range(low=low, high=within.high)
     return found
-
-
-def _is_of_design(measure_set: MeasureSet, measure: Measure) -> bool:
-    """True if all trial inputs of a measure are declared as ``of_design``."""
-    below = measure_set.used[measure.id]
-    return all(symbol.of_design for symbol in measure_set.inputs if symbol.from_trial and symbol.id in below)
 
 
 def _same(measure: Measure, known: Sequence[float], variant: int) -> Estimate:
@@ -226,9 +220,8 @@ def trial_values(
         DefinitionError: A metric does not have the declared shape.
     """
     values: dict[str, Value] = dict(design)
-    for symbol in measure_set.inputs:
-        if symbol.from_trial:
-            values[symbol.id] = _observed(symbol, trial.get(symbol.metric))
+    for metric, symbol in measure_set.trial_inputs:
+        values[symbol.id] = _observed(symbol, trial.get(metric))
     for measure in measure_set.evaluation_order:
         if measure.from_trials:
             values[measure.id] = measure.expression.evaluate(values)

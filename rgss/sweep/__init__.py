@@ -19,6 +19,6 @@ if TYPE_CHECKING:
     from rgss.sweep.results import FinishedTrial, LostTrials, SweepResult, SweepState, WorkerLimits
     from rgss.sweep.running import Maker, sweep
     from rgss.sweep.task_end import Workers
-    from rgss.sweep.trial_keys import key_of, trials_of
+    from rgss.sweep.trial_keys import key_of, keys_of, trials_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rgss.evidence import EvidenceStore, PlanOutcome
 from rgss.evidence.records import PlanningRun
 from rgss.studies import Project, trial_specs
-from rgss.sweep.trial_keys import key_of
+from rgss.sweep.trial_keys import keys_of
 from rgss.trials.code import assume_engines, versions
 from rgss.trials.pieces import TrialSpec, digests_of
 
@@ -26,11 +26,12 @@ def planning_runs(project: Project, store: EvidenceStore) -> tuple[PlanningRun, 
     """
     assume_engines(trial.provenance.versions for trial in store.iterate())
     longest: dict[str, TrialSpec] = {}
+    now = versions()
     for spec in trial_specs(project):
-        plan = digests_of(spec, versions()).plan
+        plan = digests_of(spec, now).plan
         if plan not in longest or spec.planning_limit_s > longest[plan].planning_limit_s:
             longest[plan] = spec
-    keys = {key_of(spec): spec for spec in longest.values()}
+    keys = dict(zip(keys_of(tuple(longest.values())), longest.values(), strict=True))
     found = store.records(keys)
     return tuple(
         PlanningRun(

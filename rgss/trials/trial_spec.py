@@ -46,6 +46,10 @@ class TrialSpec:
     uncertainty: Uncertainty = NOTHING_UNCERTAIN
     workload: Workload = ONE_WORKLOAD
 
+    def __hash__(self) -> int:
+        """Hash of its numbers: a scene takes longer to hash than to compare with itself, and specs share theirs."""
+        return hash((self.variant, self.seed, self.planner, self.planning_limit_s, self.tool_speed_m_s))
+
     @property
     def searched(self) -> frozenset[str]:
         """Names of the moves that a planner searches."""

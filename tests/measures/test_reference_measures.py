@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -230,12 +231,10 @@ def test_what_contacts_alone_know_is_unknown_without_them(reference: MeasureSet)
 
 
 def test_the_published_payload_of_ten_newtons_at_rest(reference: MeasureSet) -> None:
-    at_rest = MeasureSet(
-        **{
-            **{name: getattr(reference, name) for name in MeasureSet.__slots__},
-            "constants": tuple(constant for constant in reference.constants if constant.id != "a_m"),
-            "inputs": (*reference.inputs, _input_like(reference, "a_m", "design.a_m")),
-        }
+    at_rest = replace(
+        reference,
+        constants=tuple(constant for constant in reference.constants if constant.id != "a_m"),
+        inputs=(*reference.inputs, _input_like(reference, "a_m", "design.a_m")),
     )
     design = {**fixed(1), "design.d1": 1.0, "design.a_m": 0.0}
     result = evaluate(at_rest, fixed=design, trials=(), variant=1)

@@ -28,9 +28,19 @@ def edges_are_clear(
     """
     for edge, curve in zip(graph.edges, curves, strict=True):
         way = flattened(curve)
+        lowest, highest = (tuple(map(end, zip(*way, strict=True))) for end in (min, max))
         for node in graph.nodes:
-            is_end = node.id in (edge.source, edge.target)
-            if not is_end and any(_is_within(point, node, centres[node.id], sizes[node.id]) for point in way):
+            if node.id in (edge.source, edge.target):
+                continue
+            centre, size = centres[node.id], sizes[node.id]
+            # Most nodes are far away.
+            reach = [max(one / 2 + _CLEARANCE, 1.0) + _CLEARANCE for one in size]
+            if any(
+                highest[axis] < centre[axis] - reach[axis] or lowest[axis] > centre[axis] + reach[axis]
+                for axis in (0, 1)
+            ):
+                continue
+            if any(_is_within(point, node, centre, size) for point in way):
                 return False
     return True
 

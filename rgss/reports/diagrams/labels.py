@@ -10,12 +10,18 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
+import numpy as np
+
 from rgss.reports.diagrams.canvas import Point
 
 Segment = tuple[Point, Point]
 
 _STEPS = 16
 """Number of straight segments that approximate a Bézier curve."""
+_BERNSTEIN = tuple(
+    ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3)
+    for t in (step / _STEPS for step in range(1, _STEPS + 1))
+)
 _CLEARANCE = 2.0
 _PLACES = 24
 """Number of positions along an edge that are tried."""
@@ -63,18 +69,24 @@ def flattened(curve: Sequence[Point]) -> list[Point]:
     """Polyline that approximates Bézier curves."""
     points = [curve[0]]
     for index in range(0, len(curve) - 1, 3):
-        start, first, second, end = curve[index : index + 4]
-        for step in range(1, _STEPS + 1):
-            t = step / _STEPS
-            weights = ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3)
-            corners = (start, first, second, end)
-            points.append(
-                (
-                    sum(weight * x for weight, (x, _) in zip(weights, corners, strict=True)),
-                    sum(weight * y for weight, (_, y) in zip(weights, corners, strict=True)),
-                )
-            )
+        (a, b), (c, d), (e, f), (g, h) = curve[index : index + 4]
+        points += [(p * a + q * c + r * e + s * g, p * b + q * d + r * f + s * h) for p, q, r, s in _BERNSTEIN]
     return points
+
+
+class Strokes:
+    """Segments that labels must not be crossed by; those that are far away are sorted out together."""
+
+    def __init__(self, segments: Iterable[Segment]) -> None:
+        """Note the extents of the segments."""
+        self._segments = list(segments)
+        ends = np.array(self._segments, dtype=float).reshape(-1, 2, 2)
+        self._lowest, self._highest = ends.min(axis=1), ends.max(axis=1)
+
+    def cross(self, box: Box) -> bool:
+        """True if any of them is partly within a rectangle."""
+        near = (self._highest > (box.left, box.top)) & (self._lowest < (box.right, box.bottom))
+        return any(box.is_crossed_by(self._segments[place]) for place in np.flatnonzero(near.all(axis=1)).tolist())
 
 
 def place_labels(
@@ -100,7 +112,7 @@ def place_labels(
         The centres, and True if every label is free. A label without a free place keeps its centre.
     """
     ways = [flattened(curve) for curve in curves]
-    strokes = [segment for way in ways for segment in pairwise(way)] + list(lines)
+    strokes = Strokes([segment for way in ways for segment in pairwise(way)] + list(lines))
     placed: dict[int, Box] = {}
     centres: dict[int, Point] = {}
     crossed = []
@@ -162,7 +174,7 @@ def place_titles(
     Returns:
         The boxes of the titles, nearest to the middle of the frame, and whether every title is free.
     """
-    strokes = [segment for curve in curves for segment in pairwise(flattened(curve))]
+    strokes = Strokes(segment for curve in curves for segment in pairwise(flattened(curve)))
     placed, all_free = {}, True
     for name, frame in frames.items():
         room = max(frame.right - frame.left - widths[name] - 2 * _CLEARANCE, 0.0)
@@ -174,7 +186,7 @@ def place_titles(
             for share in sorted((step / _PLACES - 0.5 for step in range(_PLACES + 1)), key=abs)
         )
         boxes = list(places)
-        free = (box for box in boxes if not any(box.is_crossed_by(stroke) for stroke in strokes))
+        free = (box for box in boxes if not strokes.cross(box))
         found = next(free, None)
         all_free &= found is not None
         placed[name] = boxes[0] if found is None else found
@@ -194,12 +206,12 @@ def _roomy(centre: Point, size: tuple[float, float]) -> Box:
     return Box.about(centre, (size[0] + _CLEARANCE, size[1] + _CLEARANCE))
 
 
-def _is_free(box: Box, strokes: Sequence[Segment], nodes: Sequence[Box], others: Iterable[Box]) -> bool:
+def _is_free(box: Box, strokes: Strokes, nodes: Sequence[Box], others: Iterable[Box]) -> bool:
     if box.left < 0 or box.top < 0 or any(box.overlaps(node) for node in nodes):
         return False
     if any(box.overlaps(other) for other in others):
         return False
-    return not any(box.is_crossed_by(stroke) for stroke in strokes)
+    return not strokes.cross(box)
 
 
 def _candidates(way: Sequence[Point], size: tuple[float, float], farthest: float) -> Iterator[Point]:

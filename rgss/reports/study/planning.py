@@ -10,7 +10,7 @@ from rgss.assessment import VariantMeasures, specs_read
 from rgss.evidence import PlanOutcome, TrialRecord
 from rgss.reports.plain_numbers import Plain, plain_number, plain_numbers
 from rgss.studies import Project
-from rgss.sweep import key_of
+from rgss.sweep import keys_of
 from rgss.trials.code import versions
 from rgss.trials.pieces import TrialSpec, digests_of
 
@@ -42,8 +42,8 @@ def planning_columns(project: Project, measured: Sequence[VariantMeasures]) -> P
     now = versions()
     longest: dict[str, tuple[TrialSpec, TrialRecord]] = {}
     sharing: dict[str, list[int]] = {}
-    for spec in specs_read(project, measured):
-        key = key_of(spec)
+    specs = specs_read(project, measured)
+    for key, spec in zip(keys_of(specs), specs, strict=True):
         if key not in records:
             continue
         place, record = records[key]

@@ -37,6 +37,8 @@ from rgss.trials.trial_spec import TrialSpec
 # Trials of a study share most of their inputs; each digest is computed once.
 _KEPT = 512
 _JOINED_KEPT = 8192
+# Keys of the same trials are asked for by the sweep, the assessment and each what-if.
+_SPECS_KEPT = 8192
 # Settings of a step that affect its execution.
 _EXECUTED = ("reached_rad", "control", "firm_above_n", "firm_s", "opened_m", "near")
 
@@ -74,7 +76,12 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
         spec: The trial.
         versions: Versions of the code and the engines, which are inputs too; each piece uses those on which it depends.
     """
-    used = _version_digests(tuple(sorted(versions.items())))
+    return _digests_of(spec, tuple(sorted(versions.items())))
+
+
+@lru_cache(maxsize=_SPECS_KEPT)
+def _digests_of(spec: TrialSpec, versions: tuple[tuple[str, str], ...]) -> TrialDigests:
+    used = _version_digests(versions)
     conditions = conditions_of(spec)
     plan = _joined(
         geometry_digest(conditions.perceived_scene),

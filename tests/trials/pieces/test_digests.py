@@ -178,12 +178,13 @@ def test_every_setting_of_timing_and_controller_is_tried():
 def test_default_timing_and_controller_add_no_input(spec_of, monkeypatch):
     """The digests of trials without these settings are those of before there were any."""
     joined = []
+    versions = {**VERSIONS, "rgss": "of this test"}  # digests are kept
     monkeypatch.setattr(input_digests, "_joined", lambda *inputs: joined.append(inputs) or str(len(joined)))
     spec = replace(spec_of(), fidelity=Fidelity.DYNAMIC)
-    digests_of(spec, VERSIONS)
+    digests_of(spec, versions)
     assert [len(inputs) for inputs in joined] == [8, 4, 8]
     joined.clear()
-    digests_of(with_settings(with_settings(spec, "timing", peak_speed=0.5), "controller", damping_ratio=0.5), VERSIONS)
+    digests_of(with_settings(with_settings(spec, "timing", peak_speed=0.5), "controller", damping_ratio=0.5), versions)
     assert [len(inputs) for inputs in joined] == [8, 5, 9]
 
 
