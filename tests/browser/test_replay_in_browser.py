@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import math
+from itertools import combinations
+from operator import mul
 from pathlib import Path
 
 import pytest
@@ -82,7 +85,7 @@ def colours(reader):
 def test_it_draws_and_asks_for_nothing(reader, page):
     reader.open(page)
 
-    assert reader.script("return document.querySelectorAll('.replay-plots svg').length") == 4
+    assert reader.script("return document.querySelectorAll('.replay-plots figure > svg').length") == 4
     assert errors(reader) == []
     assert reader.requests() == []
     assert colours(reader) > 50
@@ -154,7 +157,7 @@ def test_the_keyboard_steps_and_turns_pages(reader, page):
 
 def test_plots_have_a_cursor_that_follows_and_leads(reader, page):
     reader.open(page)
-    svg = reader.driver.find_elements(By.CSS_SELECTOR, ".replay-plots svg")[2]
+    svg = reader.driver.find_elements(By.CSS_SELECTOR, ".replay-plots figure > svg")[2]
     reader.script("arguments[0].scrollIntoView({block: 'center'})", svg)
     ActionChains(reader.driver).move_to_element(svg).click().perform()
     middle = time_of(reader)
@@ -260,3 +263,60 @@ def test_it_is_saved_as_the_glb_that_it_carries(reader, page):
         )
     )
     assert saved == ["model/gltf-binary", len(replay_to_glb(made_scene(), title="Variant 5, seed 1"))]
+
+
+EIGHT_JOINTS = (
+    "const [lead] = replays.playerOf(document.querySelector('[data-replay]')).timelines, [plot] = lead.plots;"
+    "const series = Array.from({length: 8}, (_, at) => ({...plot.series[0], name: `joint ${at + 1}`}));"
+    "const place = document.createElement('div'); place.className = 'replay-plots'; document.body.append(place);"
+    "new replayPlots.Plot(place, [{...lead, plots: [{...plot, series}]}], 0, lead.end_s, () => {}).draw();"
+    "const seen = (all) => Array.from(place.querySelectorAll(all), (one) => getComputedStyle(one))"
+    ".map((one) => [one.stroke.match(/\\d+/g).map(Number), one.strokeDasharray]);"
+    "const found = [seen('path.series'), seen('.replay-key .series')]; place.remove();"
+    "return [...found, getComputedStyle(document.body).backgroundColor.match(/\\d+/g).map(Number)]"
+)
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_lines_of_eight_joints_are_told_apart_and_have_a_key_each(reader, page, theme):
+    reader.driver.execute_cdp_cmd(
+        "Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": theme}]}
+    )
+    try:
+        reader.open(page)
+        lines, keys, paper = reader.script(EIGHT_JOINTS)
+    finally:
+        reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
+    assert len(lines) == 8
+    assert keys == lines
+    for (one, _), (other, _) in combinations(lines, 2):
+        assert math.dist(lab_of(one), lab_of(other)) > 20
+    # WCAG 2.2, 1.4.11: graphics have a contrast of 3 to 1 with what is beside them.
+    assert all(contrast(colour, paper) >= 3 for colour, _ in lines)
+    patterns = [pattern for _, pattern in lines]
+    assert set(patterns[:4]) == {"none"}
+    assert "none" not in patterns[4:]
+
+
+def light_of(colour):
+    """Linear light of sRGB channels, IEC 61966-2-1."""
+    shares = [one / 255 for one in colour[:3]]
+    return [one / 12.92 if one <= 0.04045 else ((one + 0.055) / 1.055) ** 2.4 for one in shares]
+
+
+def contrast(one, other):
+    luminances = sorted(sum(map(mul, (0.2126, 0.7152, 0.0722), light_of(colour))) for colour in (one, other))
+    return (luminances[1] + 0.05) / (luminances[0] + 0.05)
+
+
+def lab_of(colour):
+    """CIELAB under D65, in which a distance of 2.3 is just noticeable."""
+    red, green, blue = light_of(colour)
+    xyz = (
+        (0.4124 * red + 0.3576 * green + 0.1805 * blue) / 0.9505,
+        0.2126 * red + 0.7152 * green + 0.0722 * blue,
+        (0.0193 * red + 0.1192 * green + 0.9505 * blue) / 1.0888,
+    )
+    x, y, z = (one ** (1 / 3) if one > 216 / 24389 else one * 841 / 108 + 4 / 29 for one in xyz)
+    return 116 * y - 16, 500 * (x - y), 200 * (y - z)

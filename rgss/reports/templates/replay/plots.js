@@ -2,11 +2,29 @@
 // The plots of a replay: lines over time with a cursor, drawn as SVG; a click or a drag moves the cursor.
 const replayPlots = (() => {
   const HEIGHT = 170, LEFT = 46, RIGHT = 8, TOP = 8, BOTTOM = 24;
+  // Eight colours; lines of the same group of four differ in hue, and each group has a pattern of its own, so that a
+  // colour that a reader confuses with another is not of the same pattern. Dots are of a second trial, equal dashes
+  // of what is commanded.
+  const COLOURS = 8, PATTERNS = ["none", "14 3 2 3", "20 4", "14 3 2 3 2 3"];
+  const styled = (line, series, place) => {
+    if (series.dashed) return line;
+    line.style.stroke = `var(--series-${place % COLOURS + 1})`;
+    const pattern = PATTERNS[Math.floor(place / 4) % PATTERNS.length];
+    if (!line.classList.contains("second")) line.style.strokeDasharray = pattern;
+    return line;
+  };
   const drawn = (name, attributes = {}, text = "") => {
     const one = document.createElementNS("http://www.w3.org/2000/svg", name);
     for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, value);
     one.textContent = text;
     return one;
+  };
+
+  // The line of a legend's entry, drawn as in the plot.
+  const keyOf = (line) => {
+    const key = drawn("svg", { class: "replay-key", viewBox: "0 0 36 10", "aria-hidden": "true" });
+    key.append(line);
+    return key;
   };
 
   // Tick step: 1, 2 or 5 times a power of ten that divides a range into about `count`.
@@ -99,9 +117,7 @@ const replayPlots = (() => {
           pen = "L";
         });
         const kind = `series${series.dashed ? " dashed" : ""}${trial ? " second" : ""}`;
-        const line = drawn("path", { class: kind, d: steps.join("") });
-        if (!series.dashed) line.style.stroke = `var(--series-${place % 6 + 1})`;
-        this.svg.append(line);
+        this.svg.append(styled(drawn("path", { class: kind, d: steps.join("") }), series, place));
       });
     }
 
@@ -113,18 +129,15 @@ const replayPlots = (() => {
       const found = [];
       const { series, limit } = this.timelines[0].plots[this.index];
       series.forEach((one, place) => {
-        const item = document.createElement("li"), key = document.createElement("i"), values = document.createElement("b");
-        key.style.borderTopColor = one.dashed ? "var(--muted)" : `var(--series-${place % 6 + 1})`;
-        if (one.dashed) key.style.borderTopStyle = "dashed";
-        item.append(key, `${one.name} `, values);
+        const item = document.createElement("li"), values = document.createElement("b");
+        const line = drawn("line", { class: `series${one.dashed ? " dashed" : ""}`, x1: 0, x2: 36, y1: 5, y2: 5 });
+        item.append(keyOf(styled(line, one, place)), `${one.name} `, values);
         this.legend.append(item);
         found.push({ place, values });
       });
       if (limit) {
-        const item = document.createElement("li"), key = document.createElement("i");
-        key.style.borderTopColor = "var(--not-met)";
-        key.style.borderTopStyle = "dashed";
-        item.append(key, `${limit.name} ${shown(limit.value)}`);
+        const item = document.createElement("li");
+        item.append(keyOf(drawn("line", { class: "series limit", x1: 0, x2: 36, y1: 5, y2: 5 })), `${limit.name} ${shown(limit.value)}`);
         this.legend.append(item);
       }
       return found;
