@@ -49,7 +49,10 @@ def board_to_html(
         glance = {**glance, "changes": _cut(glance["changes"])}
     heads, rows = _best(document)
     ranked = sum(rank is not None for rank in document["variants"]["rank"])
-    modelling = [[_short(str(cell)) for cell in row["cells"]] for row in _by_effect(decision["modelling"]["rows"])]
+    modelling = [
+        [_short(text) for text in (row["title"], *map(str, row["cells"][1:]))]
+        for row in _by_effect(decision["modelling"]["rows"])
+    ]
     compared = [[row["name"], *(cell["text"] for cell in row["cells"])] for row in comparison_rows(document)]
     failures, facts = (
         _failures(document["trials"], document["variants"]["id"]),

@@ -55,8 +55,9 @@ def test_a_caution_is_whole_where_there_is_room(study):
 
 def test_assumptions_that_change_the_choice_come_first(study):
     cells = ["prices", "as stated", "1.5", "variant 2", "yes"]
-    rows = [{"cells": [f"same-{index}", *cells[1:]], "changes": False} for index in range(20)]
-    rows += [{"cells": ["unknown", *cells[1:]], "changes": None}, {"cells": cells, "changes": True}]
+    row = {"cells": cells, "sentence": "Then variant 2 is chosen."}
+    rows = [{**row, "title": f"same-{index}", "changes": False} for index in range(20)]
+    rows += [{**row, "title": "unknown", "changes": None}, {**row, "title": "prices", "changes": True}]
     modelling = {**study.document["decision"]["modelling"], "rows": rows, "heads": ["a", "b", "c", "d", "e"]}
     decision = study.document["decision"] | {"modelling": modelling}
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rgss.assessment import VariantMeasures
+from rgss.decision.assumptions.names import AS_STATED, value_in_words
 from rgss.decision.assumptions.questions import Question, questions_of
 from rgss.decision.choosing import choose
 from rgss.decision.separation import is_separated
@@ -15,8 +16,6 @@ from rgss.evidence import EvidenceStore
 from rgss.studies import Project
 from rgss.tradeoff import Decision
 from rgss.trials.pieces import TrialSpec
-
-_AS_STATED = "as stated"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,6 +55,11 @@ class AssumptionOutcome:
     otherwise_of_choice: int = 0
     excluded_by: tuple[str, ...] = ()
     reason: str = ""
+
+    @property
+    def before(self) -> str:
+        """The value in the study in words."""
+        return value_in_words(self.taken_as)
 
 
 def assumption_outcomes(
@@ -149,7 +153,7 @@ def _taken_as(scenario: Scenario) -> str:
     if len(scenario.changes) == 1:
         (change,) = scenario.changes
         return f"{change.before:g}" if change.unit == "1" else f"{change.before:g} {change.unit}"
-    return _AS_STATED
+    return AS_STATED
 
 
 def _successes(measured: Sequence[VariantMeasures]) -> set[tuple[int, int]]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from rgss.decision.assumptions.names import alternative_in_words, name_in_words
 from rgss.decision.what_if import COST, PRICES, assumed_numbers, model_settings, readings_of
 from rgss.evidence import Fidelity
 from rgss.studies import Project
@@ -23,10 +24,17 @@ class Question:
     Attributes:
         about: The assumption, by its name for ``--what-if``.
         alternative: The alternative value.
+        title: The assumption in words.
     """
 
     about: str
     alternative: str
+    title: str = ""
+
+    @property
+    def instead(self) -> str:
+        """The alternative value in words."""
+        return alternative_in_words(self.about, self.alternative)
 
     @property
     def supposition(self) -> str:
@@ -50,7 +58,8 @@ def questions_of(project: Project) -> tuple[Question, ...]:
         for alternative in one.alternatives
     ]
     readings = [Question(about=one.id, alternative=one.alternative) for one in readings_of(project)]
-    return tuple(dict.fromkeys((*(listed or _derived(project)), *readings)))
+    found = dict.fromkeys((*(listed or _derived(project)), *readings))
+    return tuple(replace(one, title=name_in_words(project, one.about)) for one in found)
 
 
 def _derived(project: Project) -> Iterator[Question]:

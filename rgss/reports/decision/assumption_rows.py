@@ -18,12 +18,16 @@ class AssumptionRow:
     """A row of the table.
 
     Attributes:
+        title: The assumption in words.
         cells: Its cells, under `ASSUMPTION_HEADS`.
         changes: True if the choice changes; None if that is not known.
+        sentence: What is supposed in place of what, and what is then chosen; empty if that is not known.
     """
 
+    title: str
     cells: tuple[str, ...]
     changes: bool | None
+    sentence: str = ""
 
 
 def assumption_rows(made: StudyDecision) -> tuple[AssumptionRow, ...]:
@@ -34,6 +38,7 @@ def assumption_rows(made: StudyDecision) -> tuple[AssumptionRow, ...]:
     """
     return tuple(
         AssumptionRow(
+            title=one.question.title,
             cells=(
                 one.question.about,
                 one.taken_as or UNKNOWN,
@@ -42,6 +47,7 @@ def assumption_rows(made: StudyDecision) -> tuple[AssumptionRow, ...]:
                 _change(one),
             ),
             changes=None if one.is_same is None else not one.is_same,
+            sentence=_sentence(one),
         )
         for one in made.assumptions
     )
@@ -109,6 +115,15 @@ def _choice(one: AssumptionOutcome) -> str:
         return "nothing is feasible"
     others = ids_text(tuple(variant for variant in one.ties if variant != one.chosen))
     return f"variant {one.chosen}{f' ({others} as good)' if others else ''}, {one.feasible} feasible"
+
+
+def _sentence(one: AssumptionOutcome) -> str:
+    if one.is_same is None:
+        return ""
+    question, others = one.question, ids_text(tuple(variant for variant in one.ties if variant != one.chosen))
+    as_good = f", and {others} as good" if others else ""
+    then = "no variant is feasible" if one.chosen is None else f"variant {one.chosen} is chosen{as_good}"
+    return f"{question.title}: {question.instead} instead of {one.before}. Then {then}."
 
 
 def _change(one: AssumptionOutcome) -> str:

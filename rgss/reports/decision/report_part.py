@@ -65,7 +65,10 @@ def decision_part(made: StudyDecision) -> Plain:
         "readings": [] if made.assumptions else list(reading_lines(made)),
         "modelling": {
             "heads": list(ASSUMPTION_HEADS),
-            "rows": [{"cells": list(row.cells), "changes": row.changes} for row in assumption_rows(made)],
+            "rows": [
+                {"title": row.title, "cells": list(row.cells), "changes": row.changes, "sentence": row.sentence}
+                for row in assumption_rows(made)
+            ],
             "sentences": list(assumption_sentences(made)),
         },
         "drivers": _drivers(made),

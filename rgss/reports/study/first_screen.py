@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from rgss.counted import counted
 from rgss.reports.decision import variants_text
 from rgss.reports.plain_numbers import Plain
 from rgss.reports.study.column_entries import entry_at, entry_text
@@ -16,8 +17,9 @@ MOST_BULLETS = 6
 _OPEN = ("inconclusive", "stale", "not_run")
 _WORDS = {"<=": "at most", "<": "below", ">=": "at least", ">": "above", "==": "exactly"}
 _ROOM = 1.12
-_PRICES = "prices"
-"""The assumption whose alternatives are factors."""
+
+MOST_CHANGES = 2
+"""Most assumptions that are named as changing the choice; the table of assumptions has all."""
 
 _LEAST_WEIGHT = 5e-4
 """A smaller weight is written as nearly 0."""
@@ -71,7 +73,8 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         ],
         "bullets": bullets[:MOST_BULLETS],
         "more_limits": max(0, len(bullets) - MOST_BULLETS),
-        "changes": list(_changes(decision)),
+        "changes": list(_changes(decision, {name: one["name"] for name, one in units.items()})),
+        "other_changes": _other_changes(decision["modelling"]["rows"]),
         "worst": _worst(document),
     }
 
@@ -128,32 +131,38 @@ def _percent(value: float, top: float) -> float:
     return round(min(max(100.0 * value / top, 0.0), 100.0), 2)
 
 
-def _changes(decision: Mapping[str, Any]) -> Iterator[str]:
-    """Sentences on what would change the choice: assumptions, weights, limits."""
+def _changes(decision: Mapping[str, Any], names: Mapping[str, str]) -> Iterator[str]:
+    """Sentences on what would change the choice: a few assumptions, and the nearest weight."""
     rows = decision["modelling"]["rows"]
-    changing = [row["cells"] for row in rows if row["changes"]]
-    for cells in changing[:3]:
-        sign = "×" if cells[0] == _PRICES else "="
-        yield f"{cells[0]} {sign} {cells[2]}: then {cells[3]}"
-    unknown = sum(row["changes"] is None for row in rows)
-    if unknown:
-        yield f"{unknown} of {len(rows)} rows of assumptions have no trials yet"
-    nearest = _nearest_weight(decision["weight_ranges"])
+    yield from [row["sentence"] for row in rows if row["changes"]][:MOST_CHANGES]
+    nearest = _nearest_weight(decision["weight_ranges"], names)
     if nearest is not None:
         yield nearest
     elif decision["weight_ranges"]:
-        yield "no single weight: each can have any value, with the others in proportion"
+        yield "No single weight: each can have any value, with the others in proportion."
 
 
-def _nearest_weight(ranges: Sequence[Mapping[str, Any]]) -> str | None:
+def _other_changes(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Number of assumptions in the table, of those that are not named and change the choice, and of unknown ones."""
+    if not rows:
+        return ""
+    more = max(0, sum(bool(row["changes"]) for row in rows) - MOST_CHANGES)
+    unknown = sum(row["changes"] is None for row in rows)
+    parts = [f"{more} more change it"] if more else []
+    parts += [f"{unknown} without trials"] if unknown else []
+    return f"{counted(len(rows), 'assumption')} with alternatives" + (f" ({', '.join(parts)})" if parts else "")
+
+
+def _nearest_weight(ranges: Sequence[Mapping[str, Any]], names: Mapping[str, str]) -> str | None:
     """The least change of one weight after which another variant wins."""
     found = []
     for one in ranges:
         for bound, winners, side in ((one["low"], one["below"], "below"), (one["high"], one["above"], "above")):
             if winners:
-                found.append((abs(bound - one["weight"]), one["measure"], side, bound, winners))
+                found.append((abs(bound - one["weight"]), one["measure"], one["weight"], side, bound, winners))
     if not found:
         return None
-    _, measure, side, bound, winners = min(found)
-    least = f"{side} {bound:.3g}" if bound >= _LEAST_WEIGHT else "of nearly 0"
-    return f"the weight of {measure} {least}: then {variants_text(winners)}"
+    _, measure, weight, side, bound, winners = min(found)
+    least = f"{side} {bound:.3g}" if bound >= _LEAST_WEIGHT else "nearly 0"
+    come = "comes" if len(winners) == 1 else "come"
+    return f"Weight of {names[measure]}: {least} instead of {weight:.3g}. Then {variants_text(winners)} {come} first."

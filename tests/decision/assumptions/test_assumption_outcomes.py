@@ -15,6 +15,7 @@ from rgss.decision.what_if import model_settings, suppose
 from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity, Provenance
 from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
+from rgss.reports.decision.words import ids_text
 from rgss.studies import load_project, trial_specs
 from rgss.studies.assumptions_section import StudyAssumption
 from rgss.sweep.trial_keys import key_of
@@ -128,9 +129,14 @@ def test_an_alternative_under_which_the_choice_fails_changes_it(evidence, filled
     assert f"Kinematic trials decide otherwise, and choose variant {found.chosen}" in text
     assert "The choice depends on fidelity" in text
     rows = decision_part(made)["modelling"]["rows"]
+    others = tuple(variant for variant in found.ties if variant != found.chosen)
+    as_good = f", and {ids_text(others)} as good" if others else ""
     assert rows[0] == {
+        "title": "Fidelity of the trials",
         "cells": ["fidelity", "dynamic", "kinematic", *rows[0]["cells"][3:]],
         "changes": True,
+        "sentence": "Fidelity of the trials: kinematic instead of dynamic. "
+        f"Then variant {found.chosen} is chosen{as_good}.",
     }
     assert f"| `fidelity` | dynamic | kinematic | {rows[0]['cells'][3]} | {rows[0]['cells'][4]} |" in decision_section(
         made

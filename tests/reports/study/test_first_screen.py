@@ -59,9 +59,9 @@ DOCUMENT = {
         "failed_records": [],
         "modelling": {
             "rows": [
-                {"cells": ["prices", "as stated", "1.5", "nothing is feasible", "yes"], "changes": True},
-                {"cells": ["clock", "1 ms", "2 ms", "needs 8 of 8 trials", "–"], "changes": None},
-                {"cells": ["clock", "1 ms", "3 ms", "variant 2", "no"], "changes": False},
+                {"changes": True, "sentence": "All assumed prices: multiplied by 1.5 instead of as stated. Then none."},
+                {"changes": None, "sentence": ""},
+                {"changes": False, "sentence": "Clock: 3 ms instead of 1 ms. Then variant 2 is chosen."},
             ]
         },
         "weight_ranges": [
@@ -159,18 +159,27 @@ def test_an_interval_that_goes_far_is_cut_at_the_end_of_the_chart():
 
 
 def test_what_would_change_it():
-    assert first_screen_content(DOCUMENT)["changes"] == [
-        "prices × 1.5: then nothing is feasible",
-        "1 of 3 rows of assumptions have no trials yet",
-        "the weight of share below 0.3: then variants 1, 3",
+    shown = first_screen_content(DOCUMENT)
+    assert shown["changes"] == [
+        "All assumed prices: multiplied by 1.5 instead of as stated. Then none.",
+        "Weight of SHARE: below 0.3 instead of 0.6. Then variants 1, 3 come first.",
     ]
+    assert shown["other_changes"] == "3 assumptions with alternatives (1 without trials)"
     tiny = [{"measure": "time", "weight": 0.4, "low": 4.46e-5, "high": 1.0, "below": [1, 2, 3], "above": []}]
     shown = first_screen_content(changed(modelling={"rows": []}, weight_ranges=tiny))
-    assert shown["changes"] == ["the weight of time of nearly 0: then variants 1–3"]
+    assert shown["changes"] == ["Weight of TIME: nearly 0 instead of 0.4. Then variants 1–3 come first."]
     free = [{"measure": "time", "weight": 0.4, "low": 0.0, "high": 1.0, "below": [], "above": []}]
     shown = first_screen_content(changed(modelling={"rows": []}, weight_ranges=free))
-    assert shown["changes"] == ["no single weight: each can have any value, with the others in proportion"]
-    assert first_screen_content(changed(modelling={"rows": []}, weight_ranges=[]))["changes"] == []
+    assert shown["changes"] == ["No single weight: each can have any value, with the others in proportion."]
+    shown = first_screen_content(changed(modelling={"rows": []}, weight_ranges=[]))
+    assert (shown["changes"], shown["other_changes"]) == ([], "")
+
+
+def test_only_some_of_many_changes_are_named_and_the_others_counted():
+    rows = [{"changes": True, "sentence": f"Change {number}."} for number in range(5)]
+    shown = first_screen_content(changed(modelling={"rows": rows}, weight_ranges=[]))
+    assert shown["changes"] == ["Change 0.", "Change 1."]
+    assert shown["other_changes"] == "5 assumptions with alternatives (3 more change it)"
 
 
 def test_without_a_choice_there_is_none():
