@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import re
+import statistics
 
 import pytest
 from selenium.webdriver.common.by import By
@@ -212,9 +213,60 @@ def test_a_table_takes_the_filters_of_the_command_line(reader, page, study):
     ]
 
 
+def estimates(study, name: str) -> dict[int, float | None]:
+    """A measure of each variant, from the document."""
+    values = next(one["value"] for one in study.document["measures"] if one["id"] == name)
+    ids = study.document["variants"]["id"]
+    return dict(zip(ids, values if isinstance(values, list) else [values] * len(ids), strict=True))
+
+
+def test_a_table_takes_comparisons_of_parameters_as_the_command_line_does(reader, page, study):
+    reader.open(page)
+    space = load_project(study.folder).designs
+    speeds = sorted({one.parameters["d7"] for one in space.expand()})
+    terms = [f"d7 <= {speeds[0]:g} m/s", f"d7>{speeds[0]:g} m/s", f"robot.tool_speed < {speeds[-1]:g} m/s", "d1>=3"]
+    for term in terms:
+        wanted = [one.id for one in picked(space, [term])]
+        assert 0 < len(wanted) < 72
+        assert filtered(reader, term)[0] == wanted, term
+
+
+def test_a_table_takes_comparisons_of_estimates(reader, page, study):
+    reader.open(page)
+    times, costs = estimates(study, "t_p"), estimates(study, "C_total")
+    limit = statistics.median(one for one in times.values() if one is not None)
+    below = [one for one, time in times.items() if time is not None and time < limit - 1e-6]
+    cheap = [one for one, cost in costs.items() if cost < 40_000]
+    assert 0 < len(below) < 72
+    assert 0 < len(cheap) < 72
+    for term in (f"t_p<{limit}", f"T_p < {limit} s", f"total_planning_time<{limit}"):
+        assert filtered(reader, term)[0] == below, term
+    for term in ("C_total<40000", "SYS-004 < 40,000 USD"):
+        assert filtered(reader, term)[0] == cheap, term
+    assert filtered(reader, f"t_p<{limit} c_total<40000")[0] == sorted({*below} & {*cheap})
+    share = sum(one is not None and one >= 0.9 for one in estimates(study, "S").values())
+    assert len(filtered(reader, "S >= 90 %")[0]) == share
+    assert find(reader, "C_total < 40,000")["Variants"] == [f"Variant {one}" for one in cheap[:8]]
+
+
+def test_the_page_says_that_find_takes_comparisons_and_its_examples_are_some(reader, page):
+    reader.open(page)
+    assert "comparisons of their parameters and estimates, such as " in reader.text("#find-note")
+    examples = reader.script(
+        "return Array.from(document.querySelectorAll('#find-note code'), (one) => one.textContent)"
+    )
+    assert len(examples) == 2
+    for example in examples:
+        assert re.fullmatch(r"\d+ rows?", filtered(reader, example)[1])
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
+        ("t_pp<3", "0 rows; nothing is named t_pp: did you mean t_p?"),
+        ("cost<43000", "0 rows; nothing is named cost: did you mean C_total?"),
+        ("t_p<fast", "0 rows; t_p is compared with a number in s, got fast"),
+        ("planner>rrt", "0 rows; planner has no order: compare it by = or !="),
         ("plannr=rrt", "0 rows; nothing is named plannr: did you mean planner?"),
         ("planner=rtr", "0 rows; planner is never rtr: did you mean rrt?"),
         ("fingers=nine", "0 rows; fingers is never nine: known are three, two"),
@@ -225,7 +277,7 @@ def test_an_unknown_filter_of_a_table_gets_a_suggestion(reader, page, words, sai
     reader.open(page)
     assert filtered(reader, words) == ([], said)
     find(reader, words)
-    assert reader.text("#found-count") == said.replace("0 rows", "Nothing found")
+    assert re.fullmatch(rf"(Nothing|\d+) found{re.escape(said.removeprefix('0 rows'))}", reader.text("#found-count"))
 
 
 def test_a_column_sorts_up_down_and_not_at_all(reader, page, study):

@@ -143,7 +143,7 @@ const startFind = () => {
     ...entries.slice(0, MOST_FOUND).map(({ title, text, to }) => element("li", {}, element("a", { href: to }, title), element("span", { class: "small" }, ` ${brief(text)}`))),
     ...(more > 0 ? [element("li", { class: "small" }, `and ${more} more`)] : [])));
   const look = () => {
-    const words = wordsOf(field.value);
+    const words = soughtWords(field.value);
     if (!words.length) { close(); return; }
     make();
     const number = /^\s*(?:variant\s+)?(\d+)\s*$/i.exec(field.value);
@@ -169,7 +169,7 @@ const startFind = () => {
       return list(kind, entries, all - MOST_FOUND);
     }));
     const wrong = filterProblem(words);
-    told.textContent = count ? `${count} found` : wrong ? `Nothing found; ${wrong}` : "Nothing found";
+    told.textContent = `${count || "Nothing"} found${wrong ? `; ${wrong}` : ""}`;
     box.hidden = count === 0;
   };
   let waiting = 0;

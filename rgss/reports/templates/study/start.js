@@ -1,6 +1,8 @@
 // ------------------------------------------------------------------------------ start
 drawLegends();
 countShown();
+byId("find-note").append("Find, here and above, takes filters of variants and comparisons of their parameters and estimates",
+  ...filterExamples().flatMap((one, index) => [index ? " or " : ", such as ", element("code", {}, one)]), ".");
 onShown(parallel.draw);
 onShown(verdictsTable());
 onShown(tableIn("parallel-table", {

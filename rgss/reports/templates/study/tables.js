@@ -3,6 +3,12 @@ const PAGE_ROWS = 100, LEAST_SOUGHT = 8, MOST_PRINTED = 500;
 
 // Search words; a verdict of two words is one word.
 const wordsOf = (text) => text.toLowerCase().replace(/\bnot (met|run)\b/g, "not_$1").split(/\s+/).filter(Boolean);
+// Words of a search field: a comparison is one word with its unit, and its number has no commas between thousands.
+const COMPARED_UNITS = new Set([...data.parameters, ...data.measures].map((one) => one.unit.toLowerCase()).filter((unit) => unit && unit !== "1").concat("%"));
+const soughtWords = (text) => wordsOf(text.toLowerCase()
+  .replace(/\s*(!=|==|[<>]=?|=)\s*/g, "$1")
+  .replace(/([=<>][-+]?\d{1,3})((?:,\d{3})+)(?!\d)/g, (_, start, rest) => start + rest.replace(/,/g, ""))
+  .replace(/([=<>][-+]?[\d.]+(?:e[-+]?\d+)?)\s+(\S+)/g, (whole, start, unit) => (COMPARED_UNITS.has(unit) ? start + unit : whole)));
 
 // The leading number of a text; the text if it has none; null for a dash.
 const numberOf = (text) => {
@@ -69,7 +75,7 @@ const pagedTable = (host, { label, columns, rows, search = null, problem = null,
   const told = element("output", { "aria-live": "polite" });
   const back = element("button", { type: "button" }, "Previous rows");
   const on = element("button", { type: "button" }, "Next rows");
-  const wanted = element("input", { type: "search", placeholder: "number or words", autocomplete: "off" });
+  const wanted = element("input", { type: "search", placeholder: (problem && filterExamples().join(", ")) || "number or words", autocomplete: "off" });
   const pager = element("p", { class: "pager" });
   const finder = element("label", {}, "Find ", wanted);
   pager.append(finder, told, back, on);
@@ -92,14 +98,14 @@ const pagedTable = (host, { label, columns, rows, search = null, problem = null,
       return line;
     }));
     const many = !whole && found.length > size;
-    const wrong = found.length || problem === null ? "" : problem(wordsOf(wanted.value));
+    const wrong = found.length || problem === null ? "" : problem(soughtWords(wanted.value));
     told.textContent = wrong ? `0 rows; ${wrong}` : many ? `Rows ${first + 1} to ${first + page.length} of ${found.length}` : `${found.length} ${found.length === 1 ? "row" : "rows"}`;
     back.hidden = on.hidden = !many;
     back.disabled = first === 0;
     on.disabled = first + size >= found.length;
   };
   const update = () => {
-    const words = wordsOf(wanted.value);
+    const words = soughtWords(wanted.value);
     found = rows();
     finder.hidden = !words.length && found.length < LEAST_SOUGHT;
     if (words.length) found = found.filter((row) => words.every((word) => has(row, word)));
@@ -149,6 +155,12 @@ const byRank = () => shownPlaces.slice().sort((one, other) => {
 });
 const varying = data.parameters.filter((parameter) => parameter.varies);
 const effectiveness = data.measures.filter((measure) => measure.kind === "moe" || measure.weight !== null);
+// Filters of this study as examples: of a name, and of a measure with a limit, if there are such.
+const filterExamples = () => {
+  const texts = varying.filter(isText).slice(0, 1).map((one) => `${one.id}=${at(one.values, 0)}`);
+  const limits = data.requirements.filter((one) => known(one.threshold) && measureOf.has(one.measure)).slice(0, 1).map((one) => `${one.measure}${one.comparison}${one.threshold}`);
+  return [...texts, ...limits];
+};
 // Columns of parameters and measures of a variant, each figure with a link to its evidence.
 const parameterColumns = varying.map((one) => ({ head: withUnit(one.name, one.unit), number: true, cell: (place) => show(at(one.values, place)), sort: (place) => at(one.values, place), to: (place) => figureAddress(variants.id[place], one.id) }));
 const effectivenessColumns = effectiveness.map((one) => ({ head: withUnit(one.id, one.unit), title: one.name, number: true, cell: (place) => show(at(one.value, place)), sort: (place) => at(one.value, place), to: (place) => figureAddress(variants.id[place], one.id) }));
