@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 import shlex
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rgss.cli.pictures.progress import film_progress
+from rgss.cli.pictures.progress import film_parts_progress
 
 if TYPE_CHECKING:
     from rgss.evidence.records import TrialTrace
@@ -20,6 +21,10 @@ if TYPE_CHECKING:
 
 MOST_LARGE_FILMS = 4
 """With more trials, films are smaller by default, so that a dozen of them stay within a few megabytes."""
+
+
+_SIMULATED = 0.3
+"""Part of the time of a trial's pictures after which it has been simulated; the frames take the rest."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,16 +98,18 @@ def trial_pictures(
     if project.study.fidelity is not Fidelity.CONTACT:
         return (), f"Films need trials at contact fidelity; those of this study are {project.study.fidelity.value}."
     made = []
-    with film_progress(len(notable), "Trials filmed") as advance:
-        for one in notable:
+    with film_parts_progress(len(notable), "Trials filmed") as reach:
+        for number, one in enumerate(notable):
             variant = project.designs.variant(one.record.variant)
             (spec,) = trial_specs(project, variants=[variant], seeds=[one.record.seed])
-            made.append(_pictures(project, one, spec, look))
-            advance()
+            made.append(_pictures(project, one, spec, look, on_part=lambda part, before=number: reach(before + part)))
+            reach(number + 1)
     return tuple(made), ""
 
 
-def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLook) -> TrialPictures:
+def _pictures(
+    project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLook, *, on_part: Callable[[float], None]
+) -> TrialPictures:
     from rgss.cli.pictures.replays import packed_trial
     from rgss.evidence import record_digest
     from rgss.reports import TrialPictures
@@ -112,8 +119,9 @@ def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLo
     from rgss.trials.replay import run_replayed_trial
 
     seen = compute(run_replayed_trial, spec)
+    on_part(_SIMULATED)
     same = record_digest(seen.record) == record_digest(one.record)
-    strip, film, still = (b"", b"", b"") if seen.trace is None else _drawn(spec, one, seen.trace, look)
+    strip, film, still = (b"", b"", b"") if seen.trace is None else _drawn(spec, one, seen.trace, look, on_part)
     label = project.study.label
     named = "" if label == DEFAULT_STUDY else f" --study {shlex.quote(label)}"
     detail = one.record.failure_detail
@@ -132,7 +140,9 @@ def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLo
     )
 
 
-def _drawn(spec: TrialSpec, one: NotableTrial, trace: TrialTrace, look: FilmLook) -> tuple[bytes, bytes, bytes]:
+def _drawn(
+    spec: TrialSpec, one: NotableTrial, trace: TrialTrace, look: FilmLook, on_part: Callable[[float], None]
+) -> tuple[bytes, bytes, bytes]:
     from rgss.cli.pictures.options import captioned
     from rgss.physics import VIEWS
     from rgss.reports.trials import still_png, write_filmstrip, write_video
@@ -153,7 +163,14 @@ def _drawn(spec: TrialSpec, one: NotableTrial, trace: TrialTrace, look: FilmLook
         strip, video = Path(folder) / "strip.png", Path(folder) / "film.webm"
         ends = {frame.span.phase: frame.picture for frame in film.ends_of_phases()}
         write_filmstrip(strip, one.record, ends)
-        write_video(video, lambda index: captioned(film, index, one.record), count=len(film), rate_hz=look.rate_hz)
+        frames = itertools.count(1)
+        write_video(
+            video,
+            lambda index: captioned(film, index, one.record),
+            count=len(film),
+            rate_hz=look.rate_hz,
+            on_frame=lambda: on_part(_SIMULATED + (1.0 - _SIMULATED) * next(frames) / len(film)),
+        )
         # The still shows the object being carried, if the trial reached such a phase.
         shown = next((ends[phase] for phase in spec.task.carried if phase in ends), next(iter(ends.values())))
         return strip.read_bytes(), video.read_bytes(), still_png(shown)

@@ -8,7 +8,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from rgss.cli.safe_output import errors_are_seen, own_stream
-from rgss.cli.terminal import colour_system
+from rgss.cli.terminal import ESTIMATING, colour_system, left_in_words
 
 if TYPE_CHECKING:
     from rgss.sweep import SweepState
@@ -46,7 +46,7 @@ class SweepProgress:
             console=Console(file=own_stream(sys.stderr), color_system=colour_system()),
         )
         self._progress.start()
-        self._task = self._progress.add_task("trials", total=self._total, outcomes="", course="")
+        self._task = self._progress.add_task("trials", total=self._total, outcomes="", course=ESTIMATING)
         return self
 
     def __exit__(
@@ -87,8 +87,9 @@ def course_of(state: SweepState, *, fresh: int) -> str:
     if fresh and state.elapsed_s > 0.0:
         parts.append(f"{fresh / state.elapsed_s:.1f}/s")
     if state.remaining_s is not None and state.tasks_left:
-        minutes, seconds = divmod(round(state.remaining_s), 60)
-        parts.append(f"{minutes}:{seconds:02d} left")
+        parts.append(left_in_words(state.remaining_s))
+    elif state.tasks_left:
+        parts.append(ESTIMATING)
     made, reused = sum(state.made.values()), sum(state.reused.values())
     parts.append(f"{made} made, {state.tasks_left} to make" + (f", {reused} from evidence" if reused else ""))
     if state.saved:

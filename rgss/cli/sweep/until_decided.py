@@ -7,6 +7,7 @@ import shlex
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from rgss.cli.options import sweep_words
@@ -66,7 +67,8 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
             lost.extend(finished.result.lost)
 
         try:
-            found = replicate_until_decided(project, store, run, rule=rule, on_look=_report_look)
+            most = len(project.designs.expand()) * rule.cap if rule.budget is None else rule.budget
+            found = replicate_until_decided(project, store, run, rule=rule, on_look=partial(_report_look, most))
         except EvidenceError as error:
             if not lost:
                 raise
@@ -124,9 +126,9 @@ def _refuse_contradictions(options: argparse.Namespace, project: Project) -> Non
         )
 
 
-def _report_look(look: int, trials: int) -> None:
+def _report_look(most: int, look: int, trials: int) -> None:
     if errors_are_seen():
-        print(f"look {look}: {counted(trials, 'trial')}", file=sys.stderr)
+        print(f"look {look}: {counted(trials, 'trial')} of at most {most}", file=sys.stderr)
 
 
 def _forecast(found: Forecast) -> dict[str, object]:

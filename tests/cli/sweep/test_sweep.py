@@ -193,7 +193,7 @@ def state(**changes):
     [
         (state(), 50, "2.5/s; 1:35 left; 6 made, 30 to make"),
         (state(reused={"bench": 4}, saved=12), 50, "2.5/s; 1:35 left; 6 made, 30 to make, 4 from evidence; 12 shared"),
-        (state(remaining_s=None, made={}), 0, "0 made, 30 to make"),
+        (state(remaining_s=None, made={}), 0, "estimating; 0 made, 30 to make"),
         (state(tasks_left=0, remaining_s=0.0), 72, "3.6/s; 6 made, 0 to make"),
     ],
 )
@@ -214,6 +214,7 @@ def test_progress_is_shown_on_a_terminal_and_nowhere_else(capsys, monkeypatch):
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)
     output, errors = shown()
     assert output == ""
+    assert "estimating" in errors
     assert "3/4" in errors
     assert "2 succeeded, 1 failed" in errors
     assert "0:03 left; 6 made, 30 to make" in errors
