@@ -38,17 +38,20 @@ def print_lines(lines: Iterable[str]) -> None:
             page.show_table(line.table)
 
 
-def print_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: Iterable[int] = ()) -> None:
+def print_table(
+    titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: Iterable[int] = (), spare: Sequence[int] = ()
+) -> None:
     """Print a table as aligned text.
 
     Args:
         titles: The head of each column.
         rows: The cells.
         right: Columns that are aligned to the right.
+        spare: Columns that a narrow terminal may omit, the first one to omit last.
     """
     from rgss.reports import aligned_table
 
-    print_lines(aligned_table(titles, rows, right=right))
+    print_lines(aligned_table(titles, rows, right=right, spare=spare))
 
 
 def announce(text: str, file: Path) -> None:

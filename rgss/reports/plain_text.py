@@ -16,11 +16,13 @@ class TextTable:
         titles: The head of each column.
         rows: The cells.
         right: Columns that are aligned to the right.
+        spare: Columns that a narrow terminal may omit, the first one to omit last.
     """
 
     titles: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     right: frozenset[int]
+    spare: tuple[int, ...] = ()
 
 
 class TableLine(str):
@@ -45,13 +47,16 @@ class TableLine(str):
         return line
 
 
-def aligned_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: Iterable[int] = ()) -> list[str]:
+def aligned_table(
+    titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: Iterable[int] = (), spare: Sequence[int] = ()
+) -> list[str]:
     """Lines of a table whose columns are aligned, each a `TableLine`.
 
     Args:
         titles: The head of each column.
         rows: The cells.
         right: Columns that are aligned to the right.
+        spare: Columns that a narrow terminal may omit, the first one to omit last.
     """
     cells = [tuple(printable(text) for text in row) for row in (titles, *rows)]
     widths = [max(len(row[column]) for row in cells) for column in range(len(titles))]
@@ -64,5 +69,5 @@ def aligned_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right
         ]
         lines.append("  ".join(parts).rstrip())
     lines.insert(1, "  ".join("─" * width for width in widths))
-    table = TextTable(titles=cells[0], rows=tuple(cells[1:]), right=frozenset(to_right))
+    table = TextTable(titles=cells[0], rows=tuple(cells[1:]), right=frozenset(to_right), spare=tuple(spare))
     return [TableLine.of(line, table, is_first=place == 0) for place, line in enumerate(lines)]

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 
 GAP = 2
 """Spaces between two columns."""
+_MOST_WRAPPED = 0.6
+"""Least width of a column as a share of its longest cell, at which words seldom need more than two lines."""
 
 
 def column_groups(
@@ -32,6 +34,27 @@ def column_groups(
         ways.append((every,))
     fitted = [tuple((part, _widths(natural, least, part, width)) for part in way) for way in ways]
     return min(fitted, key=lambda way: sum(_lines(cells, part, widths) for part, widths in way))
+
+
+def columns_with_room(cells: Sequence[Sequence[str]], width: int, *, spare: Sequence[int]) -> tuple[int, ...]:
+    """Columns of a table without those that may be omitted and for which a line has no room.
+
+    Such a column is kept if its cells need two lines at most.
+
+    Args:
+        cells: The rows, the heads first; all have the same number of cells.
+        width: The characters of a line.
+        spare: Columns that may be omitted, the first one to omit last.
+    """
+    natural = [max(len(row[column]) for row in cells) for column in range(len(cells[0]))]
+    kept = [column for column in range(len(natural)) if column not in spare]
+    for column in spare:
+        room = width - _total([natural[one] for one in kept]) - GAP
+        if room < _MOST_WRAPPED * natural[column]:
+            break
+        natural[column] = min(natural[column], room)
+        kept.append(column)
+    return tuple(sorted(kept))
 
 
 def _parts(natural: Sequence[int], width: int, keys: int) -> tuple[tuple[int, ...], ...]:

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, TextIO, cast
 
 from rgss.cli.safe_output import SafeStream, own_stream
-from rgss.cli.terminal.column_groups import GAP, column_groups
+from rgss.cli.terminal.column_groups import GAP, column_groups, columns_with_room
 from rgss.cli.terminal.pager import Pager
 from rgss.cli.terminal.styles import STYLES, colour_system
 
@@ -71,8 +71,12 @@ class TerminalPage(SafeStream):
         console = PageConsole(
             file=self.own, width=self._width, force_terminal=True, highlight=False, color_system=colour_system()
         )
-        cells = (table.titles, *table.rows)
-        parts = column_groups(cells, self._width)
+        whole = (table.titles, *table.rows)
+        kept = columns_with_room(whole, self._width, spare=table.spare)
+        cells = [[row[column] for column in kept] for row in whole]
+        parts = [
+            (tuple(kept[place] for place in part), widths) for part, widths in column_groups(cells, self._width)
+        ]
         for place, (part, widths) in enumerate(parts):
             shown = Table(
                 box=SIMPLE_HEAD, pad_edge=False, padding=(0, GAP - 1, 0, 0), show_edge=False, header_style="bold"
@@ -89,6 +93,9 @@ class TerminalPage(SafeStream):
             console.print(shown)
             if place < len(parts) - 1:
                 console.print()
+        omitted = [table.titles[column] for column in table.spare if column not in kept]
+        if omitted:
+            console.print(Text(f"(no room for: {', '.join(omitted)}; --wide has all columns)"))
 
     def _write_line(self, line: str) -> None:
         if len(line) <= self._width:

@@ -147,15 +147,15 @@ def _print_variant(project: Project, entry: VariantMeasures) -> None:
         rows.append(
             [
                 measure.id,
-                measure.kind.value.upper(),
-                measure.name,
                 number(estimate.value),
                 estimate.unit,
-                f"{number(estimate.low)} … {number(estimate.high)}",
+                "–" if estimate.low is None else f"{number(estimate.low)} … {number(estimate.high)}",
                 str(estimate.n),
+                measure.name,
+                measure.kind.value.upper(),
             ]
         )
-    print_table(["measure", "kind", "name", "value", "unit", "interval", "trials"], rows, right=(3, 6))
+    print_table(["measure", "value", "unit", "interval", "trials", "name", "kind"], rows, right=(1, 4), spare=(5, 6))
     print()
     print_table(["requirement", "verdict"], [[name, verdict.value] for name, verdict in entry.verdicts.items()])
     gaps = _gap_lines(project, [entry], entry.estimates)

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rgss.cli.terminal.column_groups import GAP, column_groups
+from rgss.cli.terminal.column_groups import GAP, column_groups, columns_with_room
 
 WORDS = st.lists(st.text("abc0", min_size=1, max_size=9), max_size=4).map(" ".join)
 TABLES = st.integers(1, 9).flatmap(
@@ -63,3 +63,16 @@ def test_the_way_with_the_fewest_lines_is_taken(cells, parts):
 def test_a_word_that_is_wider_than_the_terminal_is_broken():
     ((part, widths),) = column_groups([["digest"], ["x" * 64]], 40)
     assert (part, widths) == ((0,), (40,))
+
+
+@pytest.mark.parametrize(
+    ("width", "kept"),
+    [(80, (0, 1, 2)), (20, (0, 1)), (19, (0, 1)), (18, (0,)), (5, (0,))],
+)
+def test_a_narrow_terminal_omits_spare_columns_the_last_first(width, kept):
+    cells = [["t_p", "total planning", "moe"], ["S", "success", "supplementary"]]
+    # A column of 14 characters has room in 9 and a part, beside 3 and the gap.
+    assert columns_with_room(cells, 3 + 2 + 9, spare=(1, 2)) == (0, 1)
+    assert columns_with_room(cells, 3 + 2 + 8, spare=(1, 2)) == (0,)
+    assert columns_with_room(cells, 80, spare=()) == (0, 1, 2)
+    assert columns_with_room([[one[0] + 5 * "x", *one[1:]] for one in cells], width, spare=(1, 2)) == kept

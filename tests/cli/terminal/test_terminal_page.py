@@ -201,3 +201,12 @@ def test_variants_that_show_the_same_share_a_row_on_a_terminal_only(shown, folde
     assert len(together.splitlines()) < count + 2
     assert "variants" in together
     assert "variants" not in apart.getvalue()
+
+
+def test_a_table_without_room_for_its_spare_columns_says_so_and_has_each_row_once(shown):
+    titles, row = ["measure", "value", "name"], ["t_p_simulated", "12.25 s", "Total planning time of the five moves"]
+    narrow = STYLE.sub("", shown(lambda: print_table(titles, [row], right=(1,), spare=(2,))))
+    assert "Total" not in narrow
+    assert narrow.count("t_p_simulated") == 1
+    assert " ".join(narrow.split()).endswith("(no room for: name; --wide has all columns)")
+    assert "no room" not in shown(lambda: print_table(titles[:2], [row[:2]]))
