@@ -16,6 +16,9 @@ from rgss.tradeoff import Decision
 if TYPE_CHECKING:
     from rgss.reports.study_plots import PlottedDesigns, PlottedMeasure
 
+_MOST_NEAR = 3
+"""Most measures that a hint names."""
+
 
 def measure_named(project: Project, name: str, *, argument: str) -> Measure:
     """A measure of a study that is a single number.
@@ -31,10 +34,20 @@ def measure_named(project: Project, name: str, *, argument: str) -> Measure:
     text_argument(argument, name, hint="give the id of a measure")
     known = {one.id: one for one in project.measures.measures if _is_single(one)}
     if name not in known:
-        near = difflib.get_close_matches(name, known, n=1)
-        hint = f"did you mean {near[0]!r}?" if near else f"measures: {', '.join(known)}"
+        hint = _near_measures(name, list(known.values()))
         raise DefinitionError(f"{argument}: {name!r} is not a measure with one value for each design", hint=hint)
     return known[name]
+
+
+def _near_measures(name: str, measures: Sequence[Measure]) -> str:
+    """Hint for an unknown measure: those of a similar id or name, and where all are listed."""
+    everything = f"study.measures has all {len(measures)}"
+    plain = {one.id.lower(): one.id for one in measures} | {one.name.lower(): one.id for one in measures}
+    sought = name.lower().replace("_", " ")
+    near = [plain[one] for text in (name.lower(), sought) for one in difflib.get_close_matches(text, plain, n=1)]
+    near += [plain[one] for one in plain if len(sought) > 1 and sought in one]
+    found = list(dict.fromkeys(near))[:_MOST_NEAR]
+    return f"did you mean {' or '.join(map(repr, found))}? {everything}" if found else everything
 
 
 def plotted_measure(project: Project, measured: Sequence[VariantMeasures], measure: Measure) -> PlottedMeasure:
