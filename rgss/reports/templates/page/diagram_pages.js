@@ -12,7 +12,7 @@
   const dialog = element("dialog", { class: "diagram-page", "aria-labelledby": "diagram-page-title" });
   const title = element("h2", { id: "diagram-page-title" });
   const view = element("div", { class: "diagram-view", tabindex: "0", role: "group", "aria-describedby": "diagram-page-help" });
-  const help = element("p", { id: "diagram-page-help", class: "small" }, "Drag or use the arrow keys to move, the wheel or + and − to zoom, 0 to fit, Page Up and Page Down for the other diagrams, Escape to close.");
+  const help = element("p", { id: "diagram-page-help", class: "small" }, "Drag, scroll or use the arrow keys to move, Ctrl and the wheel or + and − to zoom, 0 for the whole, 1 for full size, Page Up and Page Down for the other diagrams, Escape to close.");
   const told = element("output", { "aria-live": "polite" });
   const bar = element("div", { class: "diagram-bar", role: "toolbar", "aria-label": "Diagram" });
   let shown = null, before = null, scale = 1, x = 0, y = 0;
@@ -28,6 +28,26 @@
     scale = Math.min(view.clientWidth / width, view.clientHeight / height, 2);
     x = (view.clientWidth - scale * width) / 2;
     y = (view.clientHeight - scale * height) / 2;
+    draw();
+  };
+  // Texts are 12 px high at full size. A drawing that is whole in sight only below it is opened at its beginning, as
+  // wide as the page if it can be.
+  const FULL = 1, WIDEST = 1.25;
+  const begin = () => {
+    fit();
+    if (scale >= FULL) return;
+    const { width } = size();
+    scale = Math.max(FULL, Math.min(view.clientWidth / width, WIDEST));
+    x = Math.max(0, (view.clientWidth - scale * width) / 2);
+    y = 0;
+    draw();
+  };
+  // Scrolls as far as there is a part of the drawing out of sight.
+  const scroll = (across, down) => {
+    const { width, height } = size();
+    const within = (at, by, seen, whole) => (whole <= seen ? at : Math.min(Math.max(at - by, Math.min(at, seen - whole)), Math.max(at, 0)));
+    x = within(x, across, view.clientWidth, scale * width);
+    y = within(y, down, view.clientHeight, scale * height);
     draw();
   };
   // The point of the drawing below (u, v) stays there.
@@ -61,7 +81,7 @@
     view.replaceChildren(box.querySelector("svg"));
     if (!dialog.open) dialog.showModal();
     view.focus();
-    fit();
+    begin();
   };
   const go = (box) => {
     const address = location.href.split("#")[0] + addressOf(box);
@@ -103,7 +123,11 @@
   };
   view.addEventListener("wheel", (event) => {
     event.preventDefault();
-    zoom(Math.exp(-event.deltaY / (event.deltaMode === 0 ? 400 : 12)), ...inside(event.clientX, event.clientY));
+    const line = event.deltaMode === 0 ? 1 : 33;
+    // Two fingers on a touchpad that spread are a wheel with Ctrl.
+    if (event.ctrlKey || event.metaKey) zoom(Math.exp(-event.deltaY * line / 400), ...inside(event.clientX, event.clientY));
+    else if (event.shiftKey) scroll(line * event.deltaY, 0);
+    else scroll(line * event.deltaX, line * event.deltaY);
   }, { passive: false });
   const fingers = new Map();
   view.addEventListener("pointerdown", (event) => {
@@ -129,7 +153,7 @@
   });
   addEventListener("hashchange", follow);
   addEventListener("popstate", follow);
-  addEventListener("resize", () => { if (dialog.open) fit(); });
+  addEventListener("resize", () => { if (dialog.open) begin(); });
   addEventListener("beforeprint", () => { if (dialog.open) dialog.close(); });
   follow();
 })();
