@@ -74,9 +74,7 @@ class TerminalPage(SafeStream):
         whole = (table.titles, *table.rows)
         kept = columns_with_room(whole, self._width, spare=table.spare)
         cells = [[row[column] for column in kept] for row in whole]
-        parts = [
-            (tuple(kept[place] for place in part), widths) for part, widths in column_groups(cells, self._width)
-        ]
+        parts = [(tuple(kept[place] for place in part), widths) for part, widths in column_groups(cells, self._width)]
         for place, (part, widths) in enumerate(parts):
             shown = Table(
                 box=SIMPLE_HEAD, pad_edge=False, padding=(0, GAP - 1, 0, 0), show_edge=False, header_style="bold"

@@ -141,10 +141,13 @@ def _free_labels(graph: Graph, contents: Mapping[str, Content]) -> tuple[Graph, 
     """
     narrow = _with_narrow_labels(graph)
     readable: tuple[Graph, Layout] | None = None
-    for farthest, spacings in ((NEAR, _SPACINGS[:2]), (FAR, _SPACINGS[:2]), (FARTHEST, _SPACINGS)):
+    far = _SPACINGS if graph.lanes else _SPACINGS[:2]
+    for farthest, spacings in ((NEAR, _SPACINGS[:2]), (FAR, far), (FARTHEST, _SPACINGS)):
         for spacing in spacings:
-            for tried in dict.fromkeys((graph, narrow)):
-                placed, labels_free, edges_clear = _laid_out(tried, contents, spacing, farthest)
+            # Short lines also find a place in the layout for the long ones, whose edges may be clearer.
+            ways = ((graph, graph), (narrow, narrow), *([(graph, narrow)] if graph.lanes else []))
+            for laid_out, tried in dict.fromkeys(ways):
+                placed, labels_free, edges_clear = _laid_out(tried, contents, spacing, farthest, laid_out=laid_out)
                 if labels_free and edges_clear:
                     return tried, placed
                 readable = readable or ((tried, placed) if labels_free else None)
@@ -166,11 +169,26 @@ def _with_narrow_labels(graph: Graph) -> Graph:
 
 
 def _laid_out(
-    graph: Graph, contents: Mapping[str, Content], spacing: float, farthest: float, *, orthogonal: bool = False
+    graph: Graph,
+    contents: Mapping[str, Content],
+    spacing: float,
+    farthest: float,
+    *,
+    orthogonal: bool = False,
+    laid_out: Graph | None = None,
 ) -> tuple[Layout, bool, bool]:
-    """A layout, whether every label and title of it is free, and whether its edges run through no node."""
+    """A layout, whether every label and title of it is free, and whether its edges run through no node.
+
+    Args:
+        graph: The diagram.
+        contents: The content of each node.
+        spacing: Multiple of the usual distances between nodes.
+        farthest: Largest distance of a label from its edge, in pixels.
+        orthogonal: Edges are upright and level lines.
+        laid_out: The diagram with other lines of labels, for which room is kept; itself if None.
+    """
     sizes = {name: (content.width, content.height) for name, content in contents.items()}
-    placed = layout(graph, sizes, spacing=spacing, orthogonal=orthogonal)
+    placed = layout(laid_out or graph, sizes, spacing=spacing, orthogonal=orthogonal)
     curves = tuple(
         with_stubs(curve, contents[edge.source].stub, contents[edge.target].stub, rightwards=graph.rightwards)
         for edge, curve in zip(graph.edges, placed.curves, strict=True)
@@ -188,6 +206,8 @@ def _laid_out(
         ],
         [*frame_lines(placed.frames.values()), *lane_borders(placed.lanes)],
         farthest=farthest,
+        # A label far from its edge, in a dense diagram, is better than one that a line crosses.
+        lanes=() if orthogonal or farthest >= FARTHEST else tuple(placed.lanes.values()),
     )
     middles = {name: (title.left + title.right) / 2 for name, title in titles.items()}
     lanes = widened(placed.lanes, _ends(curves, labels, graph)) if placed.lanes else placed.lanes

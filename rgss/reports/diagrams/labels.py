@@ -6,6 +6,7 @@ label moves along its edge to the nearest free place.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -50,6 +51,11 @@ class Box:
         """True if the two share an area."""
         across = min(self.right, other.right) > max(self.left, other.left)
         return across and min(self.bottom, other.bottom) > max(self.top, other.top)
+
+    def distance(self, point: Point) -> float:
+        """Distance of a point; 0 within."""
+        x, y = point
+        return math.hypot(max(self.left - x, 0.0, x - self.right), max(self.top - y, 0.0, y - self.bottom))
 
     def is_crossed_by(self, segment: Segment) -> bool:
         """True if a part of a segment is within the rectangle."""
@@ -97,6 +103,7 @@ def place_labels(
     lines: Sequence[Segment],
     *,
     farthest: float,
+    lanes: Sequence[Box] = (),
 ) -> tuple[tuple[Point | None, ...], bool]:
     """Move each crossed or overlapped label to a free place beside its edge.
 
@@ -107,6 +114,8 @@ def place_labels(
         nodes: The rectangles of the nodes.
         lines: Other straight lines that no label may cross, such as those of frames.
         farthest: Largest distance of a label from its edge, in pixels.
+        lanes: Lanes of which a label must be in the one that its edge passes through beside it; with them no other
+            edge may be nearer to it.
 
     Returns:
         The centres, and True if every label is free. A label without a free place keeps its centre.
@@ -120,7 +129,7 @@ def place_labels(
         if centre is None:
             continue
         box = _roomy(centre, sizes[index])
-        if _is_free(box, strokes, nodes, placed.values()):
+        if _is_free(box, strokes, nodes, placed.values()) and _is_beside(box, index, ways, lanes):
             placed[index], centres[index] = box, centre
         else:
             crossed.append(index)
@@ -130,6 +139,7 @@ def place_labels(
             place
             for place in _candidates(ways[index], sizes[index], farthest)
             if _is_free(_roomy(place, sizes[index]), strokes, nodes, placed.values())
+            and _is_beside(_roomy(place, sizes[index]), index, ways, lanes)
         )
         found = next(free, None)
         all_free &= found is not None
@@ -212,6 +222,18 @@ def _is_free(box: Box, strokes: Strokes, nodes: Sequence[Box], others: Iterable[
     if any(box.overlaps(other) for other in others):
         return False
     return not strokes.cross(box)
+
+
+def _is_beside(box: Box, index: int, ways: Sequence[Sequence[Point]], lanes: Sequence[Box]) -> bool:
+    """Whether a label belongs to its edge: no other edge is nearer, and the edge beside it is in the same lane."""
+    if not lanes:
+        return True
+    apart, (beside, _) = min((box.distance(point), point) for point in ways[index])
+    middle = (box.left + box.right) / 2
+    if any((lane.left <= middle <= lane.right) != (lane.left <= beside <= lane.right) for lane in lanes):
+        return False
+    others = (point for place, way in enumerate(ways) if place != index for point in way)
+    return all(box.distance(point) >= apart for point in others)
 
 
 def _candidates(way: Sequence[Point], size: tuple[float, float], farthest: float) -> Iterator[Point]:

@@ -10,9 +10,10 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from rgss.reports.diagrams.behaviour import activity_diagram, lanes_of
+from rgss.reports.diagrams.labels import Box, place_labels
 from rgss.reports.diagrams.style import STYLE
 from rgss.requirements import Behaviour, BehaviourKind, Flow, FlowEdge, FlowNode, FlowNodeKind, load_requirements
-from tests.fixtures.diagram_geometry import SVG, crossings
+from tests.fixtures.diagram_geometry import SVG, crossings, text_boxes
 
 ROOT = Path(__file__).parents[3]
 KINDS = {"initial": FlowNodeKind.INITIAL, "merge": FlowNodeKind.MERGE, "decision": FlowNodeKind.DECISION}
@@ -138,3 +139,36 @@ def test_heads_of_edges_to_final_nodes_point_down():
             assert abs((left[0] + right[0]) / 2 - tip[0]) < 1, title
             checked += 1
     assert checked == len(finals)
+
+
+def test_a_guard_is_in_the_lane_of_its_edge_and_no_other_edge_is_nearer():
+    lanes = (Box(left=0, top=0, right=100, bottom=300), Box(left=100, top=0, right=300, bottom=300))
+    own = ((112, 20), (112, 80), (112, 140), (112, 200))
+    other = ((160, 20), (160, 80), (160, 140), (160, 200))
+    borders = [((100.0, 0.0), (100.0, 300.0))]
+
+    def placed(wanted, within):
+        (centre, _), free = place_labels(
+            (own, other), (wanted, None), ((40, 12), (0, 0)), (), borders, farthest=50.0, lanes=within
+        )
+        assert free
+        return centre
+
+    # Free places, the first in the lane of another, the second beside another edge.
+    for wanted in ((70.0, 100.0), (184.0, 100.0)):
+        assert placed(wanted, ()) == wanted
+        x, _ = placed(wanted, lanes)
+        assert 100 < x - 20 < x + 20 < 160
+        assert x - 20 - 112 <= 160 - x - 20
+
+
+def test_the_long_guard_of_a_move_is_in_the_lane_of_its_decision():
+    architecture = load_requirements(ROOT / "requirements").architecture
+    names = {block.id: block.name for block in architecture.blocks}
+    move = next(one for one in architecture.behaviours if one.id == "ACT-move")
+    drawing = activity_diagram(move, names)
+    boxes = groups(drawing)
+    left, right = next(box for title, box in boxes.items() if title.startswith("Lane of Task program"))
+    texts = {text.text: text for text in text_boxes(drawing.to_svg(), STYLE)}
+    for line in ("[contact,", "the tool is off its"):
+        assert left < texts[line].left < texts[line].right < right
