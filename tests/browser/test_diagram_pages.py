@@ -110,7 +110,8 @@ def test_the_pointer_zooms_about_itself_and_drags(reader, diagram_page):
     place = reader.script(
         "const b = arguments[0].getBoundingClientRect();"
         "const [x, y] = [Math.round(b.left) + 100, Math.round(b.top) + 80];"
-        "arguments[0].dispatchEvent(new WheelEvent('wheel', {deltaY: -200, ctrlKey: true, clientX: x, clientY: y, cancelable: true}));"
+        "arguments[0].dispatchEvent(new WheelEvent('wheel', {deltaY: -200, ctrlKey: true, clientX: x,"
+        " clientY: y, cancelable: true}));"
         "return [x - b.left - arguments[0].clientLeft, y - b.top - arguments[0].clientTop]",
         view,
     )

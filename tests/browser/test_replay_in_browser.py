@@ -320,3 +320,25 @@ def lab_of(colour):
     )
     x, y, z = (one ** (1 / 3) if one > 216 / 24389 else one * 841 / 108 + 4 / 29 for one in xyz)
     return 116 * y - 16, 500 * (x - y), 200 * (y - z)
+
+
+@pytest.mark.parametrize("width", [1440, 390])
+def test_the_camera_has_all_that_moves_in_the_picture_and_no_more_than_it_needs(reader, page, width):
+    reader.open(page, width=width)
+    scene = made_scene()
+    for view in ("overview", "side", "top"):
+        Select(reader.driver.find_element(By.XPATH, "//label[starts-with(., 'View')]/select")).select_by_value(view)
+        # Positions in the picture, from -1 to 1, of the middle of what moves at each instant.
+        seen = reader.script(
+            f"const {{trials: [trial], view: {{camera}}}} = {PLAYER}; camera.updateMatrixWorld(true);"
+            "return arguments[0].map((one) => trial.world.localToWorld(new THREE.Vector3(...one))"
+            ".project(camera).toArray())",
+            [place.tolist() for node in scene.nodes[2:4] for place in node.positions_m],
+        )
+        assert all(max(abs(across), abs(up)) < 1 for across, up, _ in seen)
+        whole = reader.script(
+            f"const {{view}} = {PLAYER}; return view.corners.map((one) => one.clone().project(view.camera).toArray())"
+        )
+        extents = [max(abs(one[axis]) for one in whole) for axis in (0, 1)]
+        # In its tighter direction the picture is full, up to its border.
+        assert max(extents) == pytest.approx(1 / 1.04, abs=1e-3)

@@ -7,11 +7,14 @@ const replayScene = (() => {
   const TOUCH_ARROW_M = 0.16;
   const PATH_RADIUS_M = 0.003;
   const VIEWS = {
-    overview: { azimuth: 215, elevation: 22, distance: 2.6 },
+    overview: { azimuth: 215, elevation: 22 },
     hand: { azimuth: 235, elevation: 12, distance: 0.75, follows: true },
-    side: { azimuth: 270, elevation: 6, distance: 2.6 },
-    top: { azimuth: 270, elevation: 89, distance: 2.8 },
+    side: { azimuth: 270, elevation: 6 },
+    top: { azimuth: 270, elevation: 89 },
   };
+  // What moves is looked at in so many instants; bodies are in the picture as far as they are so near to it, in its size.
+  const INSTANTS = 16, NEAR = 0.1, AROUND = 0.5, BELOW = 0.05;
+  const BORDER = 1.04;
 
   const library = () => {
     if (typeof THREE === "undefined") {
@@ -129,6 +132,32 @@ const replayScene = (() => {
       });
     }
 
+    // Corners of what the camera has in the picture: what moves in the trial, and what it stands on or passes.
+    framed() {
+      const three = library(), { start_s: start, end_s: end } = this.timeline;
+      const shown = this.mixer.time;
+      const boxOf = (node) => {
+        const box = new three.Box3().setFromObject(node);
+        return box.isEmpty() ? box : box.applyMatrix4(this.world.matrixWorld.clone().invert());
+      };
+      const moving = new three.Box3();
+      for (let at = 0; at <= INSTANTS; at += 1) {
+        this.mixer.setTime(start + (end - start) * at / INSTANTS);
+        this.group.updateMatrixWorld(true);
+        for (const node of [...this.kinds.link, ...this.kinds.object]) moving.union(boxOf(node));
+      }
+      this.mixer.setTime(shown);
+      this.group.updateMatrixWorld(true);
+      const size = moving.getSize(new three.Vector3()).length();
+      const flat = (share) => new three.Vector3(share * size, share * size, 0);
+      const near = moving.clone().expandByVector(flat(NEAR)), around = moving.clone().expandByVector(flat(AROUND));
+      near.min.z = around.min.z = moving.min.z - BELOW * size;
+      near.max.z = around.max.z = Infinity;
+      const boxes = [moving, ...this.kinds.body.map(boxOf).filter((box) => box.intersectsBox(near)).map((box) => box.intersect(around))];
+      const corners = boxes.flatMap(({ min, max }) => [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => new three.Vector3(x, y, z)))));
+      return corners.map((corner) => this.world.localToWorld(corner));
+    }
+
     placeOf(node) { return node.getWorldPosition(new (library()).Vector3()); }
   }
 
@@ -216,7 +245,9 @@ const replayScene = (() => {
       this.controls.minDistance = 0.1;
       this.controls.maxDistance = 10;
       this.controls.addEventListener("change", () => this.redraw());
+      this.controls.addEventListener("start", () => { this.turned = true; });
       this.follows = false;
+      this.turned = false;
       this.name = "overview";
       this.arrange(this.mode);
       new ResizeObserver(() => this.resize()).observe(place);
@@ -235,22 +266,45 @@ const replayScene = (() => {
     }
 
     choose(name) {
+      this.turned = false;
       const three = library();
       const { azimuth, elevation, distance, follows = false } = VIEWS[name];
       const turn = azimuth * Math.PI / 180, rise = elevation * Math.PI / 180;
       const [first] = this.trials;
-      const target = follows ? first.placeOf(first.hand) : first.world.localToWorld(new three.Vector3(...first.timeline.middle_m));
       const towards = new three.Vector3(Math.cos(rise) * Math.cos(turn), Math.cos(rise) * Math.sin(turn), Math.sin(rise));
       const turned = towards.applyQuaternion(first.world.getWorldQuaternion(new three.Quaternion()));
-      // In a narrow picture the camera is farther away, so that the width of the scene fits.
-      const narrow = Math.max(1, (follows ? 1 : 1.5) / this.camera.aspect);
-      this.camera.position.copy(target).addScaledVector(turned, distance * narrow);
+      const target = follows ? first.placeOf(first.hand) : new three.Vector3();
+      // In a narrow picture the camera is farther away, so that the width of the hand fits.
+      if (follows) this.camera.position.copy(target).addScaledVector(turned, distance * Math.max(1, 1 / this.camera.aspect));
+      else this.fit(turned, target);
       this.controls.target.copy(target);
       this.name = name;
       this.follows = follows;
       this.followed = target;
       this.controls.update();
       this.redraw();
+    }
+
+    // The nearest place of the camera, in a direction from the scene, that has all corners in the picture; its target.
+    fit(turned, target) {
+      const three = library();
+      const ahead = turned.clone().negate();
+      const right = new three.Vector3().crossVectors(ahead, this.camera.up).normalize();
+      const up = new three.Vector3().crossVectors(right, ahead);
+      this.corners = this.corners || this.trials.flatMap((trial) => trial.framed());
+      const tall = Math.tan(this.camera.fov * Math.PI / 360) / BORDER, wide = tall * this.camera.aspect;
+      const depths = this.corners.map((corner) => corner.dot(ahead));
+      // A corner is in the picture if |across - c| <= slope * (depth - d), with the camera at c across and d ahead.
+      const between = (axis, slope) => {
+        const across = this.corners.map((corner) => corner.dot(axis));
+        const least = Math.max(...across.map((one, at) => one - slope * depths[at])), most = Math.min(...across.map((one, at) => one + slope * depths[at]));
+        return { middle: (least + most) / 2, depth: (most - least) / (2 * slope) };
+      };
+      const [h, v] = [between(right, wide), between(up, tall)];
+      const depth = Math.min(h.depth, v.depth);
+      this.camera.position.set(0, 0, 0).addScaledVector(right, h.middle).addScaledVector(up, v.middle).addScaledVector(ahead, depth);
+      const far = (Math.min(...depths) + Math.max(...depths)) / 2 - depth;
+      target.copy(this.camera.position).addScaledVector(ahead, far);
     }
 
     pose(time) {
@@ -272,6 +326,8 @@ const replayScene = (() => {
       this.renderer.setSize(width, height);
       this.camera.aspect = (this.mode === "beside" ? width / 2 : width) / height;
       this.camera.updateProjectionMatrix();
+      // A view that the reader has not turned fits the new shape of the picture.
+      if (!this.turned && this.followed) this.choose(this.name);
       this.redraw();
     }
 
