@@ -283,6 +283,13 @@ def test_texts_of_the_tornado_are_at_least_12_px_and_the_page_does_not_scroll(re
         " name.right > box(one).left + 1 && name.top < box(one).bottom - 2 && name.bottom > box(one).top + 2))]"
     )
     assert reader.script(seen) == [1, True]
+    # Both colours have a key.
+    keys = (
+        "const colour = (one, name) => getComputedStyle(one)[name];"
+        "return ['low', 'high'].map((kind) => [colour(document.querySelector(`.tornado-legend .${kind}`),"
+        " 'backgroundColor'), colour(document.querySelector(`svg.tornado .${kind}`), 'fill')])"
+    )
+    assert all(key == bar for key, bar in reader.script(keys))
     assert reader.accessibility_findings() == []
 
 
