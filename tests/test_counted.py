@@ -43,6 +43,6 @@ def test_a_project_of_one_measure_and_one_design():
 
 
 def test_the_drivers_of_one_failure():
-    kind = FailureDrivers(failure=Failure.OBJECT_DROPPED, stage="carry", trials=1, seeds=1, drivers=())
+    kind = FailureDrivers(failure=Failure.OBJECT_DROPPED, stage="carry", trials=1, seeds=1, designs=1, drivers=())
 
     assert "(1 trial, 1 seed)" in driver_sentence(kind)

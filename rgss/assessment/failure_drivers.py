@@ -1,15 +1,17 @@
-"""Drivers of failures: draws that differ between the trials with one kind of failure and the others."""
+"""Drivers of failures: draws that differ between the trials of a design with one kind of failure and its others."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.assessment.seed_permutations import permutation_p_values
+from rgss.assessment.within_designs import Mask, WithinDesigns, weighted_auc
 from rgss.evidence import Failure, TrialRecord
 
 Array = NDArray[np.float64]
@@ -17,8 +19,6 @@ Array = NDArray[np.float64]
 SIGNIFICANT = 0.05
 """Adjusted p below which a quantity is called a driver."""
 
-_PERMUTATIONS = 19_999
-_BATCH = 500
 _FEWEST = 3
 _CARRY = "carry"
 
@@ -38,8 +38,9 @@ class Driver:
     Attributes:
         quantity: Name of the draw, or of the case of the workload.
         aspect: The compared quantity: draws, their distances from the median draw, or trials of a case against others.
-        auc: Probability that a trial with the failure has a greater value than one without; 0.5 without effect.
-        p: Two-sided p-value of a permutation of the draws over the seeds.
+        auc: Probability that a trial with the failure has a greater value than one of the same design without; 0.5
+            without effect.
+        p: Two-sided p-value of a permutation of the draws over the seeds that the same designs ran with.
         adjusted_p: The same, adjusted by Holm for all quantities and kinds of failure.
     """
 
@@ -60,6 +61,7 @@ class FailureDrivers:
             drop during the carry has other causes than one at the place.
         trials: Number of trials with it.
         seeds: Number of their seeds.
+        designs: Number of designs that are compared: those with trials of both kinds.
         drivers: Each quantity at its stronger aspect, the least adjusted p first, then the AUC farthest from 0.5.
     """
 
@@ -67,6 +69,7 @@ class FailureDrivers:
     stage: str
     trials: int
     seeds: int
+    designs: int
     drivers: tuple[Driver, ...]
 
     @property
@@ -83,7 +86,8 @@ class DriversOfFailures:
         trials: Number of trials.
         seeds: Number of their seeds.
         failures: The kinds that a draw could drive, the most frequent first.
-        too_few: Kinds that occurred, at each stage, with fewer than three seeds or with all but fewer than three.
+        too_few: Kinds that occurred, at each stage, with fewer than three seeds, or whose absence did, of the designs
+            that show both.
     """
 
     trials: int
@@ -93,50 +97,50 @@ class DriversOfFailures:
 
 
 def drivers_of_failures(records: Sequence[TrialRecord], *, carried: Collection[str]) -> DriversOfFailures:
-    """Compare the draws of failed trials with those of the others, for each kind of failure.
+    """Compare the draws of failed trials with those of the other trials of the same design, for each kind of failure.
 
-    The AUC is that of Mann and Whitney (1947) over the trials. Designs share the draws of a seed, so that trials are
-    not independent observations: p is that of a permutation of the draws over the seeds, for the rank sum weighted by
-    the number of trials of a seed with this failure. With one design this is the permutation test of Mann and Whitney.
+    Designs fail by their own parameters too, and may have other seeds than others: pooled trials would take the one
+    for the effect of a draw, or hide it (Simpson 1951). The AUC is that of Mann and Whitney (1947) within designs,
+    combined as Mantel and Haenszel (1959) combine strata. p is that of a permutation of the draws over the seeds that
+    the same designs ran with, since designs share the draws of a seed and are not independent observations. The
+    permuted statistic is the rank sum of a design's failures less its expectation, summed over designs: the score of a
+    logistic regression that is conditional on the failures of each design (Breslow and Day 1980). With one design this
+    is the permutation test of Mann and Whitney.
 
     Args:
         records: The trials.
         carried: The moves of the task with an object in the hand.
     """
     table = _Table(records, carried)
-    found: dict[_Kind, list[tuple[str, Aspect, float, float]]] = {}
-    too_few = []
     kinds = {kind for one in records if (kind := _kind(one, carried)) is not None}
-    for kind in sorted(kinds, key=lambda each: (each[0].value, each[1])):
-        counts = table.failures(kind)
-        if not _FEWEST <= int((counts > 0).sum()) <= len(counts) - _FEWEST or not table.columns:
-            too_few.append(kind[0])
-            continue
-        found[kind] = list(table.compared(counts))
-    adjusted = _holm([p for rows in found.values() for *_, p in rows])
+    within = {kind: table.within_designs(kind) for kind in sorted(kinds, key=lambda each: (each[0].value, each[1]))}
+    compared = {kind: one for kind, one in within.items() if one.fewest_seeds >= _FEWEST and table.columns}
+    p_values = table.p_values(tuple(compared.values()))
+    adjusted = _holm(p_values.ravel().tolist())
     failures = []
-    for kind, rows in found.items():
-        counts = table.failures(kind)
+    for (kind, one), row in zip(compared.items(), p_values.tolist(), strict=True):
+        failed, pairs = table.failures(kind), one.pairs
         drivers = [
-            Driver(quantity=name, aspect=aspect, auc=auc, p=p, adjusted_p=next(adjusted))
-            for name, aspect, auc, p in rows
+            Driver(quantity=name, aspect=aspect, auc=weighted_auc(pairs, values), p=p, adjusted_p=next(adjusted))
+            for ((name, aspect), values), p in zip(table.columns.items(), row, strict=True)
         ]
         failures.append(
             FailureDrivers(
                 failure=kind[0],
                 stage=kind[1],
-                trials=int(counts.sum()),
-                seeds=int((counts > 0).sum()),
+                trials=int(failed.sum()),
+                seeds=int(failed.any(axis=0).sum()),
+                designs=one.designs,
                 drivers=_strongest(drivers),
             )
         )
     failures.sort(key=lambda one: -one.trials)
-    compared = {kind for kind, _ in found}
+    named = {kind for kind, _ in compared}
     return DriversOfFailures(
         trials=len(records),
         seeds=len(table.seeds),
         failures=tuple(failures),
-        too_few=tuple(each for each in dict.fromkeys(too_few) if each not in compared),
+        too_few=tuple(each for each in dict.fromkeys(kind for kind, _ in within) if each not in named),
     )
 
 
@@ -153,55 +157,41 @@ def _kind(record: TrialRecord, carried: Collection[str]) -> _Kind | None:
 
 
 class _Table:
-    """Trials by seed: number of trials, number of failures, and the values of each column."""
+    """Trials by design and seed: which were run, their kind of failure, and the values of each column."""
 
     def __init__(self, records: Sequence[TrialRecord], carried: Collection[str]) -> None:
-        self._carried = carried
-        self._records = records
-        self.seeds = sorted({record.seed for record in records if record.draws or record.workload})
-        self._row = {seed: index for index, seed in enumerate(self.seeds)}
-        self._trials = self._counted(lambda _: True)
+        drawn = [record for record in records if record.draws or record.workload]
+        self.seeds = sorted({record.seed for record in drawn})
+        places = {seed: place for place, seed in enumerate(self.seeds)}
+        rows = {variant: row for row, variant in enumerate(sorted({record.variant for record in drawn}))}
+        self._ran = np.zeros((len(rows), len(places)), dtype=np.bool_)
+        self._failed: dict[_Kind, Mask] = {}
+        for record in drawn:
+            at = rows[record.variant], places[record.seed]
+            self._ran[at] = True
+            kind = _kind(record, carried)
+            if kind is not None:
+                self._failed.setdefault(kind, np.zeros_like(self._ran))[at] = True
         self.columns = _columns({record.seed: record for record in records}, self.seeds)
 
-    def failures(self, kind: _Kind) -> Array:
-        """Number of trials of each seed with this failure."""
-        return self._counted(lambda record: _kind(record, self._carried) == kind)
+    def failures(self, kind: _Kind) -> Mask:
+        """Mask of the trials with this failure, shape (designs, seeds)."""
+        return self._failed.get(kind, np.zeros_like(self._ran))
 
-    def compared(self, failed: Array) -> Iterator[tuple[str, Aspect, float, float]]:
-        """Each column's name, aspect, AUC and p."""
-        from scipy.stats import permutation_test, rankdata
+    def within_designs(self, kind: _Kind) -> WithinDesigns:
+        """The trials of designs that have some with this failure and some without."""
+        return WithinDesigns.of(self.failures(kind), self._ran)
 
-        ranks = rankdata(np.array(list(self.columns.values())), axis=1)
-        centred = ranks - ranks.mean(axis=1, keepdims=True)
+    def p_values(self, compared: Sequence[WithinDesigns]) -> Array:
+        """The p of each column in each comparison, shape (comparisons, columns)."""
+        from scipy.stats import rankdata
 
-        def weighted_rank_sums(shares: Array, axis: int) -> Array:
-            sums: Array = (shares * centred).sum(axis=axis)
-            return sums
-
-        tested = permutation_test(
-            (np.broadcast_to(failed / self._trials, centred.shape),),
-            weighted_rank_sums,
-            permutation_type="pairings",
-            vectorized=True,
-            axis=-1,
-            batch=_BATCH,
-            n_resamples=_PERMUTATIONS,
-            rng=np.random.Generator(np.random.Philox(key=1)),
-        )
-        for (name, aspect), values, p in zip(self.columns, self.columns.values(), tested.pvalue, strict=True):
-            yield name, aspect, self._auc(failed, values), float(p)
-
-    def _auc(self, failed: Array, values: Array) -> float:
-        others = self._trials - failed
-        wins = np.sign(values[:, None] - values[None, :]) / 2 + 0.5
-        return float(failed @ wins @ others / (failed.sum() * others.sum()))
-
-    def _counted(self, holds: Callable[[TrialRecord], bool]) -> Array:
-        counts = np.zeros(len(self.seeds))
-        for record in self._records:
-            if record.seed in self._row and holds(record):
-                counts[self._row[record.seed]] += 1
-        return counts
+        if not compared:
+            return np.zeros((0, len(self.columns)))
+        contrasts = np.array([one.contrast for one in compared])
+        same_designs = np.unique(self._ran, axis=1, return_inverse=True)[1].ravel()
+        scores = rankdata(np.array(list(self.columns.values())), axis=1)
+        return permutation_p_values(contrasts, scores, same_designs.tolist())
 
 
 def _columns(by_seed: Mapping[int, TrialRecord], seeds: Sequence[int]) -> dict[tuple[str, Aspect], Array]:

@@ -22,7 +22,10 @@ def driver_lines(found: DriversOfFailures) -> Iterator[str]:
     if not found.seeds:
         yield "Nothing was drawn for these trials: neither the scene nor the study has 'uncertainty' or 'workload'."
         return
-    yield f"Drivers of failures: {counted(found.trials, 'trial')}, {counted(found.seeds, 'seed')}"
+    yield (
+        f"Drivers of failures: {counted(found.trials, 'trial')}, {counted(found.seeds, 'seed')}; a failed trial is "
+        "compared with the others of its design"
+    )
     yield ""
     for one in found.failures:
         yield driver_sentence(one)
@@ -81,6 +84,7 @@ def drivers_to_json(found: DriversOfFailures) -> dict[str, Any]:
                 "stage": one.stage,
                 "trials": one.trials,
                 "seeds": one.seeds,
+                "designs": one.designs,
                 "sentence": driver_sentence(one),
                 "drivers": [
                     {
