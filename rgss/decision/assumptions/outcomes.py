@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rgss.assessment import VariantMeasures
+from rgss.decision.assumptions.fidelities import AdmittedDesigns, MotionFailures, admitted_designs, motion_failures
 from rgss.decision.assumptions.names import AS_STATED, value_in_words
-from rgss.decision.assumptions.questions import Question, questions_of
+from rgss.decision.assumptions.questions import FIDELITY, Question, questions_of
 from rgss.decision.choosing import choose
 from rgss.decision.separation import is_separated
 from rgss.decision.what_if import Scenario, ScenarioEvidenceReader, suppose
@@ -38,6 +39,8 @@ class AssumptionOutcome:
             study.
         otherwise_of_choice: Number of these that are trials of the study's choice.
         excluded_by: Requirements by which the study's evidence excludes the other choice.
+        in_motion: For another fidelity, the trials of the study that fail in motion.
+        admitted: For another fidelity, the designs that only its trials admit.
         reason: Reason for a missing answer; empty if there is one, or if trials are missing.
     """
 
@@ -54,6 +57,8 @@ class AssumptionOutcome:
     otherwise: tuple[int, int] = (0, 0)
     otherwise_of_choice: int = 0
     excluded_by: tuple[str, ...] = ()
+    in_motion: MotionFailures | None = None
+    admitted: AdmittedDesigns | None = None
     reason: str = ""
 
     @property
@@ -108,6 +113,9 @@ def _outcome(
     reader: ScenarioEvidenceReader,
     question: Question,
 ) -> AssumptionOutcome:
+    is_fidelity = question.about == FIDELITY
+    in_motion = motion_failures(measured, decision.chosen) if is_fidelity else None
+    admitted = None
     try:
         scenario = suppose(project, [question.supposition])
         found = reader.read(scenario)
@@ -118,6 +126,7 @@ def _outcome(
                 trials=found.trials,
                 missing=len(found.missing),
                 read_off=found.read_off,
+                in_motion=in_motion,
             )
         other = choose(scenario.project, found.measured)
         former, chosen = decision.chosen, other.chosen
@@ -128,6 +137,8 @@ def _outcome(
             and not is_among
             and not is_separated(scenario.project, found.measured, chosen, former)
         )
+        if is_fidelity:
+            admitted = admitted_designs(project, measured, scenario.project, found.measured, former)
     except RgssError as error:
         return AssumptionOutcome(question=question, reason=error.message)
     before, after = _successes(measured), _successes(found.measured)
@@ -144,6 +155,8 @@ def _outcome(
         otherwise=(len(after - before), len(before - after)),
         otherwise_of_choice=sum(variant == decision.chosen for variant, _ in before ^ after),
         excluded_by=next((one.requirements for one in decision.infeasible if one.variant == other.chosen), ()),
+        in_motion=in_motion,
+        admitted=admitted,
     )
 
 

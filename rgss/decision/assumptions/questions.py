@@ -12,7 +12,9 @@ from rgss.studies import Project
 
 _CHARGE = "planning.charge_per_check"
 _LIMIT = "planning.time_limit"
-_FIDELITY = "fidelity"
+FIDELITY = "fidelity"
+"""Name of the fidelity among the assumptions."""
+
 _NOMINAL = "uncertainty.nominal"
 _CHARGE_FACTORS = (0.5, 2.0)
 
@@ -76,6 +78,6 @@ def _derived(project: Project) -> Iterator[Question]:
     if project.uncertainty.values or project.workload.cases:
         yield Question(about=_NOMINAL, alternative="true")
     if study.fidelity is not Fidelity.KINEMATIC:
-        yield Question(about=_FIDELITY, alternative=Fidelity.KINEMATIC.value)
+        yield Question(about=FIDELITY, alternative=Fidelity.KINEMATIC.value)
     if any(number.name == COST and number.value > 0.0 for number in assumed_numbers(project)):
         yield Question(about=PRICES, alternative="0")

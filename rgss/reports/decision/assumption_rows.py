@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from rgss.counted import counted
 from rgss.decision.assumptions import AssumptionOutcome
 from rgss.decision.study_decision import StudyDecision
 from rgss.reports.decision.words import UNKNOWN, ids_text
@@ -84,7 +85,12 @@ def _fidelity_sentences(made: StudyDecision) -> Iterator[str]:
             continue
         here, other = one.taken_as, one.question.alternative
         if one.missing:
-            yield f"Whether {other} trials decide as {here} trials do is not known: they were not run."
+            yield (
+                f"Whether {other} trials decide as {here} trials do is not known: {counted(one.missing, 'trial')} "
+                f"{'was' if one.missing == 1 else 'were'} not run; 'rgss trade' with --what-if "
+                f'"{one.question.supposition}" --run runs them.'
+            )
+            yield from _motion_sentence(one, made.decision.chosen)
             continue
         gained, lost = one.otherwise
         ends = (
@@ -102,8 +108,43 @@ def _fidelity_sentences(made: StudyDecision) -> Iterator[str]:
                 f"{one.feasible} designs meet every requirement in {other} trials, {made.decision.counts.feasible} in "
                 f"{here} trials."
             )
+            yield from _motion_sentence(one, made.decision.chosen)
+            yield from _admitted_sentence(one, made.decision.chosen)
         else:
             yield f"{other.capitalize()} trials decide as {here} trials do, because all {one.trials} trials end alike."
+
+
+def _motion_sentence(one: AssumptionOutcome, chosen: int | None) -> Iterator[str]:
+    """The failures that the other fidelity cannot share, for it shares those of planning and timing."""
+    found, here = one.in_motion, one.taken_as
+    if found is None:
+        return
+    shared = f"planning and timing, and the failures there, are the same in {one.question.alternative} trials"
+    if not found.count:
+        yield f"None of the {found.trials} {here} trials fails in motion; {shared}."
+        return
+    kinds = ", ".join(f"{kind.value.replace('_', ' ')} {count}" for kind, count in found.by_kind.items())
+    own = "" if chosen is None else f", {found.of_choice or 'none'} of them of variant {chosen}"
+    yield (
+        f"Of the {found.trials} {here} trials {found.count} {'fails' if found.count == 1 else 'fail'} in motion "
+        f"({kinds}){own}; {shared}."
+    )
+
+
+def _admitted_sentence(one: AssumptionOutcome, chosen: int | None) -> Iterator[str]:
+    """The reason why designs that only the other fidelity admits do not win."""
+    found, other = one.admitted, one.question.alternative
+    if found is None or found.gain >= 0.0 or found.measure is None:
+        return
+    which = (
+        f"The one design that only {other} trials admit, variant {found.best},"
+        if found.count == 1
+        else f"The best of the {found.count} designs that only {other} trials admit, variant {found.best},"
+    )
+    yield (
+        f"{which} is worth {-found.gain:.4f} less than variant {chosen} there: it loses {found.loss:.4f} by "
+        f"{found.measure}."
+    )
 
 
 def _choice(one: AssumptionOutcome) -> str:

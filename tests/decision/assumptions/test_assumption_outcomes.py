@@ -13,8 +13,9 @@ from rgss.decision.choosing import choose
 from rgss.decision.study_decision import decide_study
 from rgss.decision.what_if import model_settings, suppose
 from rgss.errors import DefinitionError
-from rgss.evidence import Fidelity, Provenance
+from rgss.evidence import Failure, Fidelity, Provenance
 from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
+from rgss.reports.decision.assumption_rows import assumption_sentences
 from rgss.reports.decision.words import ids_text
 from rgss.studies import load_project, trial_specs
 from rgss.studies.assumptions_section import StudyAssumption
@@ -290,3 +291,48 @@ def test_a_design_that_is_ahead_by_less_than_the_margin_is_no_change(evidence, f
     assert f"no, variant {rival} is not separated from it" in "\n".join(decision_lines(made))
     entry = trade_document(made)["modelling_assumptions"][0]
     assert (entry["changes_choice"], entry["unseparated"]) == (False, True)
+
+
+def test_the_page_says_why_kinematic_trials_decide_alike_or_how_to_find_out(evidence, filled, record_of):
+    """Half of the designs drop the object, among them none that is worth as much as the choice."""
+    project, store, measured, record = evidence
+    chosen = choose(project, measured).chosen
+    worths = {one.variant: one.value for one in choose(project, measured).ranking}
+    dropping = sorted(sorted(worths, key=lambda each: worths[each])[:20])
+
+    def dropped(spec):
+        failed = replace(record_of(spec, success=False), failure=Failure.OBJECT_DROPPED)
+        return failed if spec.variant in dropping else record(spec)
+
+    store = filled(project, dropped)
+    measured = measure_variants(project, store)
+    project = asked(project, ("fidelity", ("kinematic",)))
+
+    def made():
+        outcomes = assumption_outcomes(project, measured, store)
+        return decide_study(project, measured, evidence="e", analysed=False, assumptions=outcomes)
+
+    unknown = " ".join(assumption_sentences(made()))
+    assert (
+        "Whether kinematic trials decide as dynamic trials do is not known: 72 trials were not run; 'rgss trade' with "
+        '--what-if "fidelity=kinematic" --run runs them.'
+    ) in unknown
+    counted = f"Of the 72 dynamic trials 20 fail in motion (object dropped 20), none of them of variant {chosen};"
+    assert counted in unknown
+
+    put(project.with_fidelity("kinematic"), store, record)
+    known = made()
+    text = " ".join(assumption_sentences(known))
+    best = max(dropping, key=lambda each: worths[each])
+    gain = worths[best] - worths[chosen]
+    assert counted in text
+    assert (
+        f"The best of the 20 designs that only kinematic trials admit, variant {best}, is worth {-gain:.4f} less"
+        in text
+    )
+    entry = trade_document(known)["modelling_assumptions"][0]
+    assert entry["failed_in_motion"] == {"object_dropped": 20}
+    assert (entry["admitted"]["designs"], entry["admitted"]["best"]) == (20, best)
+    assert entry["admitted"]["gain"] == pytest.approx(gain)
+    assert text in decision_section(known)
+    assert decision_part(known)["modelling"]["sentences"] == list(assumption_sentences(known))

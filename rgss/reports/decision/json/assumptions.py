@@ -29,5 +29,18 @@ def modelling_assumption_to_json(one: AssumptionOutcome) -> dict[str, Any]:
         "trials_gained": one.otherwise[0],
         "trials_lost": one.otherwise[1],
         "of_the_choice": one.otherwise_of_choice,
+        "failed_in_motion": None
+        if one.in_motion is None
+        else {kind.value: count for kind, count in one.in_motion.by_kind.items()},
+        "failed_in_motion_of_the_choice": None if one.in_motion is None else one.in_motion.of_choice,
+        "admitted": None
+        if one.admitted is None
+        else {
+            "designs": one.admitted.count,
+            "best": one.admitted.best,
+            "gain": one.admitted.gain,
+            "measure": one.admitted.measure,
+            "loss": one.admitted.loss,
+        },
         "reason": one.reason,
     }
