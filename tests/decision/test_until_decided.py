@@ -2,11 +2,13 @@ from __future__ import annotations
 
 import dataclasses
 import random
+from types import SimpleNamespace
 
 import pytest
 
 from rgss.assessment import measure_variants
 from rgss.decision import until_decided
+from rgss.decision.robustness import robustness
 from rgss.decision.until_decided import replicate_until_decided, trial_twins
 from rgss.designs import sources
 from rgss.errors import EvidenceError, TradeoffError
@@ -16,6 +18,7 @@ from rgss.studies.expansion import trial_specs
 from rgss.sweep.trial_keys import key_of
 from rgss.tradeoff.sequential import Reason, SequentialRule
 
+NONE = Provenance(inputs={}, versions={})
 RULE = SequentialRule(pilot=4, batch=4, cap=12, verdict_cap=4)
 
 
@@ -72,6 +75,48 @@ def test_replicates_go_where_they_can_change_the_decision(shipped, store, runner
     text = until_decided_summary(result)
     assert text.startswith(f"variant {result.variant}: cap reached with {len(result.contenders)} contenders")
     assert f"{result.total} trials in {result.looks} looks" in text
+
+
+def replace_levels(factor, count):
+    return dataclasses.replace(factor, levels=factor.levels[:count])
+
+
+def test_the_sweep_and_the_decision_state_the_same_probability(shipped, store, record_of, monkeypatch):
+    """More resamples of nine replicates exist than are enumerated."""
+    # Two levels of three factors, so that the test is quick.
+    factors = [replace_levels(factor, 2 if place < 3 else 1) for place, factor in enumerate(shipped.designs.factors)]
+
+    def run(specs):
+        chance = random.Random(f"{specs[0].seed}")  # noqa: S311 - a sample, no secret
+        rows = [
+            (
+                key_of(spec),
+                record_of(spec, success=chance.random() < 0.9, planning_s=chance.lognormvariate(0.0, 1.0)),
+                NONE,
+            )
+            for spec in specs
+        ]
+        store.put_many(trials=rows)
+
+    margin = 0.002
+    rule = SequentialRule(pilot=9, cap=9, verdict_cap=9, margin=margin)
+    trade_off = dataclasses.replace(shipped.study.trade_off, practical_margin=margin)
+    study = dataclasses.replace(
+        shipped.study, replicates=9, is_sequential=True, until_decided=rule, trade_off=trade_off
+    )
+    designs = dataclasses.replace(shipped.designs, factors=tuple(factors))
+    project = dataclasses.replace(shipped, study=study, designs=designs)
+    result = replicate_until_decided(project, store, run)
+    for part in ("assumption_findings", "cost_box", "study_effects", "requirement_prices", "smaa2"):
+        monkeypatch.setattr(robustness, part, lambda *_, **__: None)
+    measured = measure_variants(project, store)
+    found = robustness.analyse_robustness(project, measured, SimpleNamespace(chosen=result.variant))
+    uncertainty = found.weighting.uncertainty
+
+    assert found.variants[uncertainty.chosen] == result.variant
+    assert not found.all_resamples
+    assert uncertainty.good == result.probability
+    assert 0.05 < result.probability < 0.95
 
 
 def test_a_sweep_that_is_interrupted_goes_on_to_the_same_end(shipped, tmp_path, runner, store, record_of):

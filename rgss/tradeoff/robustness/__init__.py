@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.robustness.outcomes import admitted_weights, common_replicates, condition_masks, noisy_outcomes
     from rgss.tradeoff.robustness.overlap import Overlap, SharedPart, overlapping_measures, shared_parts
     from rgss.tradeoff.robustness.pareto import ParetoFront, Support, pareto_front
-    from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
+    from rgss.tradeoff.robustness.posterior_outcomes import DRAWS, PosteriorOutcomes, good_selection
     from rgss.tradeoff.robustness.prices import PriceStep, changes_of_best, price_list, step_at
     from rgss.tradeoff.robustness.rank_reversal import RankReversal, rank_reversals, sample_anchored
     from rgss.tradeoff.robustness.sampled_effects import FEWEST_PER_CLASS, SampledIndex, classes_of, first_order_indices

@@ -163,6 +163,21 @@ class PosteriorOutcomes:
         return found
 
 
+def good_selection(totals: Array, feasible: NDArray[np.bool_], row: int | None, margin: float) -> float:
+    """Share of the draws in which a choice is feasible and no feasible alternative is better by more than a margin.
+
+    Args:
+        totals: Weighted value of each alternative in each draw, shape (b, n); NaN where a measure is unknown.
+        feasible: Mask of the alternatives that can be chosen in each draw, shape (b, n).
+        row: Row of the choice; None for the claim that nothing is feasible.
+        margin: The practically irrelevant difference of value.
+    """
+    if row is None:
+        return float((~feasible.any(axis=1)).mean())
+    worth = np.where(feasible, np.nan_to_num(totals), -np.inf)
+    return float((feasible[:, row] & (worth[:, row] >= worth.max(axis=1) - margin - TIE_TOLERANCE)).mean())
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _MovingDraws:
     """Draws of a measure, shifted by the estimates of a repeated study.

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.tradeoff.problem import TIE_TOLERANCE, Array, EvidenceTable, Threshold
-from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
+from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes, good_selection
 
 TIE_PROBABILITY = 0.05
 """An alternative that is as good as the choice with at least this probability, one of them being feasible, is tied."""
@@ -112,14 +112,13 @@ def choice_uncertainty(
     totals = np.where(feasible, np.nan_to_num(found.totals), -np.inf)
     highest = totals.max(axis=1, keepdims=True)
     best = feasible & (totals >= highest - TIE_TOLERANCE)
-    own = feasible[:, chosen]
     # What cannot be chosen is worth nothing.
     worth = np.where(feasible, totals, 0.0)
     return ChoiceUncertainty(
         chosen=chosen,
         best=best.mean(axis=0),
         feasible=feasible.mean(axis=0),
-        good=float((own & (totals[:, chosen] >= highest[:, 0] - margin - TIE_TOLERANCE)).mean()),
+        good=good_selection(found.totals, feasible, chosen, margin),
         as_required=float(found.as_required(chosen).mean()),
         none_feasible=float((~feasible.any(axis=1)).mean()),
         rivals=_rivals(found, chosen, margin, replicates, estimated, single),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,8 @@ class SequentialEvidence:
     """Evidence on n alternatives.
 
     Attributes:
+        problem: The trade-off.
+        proportions: The measures that are shares of trials.
         table: The alternatives, by ascending id.
         replicates: Number of replicates of each, shape (n,).
         thresholds: Thresholds of the requirements.
@@ -49,6 +51,8 @@ class SequentialEvidence:
         levels: The level of each alternative in each factor of its design, shape (n, f); None without levels.
     """
 
+    problem: TradeProblem
+    proportions: frozenset[str]
     table: EvidenceTable
     replicates: NDArray[np.int64]
     thresholds: tuple[Threshold, ...]
@@ -117,6 +121,8 @@ class SequentialEvidence:
         fixed = [one for one in problem.thresholds if one.measure not in table.samples]
         admitted = [one if one in fixed else one.tolerated(tolerance) for one in problem.thresholds]
         return SequentialEvidence(
+            problem=problem,
+            proportions=frozenset(proportions),
             table=table,
             replicates=_replicates(table),
             thresholds=problem.thresholds,
@@ -131,6 +137,14 @@ class SequentialEvidence:
             tolerance=tolerance,
             last_of_equals=last_of_equals,
         )
+
+    @property
+    def tolerant_problem(self) -> TradeProblem:
+        """The trade-off with the tolerance granted to the thresholds on measures that are observed in trials."""
+        granted = (
+            one.tolerated(self.tolerance) if one.measure in self.table.samples else one for one in self.thresholds
+        )
+        return replace(self.problem, thresholds=tuple(granted))
 
     def is_settled_by_design(self, row: int, rival: int, margin: float) -> bool:
         """True if no replicate can show that an alternative is worth more than a rival by a margin.

@@ -139,7 +139,8 @@ def test_what_is_tied_with_the_choice_in_every_draw_loses_nothing(evidence_of):
     row = [1.0] * 12
     evidence = evidence_of({1: row, 2: row, 3: [1.0, 0.0] * 6}, {1: 0.5, 2: 0.5, 3: 0.9})
     loss = probabilities_of_loss(evidence, 1, margin=0.05, seed=1)
-    values, feasible = _posterior(evidence, draws=2_000, seed=1)
+    found = _posterior(evidence, draws=2_000, seed=1)
+    values, feasible = found.totals, found.outcomes.feasible
     worth = np.where(feasible, values, -np.inf)
     expected = [
         float(
