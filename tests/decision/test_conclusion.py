@@ -16,6 +16,8 @@ from rgss.reports.decision.conclusion import headline, rule_sentence, standing_s
 from rgss.trace.evidence import FailedVerifications
 from rgss.tradeoff.robustness import Rival
 
+NOT_RUN = "1 not run by trials, as no measure decides it (SYS-1)"
+
 
 @pytest.fixture(scope="module")
 def measured(shipped, filled, record_of):
@@ -147,9 +149,7 @@ def test_the_headline_of_a_choice_that_is_shown_to_miss(made):
         f"Variant {chosen} is chosen by its estimates, but shown to miss a requirement: 0 of 2 are shown to meet every "
         "requirement that a measure decides; 1 is open (by B), 1 infeasible."
     )
-    assert standing_sentence(other) == (
-        f"Requirements of variant {chosen}: 0 met; 0 open; 1 missed (A); 1 decided by no measure."
-    )
+    assert standing_sentence(other) == (f"Requirements of variant {chosen}: 0 met; 0 open; 1 missed (A); {NOT_RUN}.")
 
 
 def test_a_requirement_without_valid_evidence_is_open_in_every_sentence(made):
@@ -158,9 +158,25 @@ def test_a_requirement_without_valid_evidence_is_open_in_every_sentence(made):
     other = concluded(made, verdicts)
     assert "1 is open (by A, B), 0 infeasible" in headline(other)
     assert standing_sentence(other) == (
-        f"Requirements of variant {chosen}: 1 met; 2 open (B, A without valid evidence); 0 missed; "
-        "1 decided by no measure."
+        f"Requirements of variant {chosen}: 1 met (C); 2 open (B, A without valid evidence); 0 missed; {NOT_RUN}."
     )
+
+
+def test_the_requirements_of_each_verdict_are_named_the_same_on_every_page(made):
+    chosen = made.decision.chosen
+    names = tuple(f"R-{number}" for number in range(1, 12))
+    verdicts = standing(chosen, met=names[:8], open=("B",), missed=("SYS-2",), undecided=("B",))
+    found = concluded(made, verdicts).conclusion
+    other = dataclasses.replace(made, conclusion=dataclasses.replace(found, unmeasured=("SYS-2", *names)))
+    sentence = (
+        f"Requirements of variant {chosen}: 8 met (R-1, R-2, R-3, R-4, R-5, R-6, R-7, R-8); 1 open (B); 1 missed "
+        "(SYS-2); 11 not run by trials, as no measure decides them (R-1, R-2, R-3, R-4, R-5, R-6, R-7, R-8 and 3 more)."
+    )
+    assert standing_sentence(other) == sentence
+    assert sentence in list(decision_lines(other))
+    assert f"- {sentence}\n" in decision_section(other)
+    assert trade_document(other)["conclusion"]["requirements"] == sentence
+    assert decision_part(other)["standing"][0] == sentence
 
 
 def test_without_a_choice_there_is_no_standing(made):

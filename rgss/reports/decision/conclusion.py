@@ -14,6 +14,9 @@ from rgss.tradeoff.robustness import FEWEST_AT_THRESHOLD, TIE_PROBABILITY, Choic
 MOST_TIES = 4
 """Most groups of tied variants that are named."""
 
+MOST_NAMED = 8
+"""Most requirements of one verdict that are named."""
+
 
 def headline(made: StudyDecision) -> str:
     """Sentences on the choice, and on which designs are shown to meet every requirement.
@@ -74,9 +77,10 @@ def rule_sentence(made: StudyDecision) -> str:
 
 
 def standing_sentence(made: StudyDecision) -> str:
-    """The verdicts on the choice, counted, with the ids of those that are open and missed; empty without a choice.
+    """The requirements that the choice meets, leaves open, misses and that are not run; empty without a choice.
 
-    Open is what the headline counts as open: inconclusive, or without valid evidence.
+    Open is what the headline counts as open: inconclusive, or without valid evidence. Not run by trials are those that
+    no measure decides, unless a test or a record shows that they are missed.
 
     Args:
         made: The decision.
@@ -85,14 +89,27 @@ def standing_sentence(made: StudyDecision) -> str:
     if chosen is None:
         return ""
     open_ = [one + _without(one, chosen) for one in chosen.undecided]
-    parts = [f"{len(chosen.met)} met"]
-    for named, word in ((open_, "open"), (chosen.missed, "missed")):
-        parts.append(f"{len(named)} {word}" + (f" ({', '.join(named)})" if named else ""))
-    return (
-        f"Requirements of variant {chosen.variant}: {'; '.join(parts)}; "
-        f"{len(made.conclusion.unmeasured)} decided by no measure."
-        + (" 'rgss measure' says why a verdict is stale." if chosen.stale else "")
+    not_run = [one for one in made.conclusion.unmeasured if one not in chosen.missed]
+    why = f", as no measure decides {'it' if len(not_run) == 1 else 'them'}"
+    parts = [
+        f"{len(named)} {word}" + (f" ({_first_of(named)})" if named else "")
+        for named, word in (
+            (chosen.met, "met"),
+            (open_, "open"),
+            (chosen.missed, "missed"),
+            (not_run, f"not run by trials{why if not_run else ''}"),
+        )
+    ]
+    return f"Requirements of variant {chosen.variant}: {'; '.join(parts)}." + (
+        " 'rgss measure' says why a verdict is stale." if chosen.stale else ""
     )
+
+
+def _first_of(named: Sequence[str]) -> str:
+    """The first of some names, and the number of the others."""
+    if len(named) <= MOST_NAMED:
+        return ", ".join(named)
+    return f"{', '.join(named[:MOST_NAMED])} and {len(named) - MOST_NAMED} more"
 
 
 def _without(requirement: str, chosen: DesignStanding) -> str:
