@@ -129,7 +129,8 @@ def main() -> None:
     from rgss.trace.model.model import build_trace_model
 
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".").resolve()
-    command = [sys.executable, "-m", "rgss.cli.main", "report", "--no-film", "--json", "--project", str(folder)]
+    command = [sys.executable, "-m", "rgss.cli.main", "report", "--no-film", "--no-planners", "--json"]
+    command += ["--project", str(folder)]
     with tempfile.TemporaryDirectory() as place:
         small = Path(place) / "small.html"
         words = [*command, "--out", str(small), *sys.argv[2:]]

@@ -24,6 +24,7 @@ HELP = "write the decision with its evidence as one HTML page"
 EXAMPLE = "rgss report --out report.html"
 MORE_EXAMPLES = (
     ("rgss report --no-film", "without films, for which a few trials are run again"),
+    ("rgss report --no-film --no-planners", "from the evidence alone, in seconds"),
     ("rgss report --board --pdf", "the choice on at most five printed pages, as board.html and board.pdf"),
     ("rgss report --film-size 640x480 --film-rate 12", "with larger and smoother films"),
 )
@@ -43,10 +44,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--board", action="store_true", help="the choice alone, on at most five printed pages")
     parser.add_argument("--pdf", action="store_true", help="with --board: a PDF beside the page, printed by Chromium")
+    parser.add_argument("--no-film", action="store_true", help="run no trial again: omit films")
     parser.add_argument(
-        "--no-film",
+        "--no-planners",
         action="store_true",
-        help="run nothing: omit films and the comparison with reference planners",
+        help="search nothing again: omit the comparison with reference planners on the same moves",
     )
     parser.add_argument(
         "--film-size",
@@ -105,8 +107,7 @@ def run(options: argparse.Namespace) -> int:
             assumptions=assumption_outcomes(project, measured, store),
             failed=state.failed,
         )
-        planners = None if options.no_film else _planners(project)
-        document = report_document(project, measured, made, store, planners=planners)
+        document = report_document(project, measured, made, store, planners=_planners(options, project))
     notable = notable_trials(measured, made.decision.chosen)
     look = None if options.no_film else ordered_look(options.film_size, options.film_rate, films=len(notable))
     pictures, notice = trial_pictures(project, notable, look=look)
@@ -199,12 +200,15 @@ def _trace(
     )
 
 
-def _planners(project: Project) -> dict[str, Any] | None:
-    """Planners of the designs and the study's references on the same moves; None if there is nothing to compare."""
+def _planners(options: argparse.Namespace, project: Project) -> dict[str, Any] | None:
+    """Planners of the designs and the study's references on the same moves; None if they are not compared."""
     from rgss.engines import missing_engines
     from rgss.reports.study import planner_comparison
     from rgss.sweep import compared_planners, has_searches, limits_of
 
+    # The board edition has no room for the comparison.
+    if options.no_planners or options.board:
+        return None
     study = project.study
     if missing_engines() or not study.planning.references or not has_searches(project):
         return None

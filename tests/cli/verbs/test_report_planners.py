@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from argparse import Namespace
 
 import pytest
 
+from rgss.cli.verbs.report import _planners
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.studies import load_project, trial_specs
 from rgss.sweep import key_of
@@ -33,11 +35,6 @@ def quick(tmp_path_factory):
     return folder
 
 
-@pytest.fixture
-def without_pictures(monkeypatch):
-    monkeypatch.setattr("rgss.cli.pictures.trial_pictures", lambda *_, **__: ((), "no pictures"))
-
-
 def cells(page):
     table = re.search(r'<table id="planners-table">.*?</table>', page, flags=re.DOTALL)[0]
     rows = re.findall(r"<tr>(.*?)</tr>", table, flags=re.DOTALL)
@@ -45,9 +42,9 @@ def cells(page):
 
 
 @pytest.mark.engine
-def test_the_report_has_the_references_beside_the_designs_planners(quick, without_pictures, rgss, tmp_path):
+def test_the_report_has_the_references_beside_the_designs_planners_without_films_too(quick, rgss, tmp_path):
     page = tmp_path / "report.html"
-    told = rgss("report", "--out", page, "--json", "--project", quick)
+    told = rgss("report", "--no-film", "--out", page, "--json", "--project", quick)
     compared = told.document["report"]["planner_comparison"]
     alone = rgss("planners", "--seeds", 2, "--json", "--project", quick).document
 
@@ -62,10 +59,14 @@ def test_the_report_has_the_references_beside_the_designs_planners(quick, withou
         assert shares == [f"{100 * share:.0f} %" for share in one["solved"]]
 
 
-@pytest.mark.engine
-def test_without_films_nothing_is_searched_and_the_page_says_how(quick, rgss, tmp_path):
+def test_the_board_edition_which_does_not_show_it_searches_for_no_comparison():
+    assert _planners(Namespace(no_planners=False, board=True), None) is None
+
+
+def test_without_the_comparison_nothing_is_searched_and_the_page_says_how_to_get_it(quick, rgss, tmp_path, monkeypatch):
+    monkeypatch.setattr("rgss.sweep.compared_planners", None)
     page = tmp_path / "report.html"
-    told = rgss("report", "--no-film", "--out", page, "--json", "--project", quick)
+    told = rgss("report", "--no-film", "--no-planners", "--out", page, "--json", "--project", quick)
 
     assert told.document["report"]["planner_comparison"] is None
     text = page.read_text(encoding="utf-8")
