@@ -23,6 +23,7 @@ from rgss.decision.sensitivity import Sensitivity, analyse_sensitivity
 from rgss.decision.separation import is_separated
 from rgss.decision.study_decision.comparison import SideBySide, side_by_side
 from rgss.decision.study_decision.conclusion import Conclusion, conclusion_of
+from rgss.decision.study_decision.equations import EquationVerification, equation_verifications
 from rgss.decision.study_decision.findings import RobustnessFindings, robustness_findings
 from rgss.decision.study_decision.readings import ReadingOutcome, reading_outcomes, readings_among
 from rgss.decision.study_decision.reasons import ClosestLimit, Gain, closest_limits, gains_over_runner_up
@@ -69,6 +70,7 @@ class StudyDecision:
         assumptions: The choice under each alternative of each assumption; empty if not requested.
         drivers: Drivers of failures; None if not analysed.
         cases: The success of each case of the workload; empty without a workload.
+        equations: Requirements that an equation verifies although its measure has a simulation.
         seeds: The seeds that were read, if variants may have different numbers; empty otherwise.
     """
 
@@ -92,6 +94,7 @@ class StudyDecision:
     elicited: tuple[ElicitedWeights, ...] = ()
     elicited_by: Mapping[str, ElicitedWeights] = field(default_factory=dict)
     gaps: tuple[ModelGap, ...] = ()
+    equations: tuple[EquationVerification, ...] = ()
     readings: tuple[ReadingOutcome, ...] = ()
     assumptions: tuple[AssumptionOutcome, ...] = ()
     drivers: DriversOfFailures | None = None
@@ -251,6 +254,7 @@ def study_decision(
         screened=screened,
         what_if=what_if,
         gaps=_gaps(project, measured, decision),
+        equations=equation_verifications(project, measured),
         readings=readings,
         assumptions=assumptions,
         drivers=None if found is None else _drivers(project, measured),

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from rgss.decision.study_decision import StudyDecision
+from rgss.counted import counted
+from rgss.decision.study_decision import EquationVerification, StudyDecision
 from rgss.measures import ModelGap
 from rgss.reports.decision.conclusion import share_text
 from rgss.reports.decision.flat_sentences import flat_sentences
@@ -112,6 +113,20 @@ def cautions(made: StudyDecision) -> Iterator[str]:
             yield f"{flat.measure} is worth the same for all {among}, so its weight of {flat.weight:g} has no effect."
     for gap in made.gaps:
         yield f"{gap_sentence(gap)}."
+    yield from (_equation_sentence(one) for one in made.equations)
+
+
+def _equation_sentence(one: EquationVerification) -> str:
+    """Reason why an equation verifies a requirement, and whether its simulation decides otherwise."""
+    why = ": it needs no trial, and so has a value at every fidelity" if one.is_of_design else ""
+    text = f"{one.requirement} is verified by the equation of {one.measure}, not by its simulation{why}"
+    if not one.compared:
+        return f"{text}. These trials have no value of {one.simulated_as}."
+    both = f"{one.simulated_as} differs by at most {share_in_words(one.greatest)} for {counted(one.compared, 'design')}"
+    if not one.otherwise:
+        return f"{text}. {both}, and all of them are on the same side of the threshold by both."
+    are = "is" if len(one.otherwise) == 1 else "are"
+    return f"{text}. {both}; {variants_text(one.otherwise)} {are} on the other side of the threshold by it."
 
 
 def unvalued_sentences(conflicts: Conflicts | None) -> Iterator[str]:

@@ -43,6 +43,17 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
         }
         for gap in made.gaps
     ]
+    document["verified_by_equation"] = [
+        {
+            "requirement": one.requirement,
+            "measure": one.measure,
+            "simulated_as": one.simulated_as,
+            "compared": one.compared,
+            "otherwise": list(one.otherwise),
+            "greatest_difference": one.greatest,
+        }
+        for one in made.equations
+    ]
     document["readings"] = [
         {
             "measure": one.reading.measure,
