@@ -94,7 +94,7 @@ class AnalyticInverse:
             One entry a branch, the least excess first, without the branches within all ranges; empty when the pose is
             out of reach.
         """
-        return excesses_of(self._branches(tool_pose_world), self.arm.robot.joints)
+        return excesses_of(self._branches(tool_pose_world), self.arm.robot)
 
     def _choices(self, pose: Pose) -> list[list[list[float]]]:
         """Angles within the planning range for each branch and joint; empty if the joint has none."""
@@ -125,7 +125,11 @@ def _decomposition(arm: Arm) -> Any:
     """Solver for an arm's geometry; None if no decomposition is known."""
     from eaik.IK_HP import HPRobot
 
-    if len(arm.robot.joints) != _JOINTS or any(joint.kind is not JointKind.REVOLUTE for joint in arm.robot.joints):
+    if (
+        not arm.coupling.is_identity
+        or len(arm.robot.joints) != _JOINTS
+        or any(joint.kind is not JointKind.REVOLUTE for joint in arm.robot.joints)
+    ):
         return None
     try:
         solver = HPRobot(*arm.joint_axes())

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rgss.kinematics.coupling import Coupling
 from rgss.kinematics.description import build_model, link_frame, pose_of, transform
-from rgss.scenes import JointKind, Pose, Robot
+from rgss.scenes import Pose, Robot
 
 Vector = NDArray[np.float64]
 
@@ -18,8 +19,8 @@ Vector = NDArray[np.float64]
 class Arm:
     """A serial arm with a tool at its flange.
 
-    An array of joint positions has one entry for each joint, from the base to the flange: in rad for a revolute joint,
-    in m for a prismatic one. n is the number of joints, k that of configurations.
+    An array of joint positions has one entry for each driven joint, from the base to the flange: in rad for a revolute
+    joint, in m for a prismatic one. n is the number of driven joints, m that with followers, k that of configurations.
 
     Args:
         robot: The arm.
@@ -36,6 +37,7 @@ class Arm:
         self.tool = tool
         self._engine: Any = pinocchio
         self._model = build_model(robot)
+        self.coupling = Coupling.of(robot, self._model)
         flange = link_frame(self._model, robot.flange)
         self._tool = self._model.addFrame(
             pinocchio.Frame(
@@ -45,7 +47,7 @@ class Arm:
         self._data = self._model.createData()
         directions, steps = self.joint_axes()
         self._axes = directions
-        self._slides = [joint.kind is JointKind.PRISMATIC for joint in robot.joints]
+        self._slides = self.coupling.slides.tolist()
         self._rodrigues = [_rodrigues(direction) for direction in directions]
         self._points = np.cumsum(steps, axis=0)
 
@@ -73,11 +75,9 @@ class Arm:
 
         The link lengths summed from the first axis to the tool, with prismatic joints extended.
         """
-        slides = math.fsum(
-            max(abs(joint.lower_rad), abs(joint.upper_rad))
-            for joint in self.robot.joints
-            if joint.kind is JointKind.PRISMATIC
-        )
+        lower, upper = self.coupling.positions(self.lower_rad), self.coupling.positions(self.upper_rad)
+        extended = np.maximum(np.abs(lower), np.abs(upper))[self.coupling.slides]
+        slides = math.fsum(extended.tolist())
         return float(np.linalg.norm(np.diff(self._points, axis=0), axis=1).sum()) + slides
 
     @property
@@ -95,7 +95,7 @@ class Arm:
         Returns:
             Positions in m, shape (k, 3).
         """
-        return self._tool_motion(np.atleast_2d(np.asarray(qs, dtype=float)), None)[0]
+        return self._tool_motion(self.coupling.positions(np.atleast_2d(np.asarray(qs, dtype=float))), None)[0]
 
     def tool_motion(self, qs: ArrayLike, dqs: ArrayLike) -> tuple[Vector, Vector]:
         """Positions and velocities of the tool centre in the world.
@@ -108,7 +108,7 @@ class Arm:
             Positions in m and velocities in m/s, each of shape (k, 3).
         """
         rows, rates = (np.atleast_2d(np.asarray(values, dtype=float)) for values in (qs, dqs))
-        return self._tool_motion(rows, rates)
+        return self._tool_motion(self.coupling.positions(rows), self.coupling.rates(rates))
 
     def _tool_motion(self, rows: Vector, rates: Vector | None) -> tuple[Vector, Vector]:
         # The tool is rotated about one axis after another in their zero configuration, the last first (product of
@@ -142,39 +142,41 @@ class Arm:
         jacobian: Vector = self._engine.computeFrameJacobian(
             self._model,
             self._data,
-            np.asarray(q, dtype=float),
+            self.coupling.positions(q),
             self._tool,
             self._engine.ReferenceFrame.LOCAL_WORLD_ALIGNED,
         )
         # The engine gives a vector for a single joint.
-        return jacobian.reshape(6, -1)
+        return self.coupling.reduced(jacobian.reshape(6, -1))
 
     def joint_axes(self) -> tuple[Vector, Vector]:
-        """Axes of the joints and a point of the tool at the zero configuration, in the world.
+        """Axes of the joints, followers among them, and a point of the tool with all of them at zero, in the world.
 
         Returns:
-            Unit directions, shape (n, 3), and the steps between points on consecutive axes, shape (n + 1, 3): from the
+            Unit directions, shape (m, 3), and the steps between points on consecutive axes, shape (m + 1, 3): from the
             world's origin to the first, …, from the last to the tool centre. This is the product-of-exponentials form,
             the input of the analytic inverse kinematics.
         """
         zero = np.zeros(self._model.nq)
         jacobian = np.array(self._engine.computeJointJacobians(self._model, self._data, zero))
-        slides = [joint.kind is JointKind.PRISMATIC for joint in self.robot.joints]
-        directions = np.where(np.array(slides)[:, None], jacobian[:3].T, jacobian[3:].T)
+        directions = np.where(self.coupling.slides[:, None], jacobian[:3].T, jacobian[3:].T)
         joints = [self._data.oMi[index].translation for index in range(1, self._model.njoints)]
-        points = np.array([np.zeros(3), *joints, self._placement(zero).translation])
+        points = np.array([np.zeros(3), *joints, self._placed(zero).translation])
         return directions, np.diff(points, axis=0)
 
     def tool_rotation_at_zero(self) -> Vector:
-        """Orientation of the tool-centre frame in the world at the zero configuration, shape (3, 3)."""
-        return np.array(self._placement(np.zeros(self._model.nq)).rotation)
+        """Orientation of the tool-centre frame in the world with all joints at zero, shape (3, 3)."""
+        return np.array(self._placed(np.zeros(self._model.nq)).rotation)
 
     def tool_matrix(self, q: Sequence[float] | Vector) -> Vector:
         """Homogeneous transform of the tool-centre frame to the world, shape (4, 4)."""
         return np.array(self._placement(q).homogeneous)
 
     def _placement(self, q: Sequence[float] | Vector) -> Any:
-        self._engine.forwardKinematics(self._model, self._data, np.asarray(q, dtype=float))
+        return self._placed(self.coupling.positions(q))
+
+    def _placed(self, positions: Vector) -> Any:
+        self._engine.forwardKinematics(self._model, self._data, positions)
         return self._engine.updateFramePlacement(self._model, self._data, self._tool)
 
 

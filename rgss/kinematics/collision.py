@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from rgss.errors import DefinitionError
 from rgss.kinematics.collision_context import CollisionContext
+from rgss.kinematics.coupling import Coupling
 from rgss.kinematics.description import build_model, link_frame
 from rgss.kinematics.geometry import Part, collision_parts
 from rgss.kinematics.link_contacts import lasting_contacts
@@ -76,6 +77,7 @@ class CollisionModel:
         self.situation = situation
         self._engine: Any = pinocchio
         self._model = build_model(scene.robot)
+        self._coupling = Coupling.of(scene.robot, self._model)
         self._data = self._model.createData()
         # A view of the last joint's placement, which a query updates: the vertical components of its axes.
         self._wrist_vertical = self._data.oMi[self._model.njoints - 1].rotation[2]
@@ -129,7 +131,7 @@ class CollisionModel:
             if not lower <= angle <= upper:
                 return False
         if self._engine.computeCollisions(
-            self._model, self._data, self._manager, np.asarray(q, dtype=float), _STOP_AT_FIRST
+            self._model, self._data, self._manager, self._coupling.positions(q), _STOP_AT_FIRST
         ):
             return False
         # The query above has placed the joints.
@@ -145,7 +147,7 @@ class CollisionModel:
                 them itself.
         """
         collide, model, data, manager = self._engine.computeCollisions, self._model, self._data, self._manager
-        least = self._least_upright
+        least, qs = self._least_upright, self._coupling.positions(qs)
         if least is None:
             for index, q in enumerate(qs):
                 if collide(model, data, manager, q, _STOP_AT_FIRST):
@@ -167,7 +169,7 @@ class CollisionModel:
             Pairs of names, each pair and all of them in alphabetical order.
         """
         self._engine.computeCollisions(
-            self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float), _FIND_ALL
+            self._model, self._data, self._geometry, self._state, self._coupling.positions(q), _FIND_ALL
         )
         touching = {
             (min(names), max(names))
@@ -182,7 +184,7 @@ class CollisionModel:
         Args:
             q: Joint positions, shape (n,).
         """
-        self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
+        self._engine.computeDistances(self._model, self._data, self._geometry, self._state, self._coupling.positions(q))
         return min((float(result.min_distance) for result in self._state.distanceResults), default=float("inf"))
 
     def clearance_m(self, q: Sequence[float] | Vector) -> float:
@@ -195,7 +197,7 @@ class CollisionModel:
             q: Joint positions, shape (n,).
         """
         engine, geometry, state = self._engine, self._geometry, self._state
-        engine.updateGeometryPlacements(self._model, self._data, geometry, state, np.asarray(q, dtype=float))
+        engine.updateGeometryPlacements(self._model, self._data, geometry, state, self._coupling.positions(q))
         bounds = self._bounds.least_distances_m(state.oMg)
         least = math.inf
         for place in np.argsort(bounds, kind="stable").tolist():
@@ -212,7 +214,7 @@ class CollisionModel:
         Args:
             q: Joint positions, shape (n,).
         """
-        self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
+        self._engine.computeDistances(self._model, self._data, self._geometry, self._state, self._coupling.positions(q))
         pairs = [
             NearestPair(first=first, second=second, distance_m=float(result.min_distance), clearance_m=margin)
             for (first, second), result, margin in zip(
@@ -229,7 +231,7 @@ class CollisionModel:
         """
         if self._least_upright is None:
             return None
-        self._engine.forwardKinematics(self._model, self._data, np.asarray(q, dtype=float))
+        self._engine.forwardKinematics(self._model, self._data, self._coupling.positions(q))
         return math.acos(min(1.0, max(-1.0, float(self._wrist_vertical.dot(self._axis_in_wrist)))))
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.scenes import Joint, JointKind
+from rgss.scenes import JointKind, Robot
 
 Vector = NDArray[np.float64]
 
@@ -32,23 +32,21 @@ class RangeExcess:
     kind: JointKind = JointKind.REVOLUTE
 
 
-def excesses_of(configurations: Iterable[Vector], joints: Sequence[Joint]) -> tuple[RangeExcess, ...]:
+def excesses_of(configurations: Iterable[Vector], robot: Robot) -> tuple[RangeExcess, ...]:
     """Greatest violation of a planning range in each configuration.
 
     Args:
         configurations: Joint positions, each of shape (n,).
-        joints: The joints.
+        robot: The arm.
 
     Returns:
         One entry a configuration, the least excess first, without the configurations within all ranges.
     """
-    found = []
+    found, periodic = [], robot.whole_turns_are_equal
     for q in configurations:
         excesses = []
-        for joint, position in zip(joints, q.tolist(), strict=True):
-            turns = [position + turn * 2 * math.pi for turn in (-1, 0, 1)]
-            if joint.kind is JointKind.PRISMATIC:
-                turns = [position]
+        for joint, position, turns_freely in zip(robot.joints, q.tolist(), periodic, strict=True):
+            turns = [position + turn * 2 * math.pi for turn in (-1, 0, 1)] if turns_freely else [position]
             beyond = min(max(joint.lower_rad - one, one - joint.upper_rad) for one in turns)
             excesses.append(RangeExcess(joint=joint.name, beyond_rad=beyond, kind=joint.kind))
         worst = max(excesses, key=lambda one: one.beyond_rad)

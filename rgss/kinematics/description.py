@@ -11,7 +11,8 @@ from rgss.scenes import Pose, Robot, convex_parts
 def build_model(robot: Robot) -> Any:
     """Build the Pinocchio model of an arm with its base at the scene's pose.
 
-    Every frame of the model, and gravity, is expressed in the world, so that a tilted base needs no special case.
+    Every frame of the model, and gravity, is expressed in the world, so that a tilted base needs no special case. The
+    model has the followers as joints of their own; a `Coupling` gives their positions.
 
     Args:
         robot: The arm.
@@ -29,9 +30,11 @@ def build_model(robot: Robot) -> Any:
         ) from error
     found = tuple(model.names)[1:]
     wanted = tuple(joint.name for joint in robot.joints)
-    if found != wanted:
+    followers = [one.name for one in robot.followers]
+    driven = tuple(name for name in found if name not in followers)
+    if driven != wanted or len(found) != len(wanted) + len(followers):
         raise DefinitionError(
-            f"the robot {robot.id} has the joints {', '.join(wanted)}, but its URDF has {', '.join(found) or 'none'}",
+            f"the robot {robot.id} has the joints {', '.join(wanted)}, but its URDF has {', '.join(driven) or 'none'}",
             hint="name the movable joints as the URDF does, from base to flange",
         )
     if not model.existFrame(robot.flange):

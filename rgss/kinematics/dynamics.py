@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.kinematics.coupling import Coupling
 from rgss.kinematics.description import build_model, link_frame, transform
 from rgss.scenes import (
     Cylinder,
@@ -125,6 +126,7 @@ class ArmDynamics:
 
         self._engine = pinocchio
         self._model = build_model(robot)
+        self._coupling = Coupling.of(robot, self._model)
         self._model.gravity.linear = np.array([0.0, 0.0, -gravity_m_s2])
         flange = link_frame(self._model, robot.flange)
         for load in loads:
@@ -143,14 +145,31 @@ class ArmDynamics:
             ddq: Joint accelerations in rad/s² or m/s², shape (n,).
 
         Returns:
-            Joint torques in N·m, or forces in N, shape (n,).
+            Torques of the driven joints in N·m, or forces in N, shape (n,), with what they transmit to followers.
         """
+        return self._coupling.reduced(self._torques_of_all(q, dq, ddq))
+
+    def follower_torques(
+        self, q: Sequence[float] | Vector, dq: Sequence[float] | Vector, ddq: Sequence[float] | Vector
+    ) -> Vector:
+        """Torques that the coupling transmits to the followers in N·m, or forces in N, from the base to the flange.
+
+        Args:
+            q: Joint positions, shape (n,).
+            dq: Joint speeds in rad/s or m/s, shape (n,).
+            ddq: Joint accelerations in rad/s² or m/s², shape (n,).
+        """
+        return self._torques_of_all(q, dq, ddq)[self._coupling.follower_rows]
+
+    def _torques_of_all(
+        self, q: Sequence[float] | Vector, dq: Sequence[float] | Vector, ddq: Sequence[float] | Vector
+    ) -> Vector:
         found: Vector = self._engine.rnea(
             self._model,
             self._data,
-            np.asarray(q, dtype=float),
-            np.asarray(dq, dtype=float),
-            np.asarray(ddq, dtype=float),
+            self._coupling.positions(q),
+            self._coupling.rates(dq),
+            self._coupling.rates(ddq),
         )
         return np.array(found)
 
@@ -160,4 +179,4 @@ class ArmDynamics:
         Args:
             q: Joint positions, shape (n,).
         """
-        return float(self._engine.computePotentialEnergy(self._model, self._data, np.asarray(q, dtype=float)))
+        return float(self._engine.computePotentialEnergy(self._model, self._data, self._coupling.positions(q)))

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.kinematics.coupling import Coupling
 from rgss.kinematics.description import build_model
 from rgss.kinematics.geometry import arm_parts
 from rgss.scenes import Robot
@@ -60,6 +61,7 @@ class _LinkPairs:
 
         self._engine: Any = pinocchio
         self._model = build_model(robot)
+        self._coupling = Coupling.of(robot, self._model)
         self._data = self._model.createData()
         self._geometry = pinocchio.GeometryModel()
         parts = arm_parts(self._model, robot)
@@ -77,7 +79,8 @@ class _LinkPairs:
 
     def touching(self, q: Vector) -> set[frozenset[str]]:
         """Names of the pairs that touch."""
-        self._engine.computeCollisions(self._model, self._data, self._geometry, self._state, q, _FIND_ALL)
+        positions = self._coupling.positions(q)
+        self._engine.computeCollisions(self._model, self._data, self._geometry, self._state, positions, _FIND_ALL)
         results = self._state.collisionResults
         return {pair for pair, result in zip(self.names, results, strict=True) if result.isCollision()}
 

@@ -15,7 +15,7 @@ from rgss.kinematics.configurations import TOLERANCE, RangeExcess, excesses_of, 
 from rgss.kinematics.description import transform
 from rgss.kinematics.pose_residual import PoseResidual
 from rgss.kinematics.serial_chain import SerialChain
-from rgss.scenes import JointKind, Pose
+from rgss.scenes import Pose
 
 Vector = NDArray[np.float64]
 
@@ -60,6 +60,7 @@ class NumericalInverse:
         self._is_turn_free = is_turn_free
         self._chain = SerialChain(arm)
         self._joints = arm.robot.joints
+        self._turns = np.array(arm.robot.whole_turns_are_equal)
         self._lower, self._upper = arm.lower_rad, arm.upper_rad
         self._home = np.array(arm.robot.home_rad)
 
@@ -124,7 +125,7 @@ class NumericalInverse:
             One entry a configuration, the least excess first; empty if the pose is out of reach.
         """
         for residual in self._residuals(tool_pose_world):
-            found = excesses_of(self._reached(residual, self._starts(_STARTS), limited=False), self._joints)
+            found = excesses_of(self._reached(residual, self._starts(_STARTS), limited=False), self.arm.robot)
             if found:
                 return found
         return ()
@@ -139,9 +140,8 @@ class NumericalInverse:
 
     def _starts(self, count: int) -> Vector:
         """Start configurations: home, then quasi-random points, shape (count, n)."""
-        turns = np.array([joint.kind is JointKind.REVOLUTE for joint in self._joints])
         # Isolated configurations are brought back into the ranges by whole turns afterwards.
-        free = turns & (not self.is_redundant)
+        free = self._turns & (not self.is_redundant)
         lower, upper = np.where(free, -math.pi, self._lower), np.where(free, math.pi, self._upper)
         shares = _sobol(len(self._joints), count - 1)
         return np.vstack([self._home, lower + shares * (upper - lower)])
@@ -152,7 +152,7 @@ class NumericalInverse:
         same = _REDUNDANT_SAME if self.is_redundant else _SAME
         ends = ends[residual.deviation(self._chain.state(ends)) < TOLERANCE]
         if not (limited and self.is_redundant):
-            ends[:, ~self._chain.slides] = _principal(ends[:, ~self._chain.slides])
+            ends[:, self._turns] = _principal(ends[:, self._turns])
         kept: list[Vector] = []
         while len(ends):
             kept.append(ends[0])
@@ -199,8 +199,8 @@ class NumericalInverse:
     def _turned(self, q: Vector) -> list[Vector]:
         """All configurations within the ranges that equal one modulo whole turns."""
         choices = []
-        for joint, position in zip(self._joints, q.tolist(), strict=True):
-            if joint.kind is JointKind.REVOLUTE:
+        for joint, position, turns in zip(self._joints, q.tolist(), self._turns.tolist(), strict=True):
+            if turns:
                 choices.append(whole_turns(position, joint.lower_rad, joint.upper_rad))
             else:
                 choices.append([position] if joint.lower_rad - _SAME <= position <= joint.upper_rad + _SAME else [])
@@ -217,7 +217,7 @@ class NumericalInverse:
         if self.is_redundant:
             return difference
         turn = 2 * math.pi
-        return np.where(self._chain.slides, difference, difference - turn * np.round(difference / turn))
+        return np.where(self._turns, difference - turn * np.round(difference / turn), difference)
 
 
 def _principal(angles: Vector) -> Vector:

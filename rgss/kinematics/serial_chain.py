@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.kinematics.arm import Arm
-from rgss.scenes import JointKind
 
 Array = NDArray[np.float64]
 
@@ -39,7 +38,8 @@ class SerialChain:
 
     def __init__(self, arm: Arm) -> None:
         directions, steps = arm.joint_axes()
-        self.slides = np.array([joint.kind is JointKind.PRISMATIC for joint in arm.robot.joints])
+        self._coupling = arm.coupling
+        self._slides = arm.coupling.slides
         self._axes = directions
         self._first_m, self._steps = steps[0], steps[1:]
         self._at_zero = arm.tool_rotation_at_zero()
@@ -55,8 +55,9 @@ class SerialChain:
         Args:
             qs: Joint positions, shape (k, n).
         """
+        qs = self._coupling.positions(qs)
         count, joints = qs.shape
-        angles = np.where(self.slides, 0.0, qs)[:, :, None, None]
+        angles = np.where(self._slides, 0.0, qs)[:, :, None, None]
         turns = self._along + np.cos(angles) * self._across + np.sin(angles) * self._cross
         rotation = np.broadcast_to(np.eye(3), (count, 3, 3))
         position = np.tile(self._first_m, (count, 1))
@@ -64,12 +65,12 @@ class SerialChain:
         for joint in range(joints):
             axes[:, joint] = rotation @ self._axes[joint]
             origins[:, joint] = position
-            if self.slides[joint]:
+            if self._slides[joint]:
                 position = position + qs[:, joint, None] * axes[:, joint]
             else:
                 rotation = rotation @ turns[:, joint]
             position = position + rotation @ self._steps[joint]
-        turning = np.where(self.slides[:, None], 0.0, axes)
-        moving = np.where(self.slides[:, None], axes, np.cross(axes, position[:, None] - origins))
-        jacobian = np.concatenate([moving, turning], axis=2).transpose(0, 2, 1)
+        turning = np.where(self._slides[:, None], 0.0, axes)
+        moving = np.where(self._slides[:, None], axes, np.cross(axes, position[:, None] - origins))
+        jacobian = self._coupling.reduced(np.concatenate([moving, turning], axis=2).transpose(0, 2, 1))
         return ChainState(position_m=position, rotation=rotation @ self._at_zero, jacobian=jacobian)

@@ -132,9 +132,10 @@ class Stage:
     def take(self, posture: Posture) -> None:
         """Set the pose of everything that moves."""
         engine = self._engine
-        joints = (*self._arm_joints, *self._finger_joints)
+        joints = (*self._arm_joints, *self._followers, *self._finger_joints)
         fingers = finger_joint_positions(self._gripper.geometry, posture.finger_travel_m)
-        for joint, position in zip(joints, (*posture.joints_rad, *fingers), strict=True):
+        followers = self._scene.robot.follower_positions(posture.joints_rad)
+        for joint, position in zip(joints, (*posture.joints_rad, *followers, *fingers), strict=True):
             engine.resetJointState(self._robot, joint, position, physicsClientId=self._machine)
         poses = {**posture.others, self._scene.workpiece.id: posture.workpiece}
         for part, name, at in self._objects:
@@ -223,6 +224,7 @@ class Stage:
         links = {entry[12].decode(): entry[0] for entry in info}
         fingers = range(self._gripper.geometry.fingers)
         self._arm_joints = [joints[joint.name] for joint in self._scene.robot.joints]
+        self._followers = [joints[one.name] for one in self._scene.robot.followers]
         self._finger_joints = [joints[name] for name in finger_joint_names(self._gripper.geometry)]
         self._flange = links[self._scene.robot.flange]
         colours = {links[finger_link(finger)]: FINGER_COLOUR for finger in fingers}

@@ -8,6 +8,7 @@ from dataclasses import replace
 from rgss.errors import SimulationError
 from rgss.physics.bodies import add_object
 from rgss.physics.engine import ClientOwner, load_urdf_text
+from rgss.physics.gears import ArmGears
 from rgss.physics.hands import LinkageDrive
 from rgss.physics.settings import PhysicsSettings
 from rgss.scenes import Gripper, Pose, Robot, Workpiece, assembled_urdf, finger_joint
@@ -48,6 +49,7 @@ class TorqueArm(ClientOwner):
         """Put the arm at rest at a configuration and the fingers at a travel from open."""
         for joint, angle in zip(self._joints, configuration_rad, strict=True):
             self._engine.resetJointState(self._body, joint, angle, 0.0, physicsClientId=self._client)
+        self._gears.reset(configuration_rad)
         self.hold_fingers(finger_travel_m)
 
     def hold_fingers(self, finger_travel_m: float) -> None:
@@ -123,6 +125,11 @@ class TorqueArm(ClientOwner):
         states = self._engine.getJointStates(self._body, self._joints, physicsClientId=self._client)
         return tuple(s[0] for s in states), tuple(s[1] for s in states)
 
+    @property
+    def follow_error(self) -> float:
+        """Greatest deviation of a follower of the arm from its driven joint in rad or m; 0 without followers."""
+        return self._gears.largest_error
+
     def _build(self, robot: Robot, gripper: Gripper, settings: PhysicsSettings, gravity_m_s2: float) -> None:
         engine, client = self._engine, self._client
         engine.setGravity(0.0, 0.0, -gravity_m_s2, physicsClientId=client)
@@ -151,6 +158,7 @@ class TorqueArm(ClientOwner):
             )
         self._flange = links[robot.flange]
         self._joints = [names[joint.name] for joint in robot.joints]
+        self._gears = ArmGears(engine, client, self._body, robot, names)
         self._fingers = [names[finger_joint(finger)] for finger in range(gripper.geometry.fingers)]
         if gripper.geometry.linkage is not None:
             self._linkage = LinkageDrive(

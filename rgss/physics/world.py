@@ -87,8 +87,10 @@ class World(ClientOwner):
 
     def reset_arm(self, configuration_rad: Sequence[float]) -> None:
         """Put the arm at rest at a configuration, fingers open, without stepping."""
-        for joint, angle in zip(self._arm_joints, self._true(configuration_rad), strict=True):
+        true_rad = self._true(configuration_rad)
+        for joint, angle in zip(self._arm_joints, true_rad, strict=True):
             self._engine.resetJointState(self._robot, joint, angle, 0.0, physicsClientId=self._client)
+        self._followers.reset(true_rad)
         if self._linkage is None:
             for joint in self._finger_joints:
                 self._engine.resetJointState(self._robot, joint, 0.0, 0.0, physicsClientId=self._client)
@@ -101,6 +103,9 @@ class World(ClientOwner):
         """Set the arm's targets for the next step, in encoder angles."""
         if self._joint_offsets_rad:
             position_rad = self._true(position_rad)
+        if self.scene.robot.followers:
+            self._followers.command(position_rad, velocity_rad_s)
+            return
         # Calls of every step pass positional arguments, which the engine parses in half the time.
         self._engine.setJointMotorControlArray(
             self._robot,
@@ -235,6 +240,8 @@ class World(ClientOwner):
         """
         states = self._engine.getJointStates(self._robot, self._arm_joints, self._client)
         positions, velocities, _, torques = zip(*states, strict=True)
+        if self.scene.robot.followers:
+            torques = self._followers.driven_efforts(torques)
         if self._joint_offsets_rad:
             pairs = zip(positions, self._joint_offsets_rad, strict=True)
             positions = tuple([angle - offset for angle, offset in pairs])
@@ -296,8 +303,8 @@ class World(ClientOwner):
 
     @property
     def follow_error(self) -> float:
-        """Greatest deviation of a linkage's joint from its ratio in rad or m; 0 for other grippers."""
-        return 0.0 if self._linkage is None else self._linkage.largest_error
+        """Greatest deviation of a following joint, of a linkage or the arm, from its ratio in rad or m; 0 without."""
+        return max(0.0 if self._linkage is None else self._linkage.largest_error, self._followers.largest_error)
 
     def support_force_n(self) -> float:
         """Sum of the normal forces of the scene's bodies on the workpiece in the last step."""
@@ -373,6 +380,7 @@ class World(ClientOwner):
         self._reader = self._reader_of_workpiece()
         builder.set_robot_dynamics(self._robot, index)
         builder.leave_out_standing_links(self._robot, index, self._scene_names)
+        self._followers = builder.follower_motors(self._robot, index, _ARM_POSITION_GAIN)
         self._solver_iterations = builder.solver_iterations
         self._linkage = builder.linkage_drive(self._robot, index)
         self._seal_on = partial(builder.seal, self._robot, index)

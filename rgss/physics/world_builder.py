@@ -15,6 +15,7 @@ from typing import Any
 from rgss.errors import SimulationError
 from rgss.physics.bodies import add_body, add_object, links_of
 from rgss.physics.engine import load_urdf_text
+from rgss.physics.follower_motors import FollowerMotors
 from rgss.physics.hands import LinkageDrive, least_iterations
 from rgss.physics.settings import PhysicsSettings
 from rgss.physics.suction_bond import PyBulletBond
@@ -244,6 +245,17 @@ class WorldBuilder:
                 continue
             for body in scene_bodies:
                 self.engine.setCollisionFilterPair(robot, body, link, -1, 0, physicsClientId=self.client)
+
+    def follower_motors(self, robot: int, index: RobotIndex, gain: float) -> FollowerMotors:
+        """Motors of the arm's followers.
+
+        Args:
+            robot: The robot.
+            index: Its joints.
+            gain: Share of a joint's position error that its motor removes in a step.
+        """
+        arm, joints = self.scene.robot, index.joints
+        return FollowerMotors(self.engine, self.client, robot, arm, joints, gain=gain, step_s=self.settings.step_s)
 
     def linkage_drive(self, robot: int, index: RobotIndex) -> LinkageDrive | None:
         """Drive of a gripper's linkage; None for sliding fingers and for a cup."""

@@ -55,6 +55,7 @@ from rgss.scenes.hands import (
     tool_with_pads_at,
     unsealed,
 )
+from rgss.scenes.joints import DriverLimits, Follower, Joint, JointKind, driven_of, driver_limits, follower_problems
 from rgss.scenes.link_solids import LinkSolid, link_solid
 from rgss.scenes.linkage import Linkage, LinkageMotion, motion_of
 from rgss.scenes.linkage_assembly import linkage_masses_kg
@@ -81,7 +82,7 @@ from rgss.scenes.objects import (
     with_raised_stack,
 )
 from rgss.scenes.pose import Pose
-from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, LinkLook, Robot
+from rgss.scenes.robot import MOST_JOINTS, LinkLook, Robot
 from rgss.scenes.robot_file import load_robot
 from rgss.scenes.scene import (
     FORCE_WINDOW_S,

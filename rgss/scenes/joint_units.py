@@ -10,7 +10,7 @@ from rgss.documents import Document, JointQuantity
 from rgss.findings import Finding
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location
-from rgss.scenes.robot import JointKind
+from rgss.scenes.joints import JointKind
 
 
 def unit_findings(entry: RobotDocument, document: Document, kinds: Mapping[str, JointKind | None]) -> Iterable[Finding]:

@@ -8,11 +8,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
 
+from rgss.scenes.joints import JointKind
 from rgss.scenes.pose import Pose
-from rgss.scenes.robot import JointKind, LinkLook
+from rgss.scenes.robot import LinkLook
 
 Triple = tuple[float, float, float]
-
 _SAMPLES = 256
 
 

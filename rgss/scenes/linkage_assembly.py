@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from rgss.scenes.convex_shapes import convex_element
 from rgss.scenes.grasps import PadLayout
 from rgss.scenes.gripper import Gripper
+from rgss.scenes.joints import JointKind
 from rgss.scenes.linkage import Linkage, LinkageLink, LinkagePad, Triple
 from rgss.scenes.pose import Pose
-from rgss.scenes.robot import JointKind
 
 _MARGIN_M = 1.0e-3
 _MARGIN_SHARE = 0.25

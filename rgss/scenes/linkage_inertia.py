@@ -14,9 +14,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from rgss.scenes.joints import JointKind
 from rgss.scenes.linkage import Linkage, LinkageLink, motion_of
 from rgss.scenes.pose import Pose
-from rgss.scenes.robot import JointKind
 
 _FAR_LIGHTER = 0.5
 

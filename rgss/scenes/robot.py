@@ -2,48 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from enum import Enum
 from pathlib import Path
 
+from rgss.scenes.joints import Follower, Joint, JointKind
 from rgss.scenes.pose import Pose
 from rgss.scenes.servos import Calibration
 
 MOST_JOINTS = 8
 """Greatest number of joints of an arm."""
-
-
-class JointKind(str, Enum):
-    """Motion of a joint."""
-
-    REVOLUTE = "revolute"
-    PRISMATIC = "prismatic"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Joint:
-    """Joint of the arm with its limits.
-
-    The units are those of a revolute joint; of a prismatic joint the range is in m, the speed in m/s, the acceleration
-    in m/s² and the greatest effort a force in N. For lengths in joint space, a metre counts as a radian.
-
-    Attributes:
-        name: Its name in the robot description.
-        lower_rad: Lower limit of the planning range.
-        upper_rad: Upper limit of the planning range.
-        speed_rad_s: Greatest speed.
-        acceleration_rad_s2: Greatest acceleration used for timing.
-        torque_n_m: Greatest torque.
-        kind: Kind of the joint: revolute or prismatic.
-    """
-
-    name: str
-    lower_rad: float
-    upper_rad: float
-    speed_rad_s: float
-    acceleration_rad_s2: float
-    torque_n_m: float
-    kind: JointKind = JointKind.REVOLUTE
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,9 +53,9 @@ class Robot:
     Attributes:
         id: Its name.
         urdf: Text of its URDF, from the base to the flange, in the form passed to engines: every joint is one of
-        `joints` or fixed, and every collision shape primitive or convex.
+        `joints`, one of `followers` or fixed, and every collision shape primitive or convex.
         flange: Name of the link with the gripper; z points out of the flange.
-        joints: The joints from base to flange.
+        joints: The driven joints from base to flange: the degrees of freedom.
         base: Transform of the arm's base frame to the world.
         payload_kg: Rated payload.
         tool_acceleration_m_s2: Greatest acceleration of the tool centre.
@@ -96,6 +64,7 @@ class Robot:
         tool_speed_m_s: Greatest speed of the tool centre if no design sets it; None if the file has none.
         calibration: The fitted servos of its joints; None if the file names none.
         looks: The visual meshes of its links, for pictures; no content of a trial.
+        followers: The mimic joints from base to flange.
     """
 
     id: str
@@ -110,3 +79,25 @@ class Robot:
     tool_speed_m_s: float | None = None
     calibration: Calibration | None = None
     looks: tuple[LinkLook, ...] = field(default=(), compare=False, repr=False)
+    followers: tuple[Follower, ...] = ()
+
+    @property
+    def whole_turns_are_equal(self) -> tuple[bool, ...]:
+        """For each joint, whether a whole turn of it leaves every link where it is.
+
+        Not so for a prismatic joint, nor for a revolute one with a follower that slides, or turns by a fraction of it.
+        """
+        partial = {
+            one.driver for one in self.followers if one.kind is JointKind.PRISMATIC or not one.multiplier.is_integer()
+        }
+        return tuple(
+            joint.kind is JointKind.REVOLUTE and index not in partial for index, joint in enumerate(self.joints)
+        )
+
+    def follower_positions(self, driven: Sequence[float]) -> tuple[float, ...]:
+        """Positions of the followers in rad or m.
+
+        Args:
+            driven: Positions of the driven joints, shape (n,).
+        """
+        return tuple(one.position(driven) for one in self.followers)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from rgss.documents import Document, load_document
@@ -12,8 +13,9 @@ from rgss.findings import Finding, shown
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location, named_file_findings, not_positive, too_slow
 from rgss.scenes.joint_units import home_findings, unit_findings
+from rgss.scenes.joints import DriverLimits, Joint, JointKind
 from rgss.scenes.pose import Pose
-from rgss.scenes.robot import Joint, JointKind, Robot
+from rgss.scenes.robot import Robot
 from rgss.scenes.servos import Calibration, load_calibration
 from rgss.scenes.urdf_file import ReadUrdf, read_urdf
 
@@ -60,6 +62,7 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
     findings.extend((*problems, *urdf.findings))
     if not problems and not urdf.findings:
         findings.extend(unit_findings(entry, document, urdf.kinds))
+        findings.extend(_follower_findings(entry, document, urdf))
     calibration = _calibration(entry, document, findings, folder=path.parent, project=top)
     if findings:
         raise DocumentError(sorted(findings))
@@ -67,7 +70,23 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
         id=entry.robot,
         urdf=urdf.text,
         flange=entry.flange,
-        joints=tuple(
+        joints=_joints(entry, urdf),
+        base=base,
+        payload_kg=entry.payload,
+        tool_acceleration_m_s2=entry.tool_acceleration,
+        home_rad=tuple(position.value for position in entry.home),
+        files=urdf.files,
+        looks=urdf.looks,
+        tool_speed_m_s=entry.tool_speed,
+        calibration=calibration,
+        followers=urdf.followers,
+    )
+
+
+def _joints(entry: RobotDocument, urdf: ReadUrdf) -> tuple[Joint, ...]:
+    """The driven joints, with ranges and speeds that keep followers within theirs."""
+    return tuple(
+        urdf.limits.get(joint.name, DriverLimits()).joint(
             Joint(
                 name=joint.name,
                 lower_rad=joint.range[0].value,
@@ -77,17 +96,31 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
                 torque_n_m=joint.torque.value,
                 kind=urdf.kinds[joint.name] or JointKind.REVOLUTE,
             )
-            for joint in entry.joints
-        ),
-        base=base,
-        payload_kg=entry.payload,
-        tool_acceleration_m_s2=entry.tool_acceleration,
-        home_rad=tuple(position.value for position in entry.home),
-        files=urdf.files,
-        looks=urdf.looks,
-        tool_speed_m_s=entry.tool_speed,
-        calibration=calibration,
+        )
+        for joint in entry.joints
     )
+
+
+def _follower_findings(entry: RobotDocument, document: Document, urdf: ReadUrdf) -> Iterator[Finding]:
+    """A finding for each joint whose range or home takes a follower out of its own range."""
+    for index, joint in enumerate(entry.joints):
+        limits = urdf.limits.get(joint.name)
+        if limits is None or joint.range[0].value >= joint.range[1].value:
+            continue
+        names = ", ".join(repr(one.name) for one in urdf.followers if one.driver == index)
+        lower, upper = max(joint.range[0].value, limits.lower), min(joint.range[1].value, limits.upper)
+        ends = " to ".join(
+            f"{end * 1e3:.6g} mm" if joint.range[0].is_linear else f"{math.degrees(end):.6g} deg"
+            for end in (limits.lower, limits.upper)
+        )
+        if lower >= upper:
+            message = f"no position of joint {joint.name!r} has what follows it, {names}, within its range"
+            hint = f"give it a range from {ends}"
+            yield document.finding("scene.range", message, ("joints", index, "range"), hint=hint)
+        elif index < len(entry.home) and not lower <= entry.home[index].value <= upper:
+            message = f"home of joint {joint.name!r} has what follows it, {names}, outside its range"
+            hint = f"give a position from {ends}"
+            yield document.finding("scene.home", message, ("home", index), hint=hint)
 
 
 def _calibration(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location
-from rgss.scenes.robot import JointKind
+from rgss.scenes.joints import Follower, JointKind, driven_of, follower_problems
 from rgss.scenes.urdf_structure import (
     MOMENTS,
     axis_of,
@@ -101,16 +101,17 @@ def chain_problems(root: ET.Element, entry: RobotDocument) -> Iterable[Problem]:
     for name in entry.frozen:
         if name not in joints:
             yield f"has no joint {name!r}", ("frozen", name), "name the joints as the URDF does"
-    moving = [joint for joint in chain.movable if joint.get("name", "") not in entry.frozen]
+    moving = unfrozen(chain, entry)
+    driven = [joint.get("name", "") for joint in driven_of(moving)]
     wanted = [joint.name for joint in entry.joints]
-    if entry.flange in links and all(name in joints for name in wanted) and len({*wanted}) == len(wanted):
-        found = [joint.get("name", "") for joint in moving]
-        if found != wanted:
-            yield (
-                f"has from its base to {entry.flange!r} the movable joints {', '.join(found) or 'none'}",
-                ("joints",),
-                "list exactly these in this order, or list a joint that must not move under 'frozen'",
-            )
+    is_known = entry.flange in links and all(name in joints for name in wanted) and len({*wanted}) == len(wanted)
+    if is_known and driven != wanted:
+        following = "" if len(driven) == len(moving) else " besides those that follow them"
+        yield (
+            f"has from its base to {entry.flange!r} the movable joints {', '.join(driven) or 'none'}{following}",
+            ("joints",),
+            "list exactly these in this order, or list a joint that must not move under 'frozen'",
+        )
     for joint in moving:
         name = joint.get("name", "")
         if kind_of(joint) is None:
@@ -119,24 +120,31 @@ def chain_problems(root: ET.Element, entry: RobotDocument) -> Iterable[Problem]:
                 ("description",),
                 "an arm's joints are revolute, continuous or prismatic",
             )
-        elif joint.find("mimic") is not None:
-            yield (
-                f"lets the joint {name!r} of the arm follow another",
-                ("description",),
-                "an arm's joints must be independent; list it under 'frozen', or describe an equal arm without it",
-            )
+    yield from follower_problems(moving, joints, driven, tuple(entry.frozen))
 
 
-def settle(root: ET.Element, entry: RobotDocument) -> bool:
-    """Reduce a URDF to the arm: one movable joint for each of the robot file, all others fixed.
+def unfrozen(chain: UrdfChain, entry: RobotDocument) -> tuple[ET.Element, ...]:
+    """Movable joints of an arm that the robot file does not freeze, with those that follow another one.
+
+    Args:
+        chain: The chain from the base to the flange.
+        entry: The robot file's content.
+    """
+    return tuple(joint for joint in chain.movable if joint.get("name", "") not in entry.frozen)
+
+
+def settle(root: ET.Element, entry: RobotDocument, followers: Sequence[Follower] = ()) -> bool:
+    """Reduce a URDF to the arm: the movable joints of the robot file and their followers, all others fixed.
 
     Links excluded by the robot file are removed with their descendants. Joints off the chain are fixed at the position
     given in the file, at that of their mimic relation, or else as near to zero as their limits allow. A continuous
-    joint gets the file's range. Axes become unit vectors. A link that is only a frame may lack an inertia.
+    joint gets the file's range, a continuous follower what follows from it. Axes become unit vectors. A link that is
+    only a frame may lack an inertia.
 
     Args:
         root: The URDF, which has no problems; modified in place.
         entry: The robot file's content.
+        followers: The mimic joints of the arm.
 
     Returns:
         True if anything was changed.
@@ -144,6 +152,8 @@ def settle(root: ET.Element, entry: RobotDocument) -> bool:
     changed = _remove(root, entry.without)
     joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
     ranges = {joint.name: tuple(end.value for end in joint.range) for joint in entry.joints}
+    for one in followers:
+        ranges[one.name] = tuple(sorted(one.multiplier * end + one.offset for end in list(ranges.values())[one.driver]))
     frozen = {name: position.value for name, position in entry.frozen.items()}
     for name, joint in joints.items():
         if joint.get("type") == "fixed":

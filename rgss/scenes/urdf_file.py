@@ -13,9 +13,10 @@ from rgss.documents import Document
 from rgss.findings import Finding, shown
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location
+from rgss.scenes.joints import DriverLimits, Follower, JointKind, driver_limits, followers_of
 from rgss.scenes.looks import looks_of
-from rgss.scenes.robot import JointKind, LinkLook, RobotFile
-from rgss.scenes.urdf_chain import chain_problems, kind_of, loads_without_inertia, settle
+from rgss.scenes.robot import LinkLook, RobotFile
+from rgss.scenes.urdf_chain import chain_problems, chain_to, kind_of, loads_without_inertia, settle, unfrozen
 from rgss.scenes.urdf_meshes import embed_collision_meshes, files_of, without_meshes
 from rgss.scenes.urdf_structure import carried_by
 
@@ -52,6 +53,8 @@ class ReadUrdf:
         files: The meshes and textures that it references.
         looks: Its visual meshes.
         kinds: Kind of each joint by name; None if it is unsupported in an arm.
+        followers: The mimic joints of the arm.
+        limits: Limits of each joint of the arm with followers that keep these within theirs, by its name.
         findings: Every problem found.
     """
 
@@ -59,6 +62,8 @@ class ReadUrdf:
     files: tuple[RobotFile, ...] = ()
     looks: tuple[LinkLook, ...] = ()
     kinds: Mapping[str, JointKind | None] = field(default_factory=dict)
+    followers: tuple[Follower, ...] = ()
+    limits: Mapping[str, DriverLimits] = field(default_factory=dict)
     findings: tuple[Finding, ...] = ()
 
 
@@ -86,7 +91,8 @@ def read_urdf(path: Path, document: Document, entry: RobotDocument, *, project: 
         return ReadUrdf(findings=(*findings, *named.findings))
     looks = looks_of(root, named.paths)
     kinds = {joint.get("name", ""): kind_of(joint) for joint in root.findall("joint")}
-    changed = settle(root, entry)
+    followers, limits = _followers(root, entry, kinds)
+    changed = settle(root, entry, followers)
     if any(collision.find("geometry/mesh") is not None for collision in root.iter("collision")):
         changed = True
         findings += [
@@ -94,7 +100,27 @@ def read_urdf(path: Path, document: Document, entry: RobotDocument, *, project: 
             for problem, hint in embed_collision_meshes(root, named, entry.collision)
         ]
     settled = ET.tostring(root, encoding="unicode") if changed else text
-    return ReadUrdf(text=without_meshes(settled), files=named.files, looks=looks, kinds=kinds, findings=tuple(findings))
+    return ReadUrdf(
+        text=without_meshes(settled),
+        files=named.files,
+        looks=looks,
+        kinds=kinds,
+        followers=followers,
+        limits=limits,
+        findings=tuple(findings),
+    )
+
+
+def _followers(
+    root: ET.Element, entry: RobotDocument, kinds: Mapping[str, JointKind | None]
+) -> tuple[tuple[Follower, ...], dict[str, DriverLimits]]:
+    """The mimic joints of the arm, and the limits that they impose on their drivers."""
+    joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
+    names = [joint.name for joint in entry.joints]
+    moving = unfrozen(chain_to(root, entry.flange), entry)
+    found = followers_of(moving, joints, names, {name: kind for name, kind in kinds.items() if kind is not None})
+    drivers = dict.fromkeys(names[one.driver] for one in found)
+    return found, {name: driver_limits(name, [one.name for one in found], joints) for name in drivers}
 
 
 class UrdfError(Exception):

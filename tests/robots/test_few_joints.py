@@ -13,6 +13,7 @@ from rgss.cli.main import main
 from rgss.scenes import Waypoint
 from rgss.studies import load_project, trial_specs
 from rgss.trials import cell_of, waypoint_configurations
+from tests.fixtures.palletizer import palletizer_urdf
 from tests.fixtures.serial_arms import FIVE, GANTRY, SCARA, Link, Y, serial_urdf
 
 
@@ -22,7 +23,7 @@ def project_of(tmp_path):
 
     def make(links):
         urdf, project = tmp_path / "arm.urdf", tmp_path / "project"
-        urdf.write_text(serial_urdf(links), encoding="utf-8")
+        urdf.write_text(links if isinstance(links, str) else serial_urdf(links), encoding="utf-8")
         assert main(["init", "--robot", str(urdf), str(project)]) == 0
         study = project / "studies" / "pick_place.yaml"
         text = study.read_text(encoding="utf-8").replace("fidelity: contact", "fidelity: kinematic")
@@ -45,7 +46,7 @@ def test_an_arm_of_few_joints_ends_in_a_choice(project_of, links, capsys):
 
 
 @pytest.mark.engine
-@pytest.mark.parametrize("links", [FIVE, GANTRY], ids=["five", "gantry"])
+@pytest.mark.parametrize("links", [FIVE, GANTRY, palletizer_urdf()], ids=["five", "gantry", "palletizer"])
 def test_the_cup_is_carried_in_contact(project_of, links, capsys):
     project = project_of(links)
     capsys.readouterr()

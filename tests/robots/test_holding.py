@@ -12,6 +12,7 @@ import pytest
 from rgss.cli.main import main
 from rgss.scenes import Pose
 from rgss.studies.robot_project.holding import payload_kg, weak_joints
+from tests.fixtures.palletizer import palletizer
 from tests.fixtures.serial_arms import SCARA, SEVEN, serial_urdf
 
 TILTED = (
@@ -99,3 +100,15 @@ def test_joints_that_carry_no_weight_do_not_limit_the_payload(capsys, tmp_path):
     status, text, held = shown(capsys, path)
     assert (status, held) == (0, None)
     assert "configurations: not limited by the joints, which carry no weight." in text
+
+
+def test_the_payload_is_limited_by_what_a_coupling_transmits(tmp_path):
+    level = 'velocity="4.0" effort="300.0"'
+    strong = payload_kg(palletizer(tmp_path))
+    # The level joint of the shoulder holds the forearm, and what it carries at 0.4 m, when the forearm is level.
+    own, per_kg = 9.81 * (3.0 * 0.2 + (0.8 + 0.3) * 0.4), 9.81 * 0.4
+    assert strong > 20.0
+    held = payload_kg(palletizer(tmp_path, (level, level.replace("300.0", "20.0"))))
+    assert held == pytest.approx((20.0 - own) / per_kg, abs=0.1)
+    (weak,) = weak_joints(palletizer(tmp_path, (level, level.replace("300.0", "9.0"))))
+    assert (weak.name, weak.needed) == ("shoulder_level", pytest.approx(own, rel=0.01))

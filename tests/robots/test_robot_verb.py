@@ -8,6 +8,7 @@ import math
 import pytest
 
 from rgss.cli.main import main
+from tests.fixtures.palletizer import palletizer_urdf
 from tests.fixtures.serial_arms import SEVEN, serial_urdf
 from tests.robots.conftest import urdf_of
 
@@ -159,3 +160,17 @@ def test_a_mesh_in_millimetres(capsys, written, tmp_path):
     assert "the mesh part.stl is 120 m long: is it in millimetres?" in capsys.readouterr().out
     scaled = text.replace('"part.stl"', '"part.stl" scale="0.001 0.001 0.001"')
     assert main(["robot", str(written(scaled))]) == 0
+
+
+def test_joints_that_follow_others_are_named_with_their_drivers(capsys, written):
+    path = written(palletizer_urdf())
+    assert main(["robot", str(path)]) == 0
+    shown = capsys.readouterr().out
+    assert "palletizer: 4 joints to flange" in shown
+    assert "elbow_level (revolute) follows: -1 * elbow." in shown
+    assert main(["robot", str(path), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert [(one["name"], one["driver"]) for one in found["followers"]] == [
+        ("shoulder_level", "shoulder"),
+        ("elbow_level", "elbow"),
+    ]

@@ -166,7 +166,7 @@ def test_what_does_not_fit_is_found_at_its_place(tmp_path, old, new, message):
     ("old", "new", "message"),
     [
         ('"continuous"', '"planar"', "has the planar joint 'turn' in the arm"),
-        ('<axis xyz="0 0 1"/></joint>', '<mimic joint="slide"/></joint>', "lets the joint 'turn' of the arm follow"),
+        ('<axis xyz="0 0 1"/></joint>', '<mimic joint="slide"/></joint>', "the movable joints slide besides those"),
     ],
 )
 def test_an_arm_that_is_not_simulated_is_found(tmp_path, old, new, message):

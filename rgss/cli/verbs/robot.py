@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rgss.counted import counted
 
 if TYPE_CHECKING:
-    from rgss.scenes import Joint
+    from rgss.scenes import Follower, Joint
     from rgss.studies.robot_project import RobotSummary
 
 HELP = "summarise an arm (joints, masses, reach, payload) and check its description"
@@ -67,6 +67,8 @@ def _show(summary: RobotSummary) -> None:
     print()
     rows = [(joint.name, joint.kind.value, *_limits(joint)) for joint in robot.joints]
     print_table(["joint", "kind", "range", "speed", "effort"], rows)
+    for one in robot.followers:
+        print(f"{one.name} ({one.kind.value}) follows: {_followed(one, robot.joints[one.driver])}.")
     print()
     start = "middle of its region" if robot.joints[0].kind is JointKind.PRISMATIC else "first axis"
     count = len(summary.positions_m)
@@ -87,6 +89,15 @@ def _payload(held_kg: float) -> str:
     if math.isinf(held_kg):
         return "not limited by the joints, which carry no weight"
     return f"{held_kg:g} kg" if held_kg > 0.0 else "none"
+
+
+def _followed(one: Follower, driver: Joint) -> str:
+    from rgss.scenes import JointKind
+
+    unit, factor = ("mm", 1e3) if one.kind is JointKind.PRISMATIC else ("deg", math.degrees(1.0))
+    shift = f" {'+' if one.offset > 0.0 else '-'} {abs(one.offset) * factor:.6g} {unit}" if one.offset else ""
+    ratio = "" if one.kind is driver.kind else " m/rad" if one.kind is JointKind.PRISMATIC else " rad/m"
+    return f"{one.multiplier:.6g}{ratio} * {driver.name}{shift}"
 
 
 def _limits(joint: Joint) -> tuple[str, str, str]:
@@ -112,6 +123,17 @@ def _plain(summary: RobotSummary) -> dict[str, Any]:
                 "effort": joint.torque_n_m,
             }
             for joint in summary.robot.joints
+        ],
+        "followers": [
+            {
+                "name": one.name,
+                "kind": one.kind.value,
+                "driver": summary.robot.joints[one.driver].name,
+                "multiplier": one.multiplier,
+                "offset": one.offset,
+                "effort": one.effort if math.isfinite(one.effort) else None,
+            }
+            for one in summary.robot.followers
         ],
         "masses_kg": summary.masses_kg,
         "reach_m": summary.reach_m,

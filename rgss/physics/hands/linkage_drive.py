@@ -12,12 +12,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from rgss.physics.gears import add_gear
 from rgss.physics.hands.linkage_motor import motor_command
 from rgss.scenes import Linkage, leading_joint, link_names_of, motion_of
 
 _LEAST_ITERATIONS, _ITERATIONS_A_FOLLOWER = 600, 400
 _GEAR_FORCE = 1.0e4
-_GEAR_CORRECTION = 0.2
 
 
 def least_iterations(linkage: Linkage) -> int:
@@ -155,24 +155,14 @@ class LinkageDrive:
 
     def _gear(self, index: int) -> None:
         """Tie a joint to the leading one."""
-        engine, robot, link = self._engine, self._robot, self._linkage.links[index]
-        joint, ratio = self._joints[index], link.multiplier / self._leading.multiplier
-        gear = engine.createConstraint(
-            robot,
-            self._leading_joint,
-            robot,
-            joint,
-            engine.JOINT_GEAR,
-            [1, 0, 0],
-            [0, 0, 0],
-            [0, 0, 0],
-            physicsClientId=self._client,
-        )
-        engine.changeConstraint(
-            gear,
-            gearRatio=-1.0 / ratio,
-            relativePositionTarget=self._leading.offset - link.offset / ratio,
-            maxForce=_GEAR_FORCE,
-            erp=_GEAR_CORRECTION,
-            physicsClientId=self._client,
+        link = self._linkage.links[index]
+        ratio = link.multiplier / self._leading.multiplier
+        add_gear(
+            self._engine,
+            self._client,
+            self._robot,
+            leading=self._leading_joint,
+            following=self._joints[index],
+            ratio=ratio,
+            shift=self._leading.offset - link.offset / ratio,
         )

@@ -26,7 +26,7 @@ A pair of shapes is in contact at all times, and its filter cannot be changed; t
 """
 
 # The joints of a linkage follow within micrometres, however light its links are.
-_GEAR_IMPEDANCE = "0.9999 0.9999 0.001"
+GEAR_IMPEDANCE = "0.9999 0.9999 0.001"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -184,7 +184,7 @@ def add_linkage_drive(
             "polycoef": f"{number(link.offset - ratio * leading.offset)} {number(ratio)} 0 0 0",
             # The shortest time constant that the engine allows.
             "solref": f"{number(2 * step_s)} 1",
-            "solimp": _GEAR_IMPEDANCE,
+            "solimp": GEAR_IMPEDANCE,
         }
         ET.SubElement(parts.equality, "joint", coupling)
     effort, name = number(linkage.effort / abs(leading.multiplier)), joints[leader]

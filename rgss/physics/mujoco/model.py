@@ -23,6 +23,7 @@ from dataclasses import dataclass
 from rgss.errors import SimulationError
 from rgss.physics.mujoco.hand_model import (
     CUP_BIT,
+    GEAR_IMPEDANCE,
     GRIPPER_BASE,
     MACHINE,
     HandModel,
@@ -162,6 +163,16 @@ class _Builder:
             limit = number(joint.torque_n_m)
             motor = {"name": joint.name, "joint": joint.name, "forcerange": f"-{limit} {limit}"}
             ET.SubElement(self._actuator, "motor", motor)
+        for follower in robot.followers:
+            coupling = {
+                "joint1": follower.name,
+                "joint2": robot.joints[follower.driver].name,
+                "polycoef": f"{number(follower.offset)} {number(follower.multiplier)} 0 0 0",
+                # The shortest time constant that the engine allows.
+                "solref": f"{number(2 * self._settings.step_s)} 1",
+                "solimp": GEAR_IMPEDANCE,
+            }
+            ET.SubElement(self._equality, "joint", coupling)
         parts = HandParts(equality=self._equality, actuator=self._actuator, stiffness=self._stiffness)
         if geometry.linkage is not None:
             self.hand = add_linkage_drive(parts, geometry.linkage, parents, step_s=self._settings.step_s)

@@ -14,6 +14,7 @@ from rgss.physics.hand_view import HandView
 from rgss.physics.mujoco.contact_reader import MujocoContactReader
 from rgss.physics.mujoco.engine import compiled, mujoco
 from rgss.physics.mujoco.finger_drive import MujocoFingerDrive
+from rgss.physics.mujoco.followers import MujocoFollowers
 from rgss.physics.mujoco.linkage_drive import MujocoLinkageDrive
 from rgss.physics.mujoco.model import world_model
 from rgss.physics.mujoco.suction_bond import MujocoBond
@@ -71,6 +72,7 @@ class MujocoWorld:
         model, driven = self._model, [joint.name for joint in scene.robot.joints]
         self._positions = np.array([model.joint(name).qposadr[0] for name in driven])
         self._speeds = np.array([model.joint(name).dofadr[0] for name in driven])
+        self._followers = MujocoFollowers(model, self._data, scene.robot)
         self._motors = np.array([model.actuator(name).id for name in driven])
         self._limits = model.actuator_forcerange[self._motors, 1].copy()
         self._travels = np.array([model.joint(name).qposadr[0] for name in described.fingers], dtype=int)
@@ -107,6 +109,7 @@ class MujocoWorld:
         self._engine.mj_resetData(self._model, self._data)
         self._target = np.array(configuration_rad, dtype=float) + self._offsets
         self._data.qpos[self._positions] = self._target
+        self._followers.reset(self._target)
         if self._linkage is not None:
             self._linkage.reset()
         self._fingers.reset()
@@ -138,8 +141,8 @@ class MujocoWorld:
 
     @property
     def follow_error(self) -> float:
-        """Greatest deviation of a linkage's joint from its ratio in rad or m; 0 for other grippers."""
-        return 0.0 if self._linkage is None else self._linkage.largest_error
+        """Greatest deviation of a following joint, of a linkage or the arm, from its ratio in rad or m; 0 without."""
+        return max(0.0 if self._linkage is None else self._linkage.largest_error, self._followers.largest_error)
 
     def hold_open(self) -> None:
         """Hold the fingers at their open end, against its stop."""
@@ -169,8 +172,9 @@ class MujocoWorld:
         correction = _FREQUENCY_RAD_S**2 * lag + 2 * _FREQUENCY_RAD_S * slowness
         self._wanted[self._speeds] = (self._target_speed - self._speed_before) / self.settings.step_s + correction
         self._speed_before = self._target_speed
+        self._followers.accelerate(self._wanted)
         engine.mj_mulM(model, data, self._needed, self._wanted)
-        torques = (self._needed + data.qfrc_bias)[self._speeds]
+        torques = self._followers.driven_efforts(self._needed + data.qfrc_bias)
         self._torques = np.clip(torques, -self._limits, self._limits)
         data.ctrl[self._motors] = self._torques
         if self._linkage is not None:

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping
 from rgss.scenes.convex_shapes import CONVEX, origin_of, vertices_of
 from rgss.scenes.findings import Location
 from rgss.scenes.hands.linkage_document import LinkageGripperDocument
+from rgss.scenes.joints import follows, is_number, mimic_problems
 from rgss.scenes.linkage import LinkageLink, Triple
 from rgss.scenes.pose import Pose
 from rgss.scenes.urdf_chain import kind_of
@@ -106,7 +107,7 @@ def mechanism_problems(root: ET.Element, entry: LinkageGripperDocument) -> Itera
         listed = f" ({', '.join(driven)})" if driven else ""
         hint = "let all others follow one with <mimic>, or state its sizes (kind: parallel); 'palm' leaves an arm out"
         yield f"has {len(driven)} driven joints{listed}, a gripper has one", ("description",), hint
-    yield from _mimic_problems(joints)
+    yield from mimic_problems(joints, joints)
     for name in driven:
         yield from _limit_problems(joints[name])
     yield from _mass_problems(links, joints, palm_of(root, entry))
@@ -134,21 +135,6 @@ def links_of(root: ET.Element, palm: str, mount: Pose) -> tuple[LinkageLink, ...
     return tuple(found)
 
 
-def follows(name: str, joints: Mapping[str, ET.Element]) -> tuple[float, float]:
-    """Multiplier and offset of a joint relative to the driven one, also through chains of ``<mimic>``.
-
-    Args:
-        name: The joint.
-        joints: All joints by name, without cycles of ``<mimic>``.
-    """
-    mimic = joints[name].find("mimic")
-    if mimic is None:
-        return 1.0, 0.0
-    multiplier, offset = follows(mimic.get("joint", ""), joints)
-    own = float(mimic.get("multiplier", "1"))
-    return own * multiplier, own * offset + float(mimic.get("offset", "0"))
-
-
 def _mass_problems(links: Mapping[str, ET.Element], joints: Mapping[str, ET.Element], palm: str) -> Iterable[Problem]:
     """Rigid parts without a mass: links on fixed joints are one part with the link that carries them.
 
@@ -172,39 +158,11 @@ def _mass_problems(links: Mapping[str, ET.Element], joints: Mapping[str, ET.Elem
             yield f"has no mass or no inertia for link {first!r}", ("description",), hint
 
 
-def _mimic_problems(joints: Mapping[str, ET.Element]) -> Iterable[Problem]:
-    for name, joint in joints.items():
-        mimic = joint.find("mimic")
-        if mimic is None:
-            continue
-        followed = mimic.get("joint", "")
-        if followed not in joints:
-            hint = f"joints: {', '.join(joints)}"
-            yield f"lets the joint {name!r} follow {followed!r}, which is not one of its joints", ("description",), hint
-            continue
-        if joints[followed].get("type") == "fixed":
-            hint = "let it follow the driven joint"
-            yield f"lets the joint {name!r} follow the fixed joint {followed!r}", ("description",), hint
-        for key in ("multiplier", "offset"):
-            if not _is_number(mimic.get(key, "0")):
-                message = f"has {key}={mimic.get(key)!r} in <mimic> of {name!r}"
-                yield message, ("description",), "write a number"
-        if _is_number(mimic.get("multiplier", "1")) and float(mimic.get("multiplier", "1")) == 0.0:
-            yield f"lets the joint {name!r} follow with a multiplier of 0", ("description",), "fix the joint instead"
-        seen = {name}
-        while followed in joints and followed not in seen:
-            seen.add(followed)
-            above = joints[followed].find("mimic")
-            followed = "" if above is None else above.get("joint", "")
-        if followed == name:
-            yield f"lets the joint {name!r} follow itself", ("description",), "let it follow the driven joint"
-
-
 def _limit_problems(joint: ET.Element) -> Iterable[Problem]:
     name, limit = joint.get("name", ""), joint.find("limit")
     values = {key: "" if limit is None else limit.get(key, "") for key in ("lower", "upper", "effort", "velocity")}
     values["lower"] = values["lower"] or "0"
-    if not all(_is_number(value) for value in values.values()):
+    if not all(is_number(value) for value in values.values()):
         hint = 'write <limit lower="…" upper="…" effort="…" velocity="…"/>'
         yield f"does not limit the driven joint {name!r}", ("description",), hint
         return
@@ -284,14 +242,7 @@ def _moved(pose: Pose, point: Triple) -> Triple:
 def _has_inertia(link: ET.Element) -> bool:
     mass = link.find("inertial/mass")
     text = "" if mass is None else mass.get("value", "")
-    return _is_number(text) and float(text) > 0.0 and link.find("inertial/inertia") is not None
-
-
-def _is_number(text: str) -> bool:
-    try:
-        return math.isfinite(float(text))
-    except ValueError:
-        return False
+    return is_number(text) and float(text) > 0.0 and link.find("inertial/inertia") is not None
 
 
 def _end(joint: ET.Element, end: str) -> str:

@@ -47,7 +47,7 @@ def payload_kg(robot: Robot) -> float:
         if no joint carries weight.
     """
     own, per_kg = _weights(robot)
-    efforts = np.array([joint.torque_n_m for joint in robot.joints])
+    efforts = np.array([one.effort for one in _carriers(robot)])
     if np.any(np.abs(own) > efforts):
         return 0.0
     carried = np.abs(per_kg) > _LEAST_PER_KG
@@ -69,22 +69,41 @@ def weak_joints(robot: Robot) -> tuple[WeakJoint, ...]:
     own, _ = _weights(robot)
     return tuple(
         WeakJoint(
-            name=joint.name,
-            effort=joint.torque_n_m,
+            name=one.name,
+            effort=one.effort,
             needed=float(needed),
-            unit="N" if joint.kind is JointKind.PRISMATIC else "N*m",
+            unit="N" if one.kind is JointKind.PRISMATIC else "N*m",
         )
-        for joint, needed in zip(robot.joints, np.max(np.abs(own), axis=0), strict=True)
-        if float(needed) > joint.torque_n_m
+        for one, needed in zip(_carriers(robot), np.max(np.abs(own), axis=0), strict=True)
+        if float(needed) > one.effort
     )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Carrier:
+    """A joint with its greatest effort in N·m or N."""
+
+    name: str
+    kind: JointKind
+    effort: float
+
+
+def _carriers(robot: Robot) -> tuple[_Carrier, ...]:
+    """The driven joints, then the followers, whose efforts the coupling transmits."""
+    driven = (_Carrier(name=one.name, kind=one.kind, effort=one.torque_n_m) for one in robot.joints)
+    return (*driven, *(_Carrier(name=one.name, kind=one.kind, effort=one.effort) for one in robot.followers))
+
+
 def _weights(robot: Robot) -> tuple[Array, Array]:
-    """Torques of the joints at rest, of the arm itself and of a kilogram at the flange, each of shape (k, n)."""
+    """Torques of the joints at rest, of the arm itself and of a kilogram at the flange, in the order of `_carriers`."""
     samples = sampled_configurations(robot)
     still = np.zeros(len(robot.joints))
     kilogram = Load(mass_kg=1.0, moments_kg_m2=(0.0, 0.0, 0.0), pose=Pose())
     empty = ArmDynamics(robot, (), gravity_m_s2=_GRAVITY_M_S2)
     loaded = ArmDynamics(robot, (kilogram,), gravity_m_s2=_GRAVITY_M_S2)
-    own = np.array([empty.torques(q, still, still) for q in samples])
-    return own, np.array([loaded.torques(q, still, still) for q in samples]) - own
+    own = np.array([_torques(empty, q, still) for q in samples])
+    return own, np.array([_torques(loaded, q, still) for q in samples]) - own
+
+
+def _torques(dynamics: ArmDynamics, q: Array, still: Array) -> Array:
+    return np.concatenate([dynamics.torques(q, still, still), dynamics.follower_torques(q, still, still)])

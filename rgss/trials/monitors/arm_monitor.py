@@ -55,8 +55,12 @@ class ArmMonitor:
         self._kinematics = kinematics
         self._joints = robot.joints
         self._limit_m = control.largest_tracking_error_m
-        # An angular error of a joint moves the tool by at most the error times the reach.
-        self._near_rad = self._limit_m / (kinematics.reach_m * math.sqrt(len(robot.joints)))
+        # An angular error of a joint moves the tool by at most the error times the reach, that of a driven joint also
+        # by those of its followers.
+        moved = [1.0] * len(robot.joints)
+        for one in robot.followers:
+            moved[one.driver] += abs(one.multiplier)
+        self._near_rad = self._limit_m / (kinematics.reach_m * math.hypot(*moved))
         self._step_s = settings.step_s
         self._window = max(1, round(control.acceleration_window_s * settings.rate_hz))
         # Velocities and torques of the steps at rest; those of a move have positions too.

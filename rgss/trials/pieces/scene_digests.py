@@ -31,6 +31,10 @@ def geometry_digest(scene: Scene) -> str:
     """
     robot = without(to_plain(scene.robot), _UNPLANNED)
     robot["joints"] = [without(joint, (*ARM_RATES, "torque_n_m")) for joint in robot["joints"]]
+    # No trial uses the effort of a follower.
+    robot["followers"] = [without(one, ("effort",)) for one in robot["followers"]]
+    if not robot["followers"]:
+        del robot["followers"]
     geometry = {
         "robot": robot,
         "bodies": [{"id": body.id, "shape": _shape(body.shape), "pose": to_plain(body.pose)} for body in scene.bodies],

@@ -5,10 +5,19 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rgss.errors import DefinitionError
-from rgss.scenes import MOST_JOINTS, JointKind, chain_to, kind_of
+from rgss.scenes import (
+    MOST_JOINTS,
+    DriverLimits,
+    JointKind,
+    chain_to,
+    driven_of,
+    driver_limits,
+    follower_problems,
+    kind_of,
+)
 from rgss.studies.robot_project.urdf.reading import Note
 
 _LONGER_BY = 3
@@ -82,23 +91,30 @@ def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
     if flange is not None and flange not in links:
         raise DefinitionError(f"the URDF has no link {flange}", hint=f"its links are {', '.join(links)}")
     found = flange if flange is not None else _last_link(root, below)
-    moving = chain_to(root, found).movable
+    chained = chain_to(root, found).movable
+    moving = driven_of(chained)
     if not 1 <= len(moving) <= MOST_JOINTS:
         raise DefinitionError(
             f"the arm has {len(moving)} movable joints from its base to {found}, and 1 to {MOST_JOINTS} are expected",
             hint="name the link that carries the gripper with --flange",
         )
-    for joint in moving:
+    for joint in chained:
         if kind_of(joint) is None:
             raise DefinitionError(
                 f"the joint {joint.get('name')} is {joint.get('type')}",
                 hint="an arm's joints are revolute, continuous or prismatic",
             )
+    by_name = {joint.get("name", ""): joint for joint in root.findall("joint")}
+    followers = [joint.get("name", "") for joint in chained if joint not in moving]
+    for problem, _, hint in follower_problems(chained, by_name, [joint.get("name", "") for joint in moving], ()):
+        raise DefinitionError(f"the URDF {problem}", hint=hint)
     hands = [_end(joint, "child") for joint in _ways(found, below)]
     return UrdfArm(
         name=root.get("name", "") or "arm",
         flange=found,
-        joints=tuple(_joint(joint) for joint in moving),
+        joints=tuple(
+            _within(_joint(joint), driver_limits(joint.get("name", ""), followers, by_name)) for joint in moving
+        ),
         hands=tuple(hands),
         notes=() if flange is not None else (*_notes_of_jaw(moving), *_notes_of_division(found, below)),
     )
@@ -242,6 +258,18 @@ def _joint(joint: ET.Element) -> UrdfJoint:
         speed=values.get("velocity", 0.0),
         effort=values.get("effort", 0.0),
     )
+
+
+def _within(joint: UrdfJoint, limits: DriverLimits) -> UrdfJoint:
+    """A joint with the limits that keep its followers within theirs."""
+    lower, upper = max(joint.lower, limits.lower), min(joint.upper, limits.upper)
+    if lower >= upper:
+        raise DefinitionError(
+            f"no position of the joint {joint.name} has what follows it within its range",
+            hint="correct the limits of the URDF, or multiplier and offset of <mimic>",
+        )
+    speed = min(joint.speed, limits.speed) if joint.speed > 0.0 else joint.speed
+    return replace(joint, lower=lower, upper=upper, speed=speed)
 
 
 def _end(joint: ET.Element, end: str) -> str:
