@@ -17,6 +17,7 @@ from rgss.scenes.convex_shapes import (
     with_mesh_files,
 )
 from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
+from rgss.scenes.frames import NamedFrame
 from rgss.scenes.grasps import (
     RIBS,
     Approach,

@@ -26,6 +26,7 @@ from rgss.documents import (
     Seconds,
     Text,
 )
+from rgss.scenes.frames import FrameEntry
 from rgss.scenes.grasps import Approach, GraspCandidates
 from rgss.scenes.robot import MOST_JOINTS
 from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, LARGEST_DRAG_M, LARGEST_DROP_M
@@ -207,6 +208,7 @@ class SceneDocument(DocumentModel):
     place_region: PlaceRegionEntry
     workpieces: tuple[OtherObjectEntry, ...] = ()
     places: tuple[NamedPlaceEntry, ...] = ()
+    frames: dict[Identifier, FrameEntry] = Field(default_factory=dict)
     task: TaskEntry
     uncertainty: dict[QuantityName, DistributionEntry] = Field(default_factory=dict)
     correlations: tuple[CorrelationEntry, ...] = ()
@@ -238,6 +240,7 @@ class RobotDocument(DocumentModel):
     without: tuple[Identifier, ...] = ()
     collision: CollisionShapes = CollisionShapes.HULL
     calibration: Text | None = None
+    frames: dict[Identifier, FrameEntry] = Field(default_factory=dict)
     assumptions: tuple[AssumptionEntry, ...] = ()
 
 

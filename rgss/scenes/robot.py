@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from rgss.scenes.frames import NamedFrame
 from rgss.scenes.joints import Follower, Joint, JointKind
 from rgss.scenes.pose import Pose
 from rgss.scenes.servos import Calibration
@@ -65,6 +66,7 @@ class Robot:
         calibration: The fitted servos of its joints; None if the file names none.
         looks: The visual meshes of its links, for pictures; no content of a trial.
         followers: The mimic joints from base to flange.
+        frames: The named frames of its file, in its base.
     """
 
     id: str
@@ -80,6 +82,7 @@ class Robot:
     calibration: Calibration | None = None
     looks: tuple[LinkLook, ...] = field(default=(), compare=False, repr=False)
     followers: tuple[Follower, ...] = ()
+    frames: tuple[NamedFrame, ...] = ()
 
     @property
     def whole_turns_are_equal(self) -> tuple[bool, ...]:

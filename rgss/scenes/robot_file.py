@@ -12,6 +12,7 @@ from rgss.errors import DocumentError
 from rgss.findings import Finding, shown
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location, named_file_findings, not_positive, too_slow
+from rgss.scenes.frames import ROBOT, NamedFrame, frames_of
 from rgss.scenes.joint_units import home_findings, unit_findings
 from rgss.scenes.joints import DriverLimits, Joint, JointKind
 from rgss.scenes.pose import Pose
@@ -63,6 +64,8 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
     if not problems and not urdf.findings:
         findings.extend(unit_findings(entry, document, urdf.kinds))
         findings.extend(_follower_findings(entry, document, urdf))
+    base_frame = {ROBOT: NamedFrame(id=ROBOT, pose=Pose())}
+    frames = frames_of(entry.frames, base_frame, document, findings, default=ROBOT)
     calibration = _calibration(entry, document, findings, folder=path.parent, project=top)
     if findings:
         raise DocumentError(sorted(findings))
@@ -80,6 +83,7 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
         tool_speed_m_s=entry.tool_speed,
         calibration=calibration,
         followers=urdf.followers,
+        frames=frames,
     )
 
 

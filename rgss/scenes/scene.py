@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from rgss.scenes.frames import NamedFrame
 from rgss.scenes.grasps import ChosenGrasp, GivenGrasp, GraspCandidates
 from rgss.scenes.mass_properties import Gyration
 from rgss.scenes.pose import Pose
@@ -209,6 +210,7 @@ class Scene:
         uncertainty: Uncertain quantities stated in the scene's file.
         others: The further objects.
         places: Places without an object.
+        frames: The named frames of scene and robot, in the world or in an object.
     """
 
     id: str
@@ -223,6 +225,7 @@ class Scene:
     uncertainty: Uncertainty = NOTHING_UNCERTAIN
     others: tuple[SceneObject, ...] = ()
     places: tuple[NamedPlace, ...] = ()
+    frames: tuple[NamedFrame, ...] = ()
 
     @property
     def objects(self) -> tuple[SceneObject, ...]:

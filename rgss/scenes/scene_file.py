@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 from rgss.documents import Document, load_document
@@ -11,6 +12,7 @@ from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.scenes.document import BodyEntry, GraspRule, Rest, SceneDocument
 from rgss.scenes.findings import Location, named_file_findings, negative, not_positive
+from rgss.scenes.frames import ROBOT, WORLD, NamedFrame, frames_of
 from rgss.scenes.objects import (
     candidates_of,
     colour_of,
@@ -65,6 +67,7 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
     top = path.parent if project is None else project
     solid = object_solid(path, entry.workpiece, document, findings, top)
     others = other_solids(path, entry, document, findings, top)
+    frames = _frames(entry, document, findings, robot)
     if findings or robot is None or solid is None:
         raise DocumentError(sorted(findings))
     solids = zip((entry.workpiece, *entry.workpieces), (solid, *others), strict=True)
@@ -97,7 +100,28 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
             is_yaw_free=entry.task.free_yaw,
         ),
         uncertainty=uncertainty,
+        frames=frames,
     )
+
+
+def _frames(
+    entry: SceneDocument, document: Document, findings: list[Finding], robot: Robot | None
+) -> tuple[NamedFrame, ...]:
+    """Frames of robot and scene; none if the robot is invalid."""
+    if robot is None:
+        return ()
+    own = {one.id: replace(one, pose=robot.base @ one.pose) for one in robot.frames}
+    roots = {
+        WORLD: NamedFrame(id=WORLD, pose=Pose()),
+        ROBOT: NamedFrame(id=ROBOT, pose=robot.base),
+        **{name: NamedFrame(id=name, pose=Pose(), object=name) for name in _object_ids(entry)},
+        **own,
+    }
+    return (*own.values(), *frames_of(entry.frames, roots, document, findings, default=WORLD))
+
+
+def _object_ids(entry: SceneDocument) -> tuple[str, ...]:
+    return (entry.workpiece.id, *(one.id for one in entry.workpieces))
 
 
 def _robot(

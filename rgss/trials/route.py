@@ -138,6 +138,8 @@ class _Cell:
         """Stop of a target."""
         if target.configuration_rad:
             return Stop(name=target.name, configuration_rad=target.configuration_rad)
+        if target.frame:
+            return Stop(name=target.name, pose=self._pose_in_frame(target))
         if target.pose is not None:
             return Stop(name=target.name, pose=target.pose)
         waypoint = Waypoint(target.waypoint)
@@ -157,6 +159,12 @@ class _Cell:
             place=place,
             is_at_place=waypoint in _AT_PLACE,
         )
+
+    def _pose_in_frame(self, target: Target) -> Pose:
+        """Transform of the grasp-centre frame to the world at a target in a named frame."""
+        frame = next(one for one in self._scene.frames if one.id == target.frame)
+        at = self._placements[frame.object].pose @ frame.pose if frame.object else frame.pose
+        return (at if target.pose is None else at @ target.pose).raised(target.raised_m)
 
     def context_of(self, stage: Stage) -> tuple[Scene, CollisionContext]:
         """Scene and collision context of a move."""

@@ -67,7 +67,7 @@ def test_loops_give_each_step_a_name_of_its_own(tmp_path):
     [
         ("  - move: {to: moon}\n", "task.yaml:3:16: error: there is no waypoint 'moon'"),
         ("  - move: {configuration: rest}\n", "task.yaml:3:27: error: there is no configuration 'rest'"),
-        ("  - move: {}\n", "task.yaml:3:11: error: a move needs one of to, configuration and pose, got none"),
+        ("  - move: {}\n", "task.yaml:3:11: error: a move needs one of to, configuration, frame and pose, got none"),
         (REACH + "  - release: {}\n", "task.yaml:4:14: error: 'release' releases, and nothing is held"),
         (
             REACH + "  - grip: {}\n" + REACH.replace("to:", "name: n, to:") + "  - grip: {name: more}\n",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Iterable, Iterator
 
 from rgss.counted import counted
@@ -9,6 +10,7 @@ from rgss.findings import Finding
 from rgss.scenes import Scene
 from rgss.tasks.reading.reader import Location
 from rgss.tasks.reading.task_file import LoadedTask
+from rgss.tasks.stages import stages_of
 from rgss.tasks.steps import CheckStep, HandAction, Mention, MoveStep, Named, Target
 
 
@@ -30,6 +32,7 @@ def task_findings(loaded: LoadedTask, scene: Scene) -> tuple[Finding, ...]:
             found += _of_joints(loaded, scene, step.target)
     found += _of_held(loaded, scene)
     found += _of_chosen_grasps(loaded, scene)
+    found += _of_held_frames(loaded, scene)
     return tuple(sorted(set(found)))
 
 
@@ -60,7 +63,7 @@ def _of_chosen_grasps(loaded: LoadedTask, scene: Scene) -> Iterator[Finding]:
         if isinstance(step, MoveStep):
             last = step
         elif step.hand is HandAction.CLOSES and last is not None and not last.target.waypoint:
-            kind = "configuration" if last.target.configuration_rad else "pose"
+            kind = "configuration" if last.target.configuration_rad else "frame" if last.target.frame else "pose"
             message = (
                 f"{step.name!r} grips at the {kind} of {last.name!r}, and the grasp is to be chosen among candidates"
             )
@@ -68,14 +71,34 @@ def _of_chosen_grasps(loaded: LoadedTask, scene: Scene) -> Iterator[Finding]:
             yield loaded.document.finding("task.unused-grasp", message, at, hint=hint)
 
 
+def _of_held_frames(loaded: LoadedTask, scene: Scene) -> Iterator[Finding]:
+    """Moves to a frame of the object that is in the hand, which moves with it."""
+    objects = {one.id: one.object for one in scene.frames}
+    stages = stages_of(loaded.program, scene.workpiece.id)
+    for stage, at in zip(stages, loaded.places, strict=True):
+        if not (isinstance(stage.step, MoveStep) and stage.is_held):
+            continue
+        frame = stage.step.target.frame
+        if frame and objects.get(frame) == stage.object:
+            message = f"{stage.step.name!r} moves to the frame {frame!r} of {stage.object}, which is held"
+            hint = "move to a frame of the world, or release the object before"
+            yield loaded.document.finding("task.held-frame", message, at, hint=hint)
+
+
 def _of_mentions(loaded: LoadedTask, scene: Scene, mentions: Iterable[Mention], at: Location) -> Iterator[Finding]:
     """Names that the scene does not have."""
-    objects, places = [one.workpiece.id for one in scene.objects], [one.id for one in scene.places]
+    names = {
+        Named.OBJECT: [one.workpiece.id for one in scene.objects],
+        Named.PLACE: [one.id for one in scene.places],
+        Named.FRAME: [one.id for one in scene.frames],
+    }
     for mention in mentions:
-        kind, known = mention.kind.value, objects if mention.kind is Named.OBJECT else places
+        kind, known = mention.kind.value, names[mention.kind]
         if mention.name and mention.name not in known:
             message = f"there is no {kind} {mention.name!r}"
-            hint = f"{kind}s: {', '.join(known)}" if known else "list it under places in the scene"
+            near = difflib.get_close_matches(mention.name, known, n=1) if mention.kind is Named.FRAME else []
+            hint = f"{kind}s: {', '.join(known)}" if known else f"list it under {kind}s in the scene"
+            hint = f"did you mean {near[0]!r}?" if near else hint
             yield loaded.document.finding(f"task.unknown-{kind}", message, (*at, *mention.key), hint=hint)
 
 

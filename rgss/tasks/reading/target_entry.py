@@ -13,22 +13,24 @@ _TOOL_DOWN_ROLL_RAD = math.pi
 
 
 class PoseEntry(DocumentModel):
-    """Pose of the grasp centre in the world; without roll and pitch the tool points down."""
+    """Pose of the grasp centre in the world or a named frame; without roll the tool points down, against z."""
 
     position: tuple[Metres, Metres, Metres]
     roll: Radians | None = None
     pitch: Radians = 0.0
     yaw: Radians = 0.0
+    frame: Identifier | None = None
 
 
 class TargetEntry(DocumentModel):
-    """Target of a move: exactly one of a waypoint, a configuration and a pose."""
+    """Target of a move: exactly one of a waypoint, a configuration, a frame and a pose."""
 
     to: Identifier | None = None
     raised: Metres = 0.0
     place: Identifier | None = None
     object: Identifier | None = None
     configuration: Identifier | None = None
+    frame: Identifier | None = None
     pose: PoseEntry | None = None
 
 
@@ -41,10 +43,12 @@ def target_of(entry: TargetEntry, reader: TaskReader, position: Position) -> Tar
         position: Position of the entry.
     """
     at = position.at
-    given = [key for key in ("to", "configuration", "pose") if getattr(entry, key) is not None]
+    given = [key for key in ("to", "configuration", "frame", "pose") if getattr(entry, key) is not None]
     if len(given) != 1:
         said = " and ".join(given) or "none"
-        reader.report("task.target", f"a move needs one of to, configuration and pose, got {said}", at, "name one")
+        reader.report(
+            "task.target", f"a move needs one of to, configuration, frame and pose, got {said}", at, "name one"
+        )
         return Target(name="")
     if entry.configuration is not None:
         joints = reader.configurations.get(entry.configuration)
@@ -53,9 +57,13 @@ def target_of(entry: TargetEntry, reader: TaskReader, position: Position) -> Tar
             message = f"there is no configuration {entry.configuration!r}"
             reader.report("task.unknown-configuration", message, (*at, "configuration"), f"configurations: {known}")
         return Target(name=entry.configuration, configuration_rad=joints or ())
+    if entry.frame is not None:
+        return Target(name=entry.frame, frame=entry.frame, raised_m=entry.raised)
     if entry.pose is not None:
         roll = _TOOL_DOWN_ROLL_RAD if entry.pose.roll is None else entry.pose.roll
         pose = Pose.from_roll_pitch_yaw(entry.pose.position, (roll, entry.pose.pitch, entry.pose.yaw))
+        if entry.pose.frame is not None:
+            return Target(name="pose", pose=pose, frame=entry.pose.frame, raised_m=entry.raised)
         return Target(name="pose", pose=pose.raised(entry.raised))
     name = entry.to or ""
     if name not in [one.value for one in Waypoint]:

@@ -28,6 +28,7 @@ class Named(Enum):
 
     OBJECT = "object"
     PLACE = "place"
+    FRAME = "frame"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -18,11 +18,13 @@ class Target:
     Attributes:
         name: Its name in messages: that of the waypoint or the configuration, else ``pose``.
         waypoint: Waypoint of the object; empty if it is another kind of target.
-        raised_m: Height above the waypoint.
+        raised_m: Height above the waypoint or the frame.
         object: The object of the waypoint; empty for the object of the step.
         place: The place of the waypoints at the place; empty for the object's own.
         configuration_rad: Positions of the joints; empty if it is another kind of target.
-        pose: Transform of the grasp-centre frame to the world; None if it is another kind of target.
+        pose: Transform of the grasp-centre frame to the world, or to the named frame; None if it is another kind of
+        target.
+        frame: Named frame of the scene; empty if it is another kind of target.
     """
 
     name: str
@@ -32,6 +34,7 @@ class Target:
     place: str = ""
     configuration_rad: tuple[float, ...] = ()
     pose: Pose | None = None
+    frame: str = ""
 
     @property
     def mentions(self) -> tuple[Mention, ...]:
@@ -39,6 +42,7 @@ class Target:
         return (
             Mention(kind=Named.OBJECT, name=self.object),
             Mention(kind=Named.PLACE, name=self.place, key=("place",)),
+            Mention(kind=Named.FRAME, name=self.frame, key=("frame",) if self.pose is None else ("pose", "frame")),
         )
 
 

@@ -19,7 +19,7 @@ ARM_RATES = ("speed_rad_s", "acceleration_rad_s2")
 """Fields of a joint that only the timing uses."""
 
 _KEPT = 512
-_UNPLANNED = ("payload_kg", "tool_speed_m_s", "tool_acceleration_m_s2", "calibration")
+_UNPLANNED = ("payload_kg", "tool_speed_m_s", "tool_acceleration_m_s2", "calibration", "frames")
 
 
 @lru_cache(maxsize=_KEPT)
@@ -47,6 +47,8 @@ def geometry_digest(scene: Scene) -> str:
         geometry["others"] = [
             [_solid(one.workpiece), one.support, one.place_support, _position(one.place)] for one in scene.others
         ]
+    if scene.frames:
+        geometry["frames"] = to_plain(scene.frames)
     if scene.places:
         geometry["places"] = [[one.id, one.support, _position(one.region)] for one in scene.places]
     return digest(geometry)

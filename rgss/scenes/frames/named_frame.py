@@ -1,0 +1,22 @@
+"""Named frame of a scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.scenes.pose import Pose
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NamedFrame:
+    """Frame by name, fixed to the world or to an object.
+
+    Attributes:
+        id: Its name.
+        pose: Transform of the frame to the world, or to the object. Of the frames of a robot file, to its base.
+        object: The object; empty for a frame that does not move.
+    """
+
+    id: str
+    pose: Pose
+    object: str = ""
