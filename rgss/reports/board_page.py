@@ -49,10 +49,7 @@ def board_to_html(
         glance = {**glance, "changes": _cut(glance["changes"])}
     heads, rows = _best(document)
     ranked = sum(rank is not None for rank in document["variants"]["rank"])
-    modelling = [
-        [_short(text) for text in (row["title"], *map(str, row["cells"][1:]))]
-        for row in _by_effect(decision["modelling"]["rows"])
-    ]
+    modelling = _assumptions(decision["modelling"]["rows"])
     compared = [[row["name"], *(cell["text"] for cell in row["cells"])] for row in comparison_rows(document)]
     failures, facts = (
         _failures(document["trials"], document["variants"]["id"]),
@@ -119,6 +116,11 @@ def _cut(lines: Sequence[str], longest: int = _LONGEST) -> list[str]:
     shown = [_short(line, longest) for line in lines[:fitting]]
     more = len(lines) - len(shown)
     return [*shown, f"and {more} more, in the whole report"] if more else shown
+
+
+def _assumptions(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
+    """Rows of the table of assumptions, each with its name in words."""
+    return [[_short(text) for text in (row["title"], *map(str, row["cells"][1:]))] for row in _by_effect(rows)]
 
 
 def _by_effect(rows: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:

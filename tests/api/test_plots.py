@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import io
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.figure import Figure
 
 import rgss
 from rgss.api import plots
@@ -14,6 +16,7 @@ from rgss.errors import DefinitionError
 from rgss.measures import Direction
 from rgss.reports.decision import ids_text
 from rgss.reports.study_plots.plotted import PlottedMeasure
+from rgss.reports.study_plots.scatter import draw_limit
 
 
 def png(figure) -> bytes:
@@ -161,6 +164,27 @@ def test_without_every_trial_no_design_is_judged(swept):
 def test_suppositions_are_drawn(study):
     figure = study.trade({"SYS-004.threshold": "40000 USD"}).plot.pareto("C_total", "t_p")
     assert "SYS-004: ≤ 40,000" in [text.get_text() for text in figure.axes[0].texts]
+
+
+def test_no_line_of_a_limit_passes_through_the_label_of_another(study):
+    (axes,) = study.trade({"SYS-004.threshold": "40000 USD"}).plot.pareto("C_total", "t_p").axes
+    labels = [text for text in axes.texts if text.get_text().startswith("SYS-")]
+    limits = [line for line in axes.lines if line.get_linestyle() == "--"]
+    assert labels
+    assert limits
+    for label in labels:
+        ground = label.get_bbox_patch()
+        assert ground.get_facecolor() == (1.0, 1.0, 1.0, 1.0)
+        assert label.get_zorder() > max(line.get_zorder() for line in limits)
+
+
+def test_a_level_label_of_a_limit_is_away_from_an_upright_one():
+    axes = Figure().subplots()
+    axes.set(xlim=(0.0, 10.0), ylim=(0.0, 10.0))
+    draw_limit(axes, SimpleNamespace(value=9.0), vertical=True)
+    draw_limit(axes, SimpleNamespace(value=8.0), vertical=False)
+    upright, level = axes.texts
+    assert (upright.xy, level.xy, level.get_ha()) == ((9.0, 0.99), (0.01, 8.0), "left")
 
 
 @pytest.mark.parametrize(

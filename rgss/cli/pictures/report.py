@@ -7,6 +7,7 @@ import shlex
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -102,9 +103,13 @@ def trial_pictures(
         for number, one in enumerate(notable):
             variant = project.designs.variant(one.record.variant)
             (spec,) = trial_specs(project, variants=[variant], seeds=[one.record.seed])
-            made.append(_pictures(project, one, spec, look, on_part=lambda part, before=number: reach(before + part)))
+            made.append(_pictures(project, one, spec, look, on_part=partial(_reach, reach, number)))
             reach(number + 1)
     return tuple(made), ""
+
+
+def _reach(reach: Callable[[float], None], before: int, part: float) -> None:
+    reach(before + part)
 
 
 def _pictures(

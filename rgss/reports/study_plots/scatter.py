@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.text import Annotation
 from matplotlib.transforms import Bbox
 
 from rgss.reports.decision import ids_text
@@ -155,7 +156,11 @@ def draw_limit(ax: Axes, limit: Limit, *, vertical: bool, words: bool = True) ->
     edge = 0.04 * (high - low)
     (ax.set_xlim if vertical else ax.set_ylim)(min(low, limit.value - edge), max(high, limit.value + edge))
     if words:
-        at = (limit.value, 0.99) if vertical else (0.99, limit.value)
+        # A level label is at the end that is farther from upright ones.
+        start, end = ax.get_xlim()
+        upright = [text.xy[0] for text in ax.texts if isinstance(text, Annotation) and text.get_rotation() == 90.0]
+        at_left = not vertical and any(abs(one - end) < abs(one - start) for one in upright)
+        at = (limit.value, 0.99) if vertical else (0.01 if at_left else 0.99, limit.value)
         ax.annotate(
             str(limit),
             xy=at,
@@ -163,10 +168,13 @@ def draw_limit(ax: Axes, limit: Limit, *, vertical: bool, words: bool = True) ->
             xytext=(-3, 0) if vertical else (0, 3),
             textcoords="offset points",
             rotation=90 if vertical else 0,
-            ha="right",
+            ha="left" if at_left else "right",
             va="top" if vertical else "bottom",
             fontsize=8,
             color=LIMIT,
+            # The line of another limit passes beneath the label, not through it.
+            bbox={"boxstyle": "square,pad=0.15", "facecolor": "white", "edgecolor": "none"},
+            zorder=2.5,
         )
 
 
