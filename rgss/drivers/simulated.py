@@ -11,7 +11,7 @@ from rgss.drivers.driver import Estimate, GripperState, SetPoint
 from rgss.errors import DriverError
 from rgss.kinematics import ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.scenes import Gripper, Scene, grasp_opening_m, object_in_hand
+from rgss.scenes import Gripper, Scene, grasp_opening_m, object_in_hand, unpowered_shortfall
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,6 +62,7 @@ class SimulatedDriver:
         self._start_rad = start_rad
         self._grips = tuple(grips) or (scene,)
         self._closings = 0
+        self._held: Scene | None = None
         self._gains = gains or ServoGains()
         self._machine: TorqueArm | None = None
         self._steps = 0
@@ -86,7 +87,7 @@ class SimulatedDriver:
         self._machine.reset(self._start_rad, 0.0)
         opening_m = gripper.geometry.largest_opening_m
         self._empty = ArmDynamics(scene.robot, gripper_loads(gripper, opening_m), gravity_m_s2=scene.gravity_m_s2)
-        self._loaded = self._empty
+        self._loaded, self._held = self._empty, None
         self._closings = 0
 
     def read(self) -> Estimate:
@@ -107,9 +108,11 @@ class SimulatedDriver:
                 view = self._grips[min(self._closings, len(self._grips) - 1)]
                 self._closings += 1
                 self._take(machine, view)
-            elif was is GripperState.CLOSED:
-                machine.detach()
+            elif point.gripper is GripperState.OPEN:
+                self._drop(machine)
                 machine.hold_fingers(0.0)
+            elif self._held is not None and unpowered_shortfall(self._gripper, self._held):
+                self._drop(machine)
         self._point = point
 
     def _take(self, machine: TorqueArm, view: Scene) -> None:
@@ -120,7 +123,13 @@ class SimulatedDriver:
         machine.attach(view.workpiece, held)
         centre = geometry.grasp_centre if held is None else geometry.grasp_centre @ held
         loads = (*gripper_loads(self._gripper, opening_m), workpiece_load(view.workpiece, centre))
-        self._loaded = ArmDynamics(view.robot, loads, gravity_m_s2=view.gravity_m_s2)
+        self._loaded, self._held = ArmDynamics(view.robot, loads, gravity_m_s2=view.gravity_m_s2), view
+
+    def _drop(self, machine: TorqueArm) -> None:
+        """Release the workpiece, if one is held."""
+        if self._held is not None:
+            machine.detach()
+            self._held = None
 
     def stop(self) -> None:
         """Hold the joints where they are."""
@@ -152,7 +161,7 @@ class SimulatedDriver:
         wanted = acceleration + 2 * zeta * omega * (speed - dq) + omega**2 * (target - speed / self.rate_hz - q)
         # The target is to be reached at the end of the step; the deviation is that at its beginning.
         self._speed = speed
-        model = self._loaded if point.gripper is GripperState.CLOSED else self._empty
+        model = self._empty if self._held is None else self._loaded
         torques = np.clip(model.torques(q, dq, wanted), -self._limits, self._limits)
         machine.step(torques.tolist())
         self._steps += 1

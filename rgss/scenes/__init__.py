@@ -54,6 +54,7 @@ from rgss.scenes.hands import (
     too_narrow,
     too_wide,
     tool_with_pads_at,
+    unpowered_shortfall,
     unsealed,
 )
 from rgss.scenes.joints import DriverLimits, Follower, Joint, JointKind, driven_of, driver_limits, follower_problems

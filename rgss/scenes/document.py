@@ -264,9 +264,10 @@ class FingerEntry(DocumentModel):
 
 
 class CommandEntry(DocumentModel):
-    """Command of a gripper without feedback: open or close, each complete after a fixed time."""
+    """Commands of a gripper without feedback, each complete after a fixed time; neutral switches the drive off."""
 
     travel_time: Seconds
+    unpowered_force: Newtons = 0.0
 
 
 class FirmGraspEntry(DocumentModel):

@@ -119,11 +119,13 @@ class GripperDrive:
         friction requires to hold the object.
         command_s: Duration of a command to open or close, without feedback of force or position; None for a gripper
         that measures its fingers' forces.
+        unpowered_force_n: Force at each finger up to which the mechanism resists while the drive is off.
     """
 
     inertia_kg: float = 0.0
     firm_force_n: float | None = None
     command_s: float | None = None
+    unpowered_force_n: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

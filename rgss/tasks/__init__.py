@@ -16,6 +16,7 @@ if TYPE_CHECKING:
         MoveKind,
         MoveStep,
         Nearness,
+        NeutralStep,
         ReleaseStep,
         RestingMachine,
         Step,

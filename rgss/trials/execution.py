@@ -12,7 +12,18 @@ from rgss.evidence import Failure, Metric
 from rgss.grasping import GraspGeometryCache
 from rgss.physics import Contacts, ContactWorld
 from rgss.scenes import Pose
-from rgss.tasks import CheckStep, GripStep, HandAction, MoveStep, ReleaseStep, Stage, Step, TaskProgram, WaitStep
+from rgss.tasks import (
+    CheckStep,
+    GripStep,
+    HandAction,
+    MoveStep,
+    NeutralStep,
+    ReleaseStep,
+    Stage,
+    Step,
+    TaskProgram,
+    WaitStep,
+)
 from rgss.trials.grip_control import GripControl
 from rgss.trials.hands import hand_of
 from rgss.trials.monitors import (
@@ -257,6 +268,15 @@ class Execution:
         self._objects.note_release(stage)
         return self._result(step, monitor, steps, metrics)
 
+    def neutral(self, step: NeutralStep) -> PhaseResult:
+        """Switch the drive off: fingers on an object press with what their mechanism resists, others are free."""
+        world = self._world
+        resisted_n = min(world.gripper.drive.unpowered_force_n, world.gripper.finger_force_n)
+        is_held = self._objects.stage(step.name).is_held and resisted_n > 0.0
+        # The solver passes a motor's force in proportion to its speed: at rest it would let the object go.
+        world.drive_fingers(world.gripper.finger_velocity_m_s if is_held else 0.0, resisted_n)
+        return self._rest(step, self._hand.least_opening_s or self._hand.longest_travel_s)
+
     def wait(self, step: WaitStep) -> PhaseResult:
         """Hold the configuration for a time, with the held object."""
         return self._rest(step, step.duration_s)
@@ -271,7 +291,9 @@ class Execution:
     def _rest(self, step: Step, duration_s: float) -> PhaseResult:
         """Hold the configuration for a time, with the held object."""
         stage, world = self._enter(step), self._world
-        carried_at = self._held_at if stage.is_held else None
+        # A hand that goes neutral need not hold what stands.
+        needs_grip = stage.is_held and not (stage.is_standing and isinstance(step, NeutralStep))
+        carried_at = self._held_at if needs_grip else None
         self._grip.begin_phase()
         placed = PlacedObjectMonitor(world) if stage.is_placed else None
         monitor = self._phase_monitor(carried_at, self._objects.resting_on(stage), placed=placed)

@@ -14,6 +14,7 @@ from rgss.errors import DefinitionError, DriverError
 if TYPE_CHECKING:
     from rgss.drivers import Driver, Rehearsal, RobotLimits, StreamClock, StreamResult, TimedTask
     from rgss.scenes import Robot
+    from rgss.tasks import TaskProgram
     from rgss.trials import TrialSpec
 
 _JOINTS_OF_DRIVERS = {"ur": (6, 6), "xarm": (5, 7)}
@@ -47,6 +48,7 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
         raise DefinitionError(f"{options.recording} cannot be written: there is no such folder", hint="create it")
     cell = cell_of(spec)
     _require_drivable(options.driver, cell.scene.robot)
+    _require_neutral(options.driver, spec.task)
     plan = plan_of(spec)
     task = timed_task(spec, plan, timing_of(spec, plan))
     limits = limits_of(cell.scene.robot.joints, tool_speed_m_s=conditions_of(spec).tool_speed_m_s)
@@ -99,6 +101,22 @@ def _require_drivable(driver: str, robot: Robot) -> None:
         raise DefinitionError(
             f"driver {driver} moves arms of {numbers} joints that turn; {robot.id} has {len(robot.joints)}{slide}",
             hint="use --driver simulated",
+        )
+
+
+def _require_neutral(driver: str, task: TaskProgram) -> None:
+    """Check that a driver has the neutral state if the task sets it.
+
+    Raises:
+        DefinitionError: It has not.
+    """
+    from rgss.tasks import NeutralStep
+
+    step = next((one for one in task.steps if isinstance(one, NeutralStep)), None)
+    if driver == "ur" and step is not None:
+        raise DefinitionError(
+            f"driver ur sets one output for the gripper, open or closed; {step.name} sets it to neutral",
+            hint="use --driver simulated, or leave the step out",
         )
 
 

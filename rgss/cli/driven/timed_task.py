@@ -9,7 +9,7 @@ from rgss.errors import MotionError
 from rgss.evidence import PlanOutcome
 
 if TYPE_CHECKING:
-    from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, Step, StepMachine, WaitStep
+    from rgss.tasks import CheckStep, GripStep, MoveStep, NeutralStep, ReleaseStep, Step, StepMachine, WaitStep
     from rgss.trials import TaskPlan, TaskTiming, TrialSpec
 
 
@@ -72,6 +72,10 @@ class _Recorder:
         self._state = GripperState.OPEN
         opening_s = max(self._hand.longest_travel_s, self._hand.least_opening_s)
         return self._rest(step, opening_s + self._control.settled_s)
+
+    def neutral(self, step: NeutralStep) -> Segment:
+        self._state = GripperState.NEUTRAL
+        return self._rest(step, self._hand.least_opening_s or self._hand.longest_travel_s)
 
     def wait(self, step: WaitStep) -> Segment:
         return self._rest(step, step.duration_s)

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rgss.scenes.hands.pad_search import FoundPads, MechanismError, find_pads
     from rgss.scenes.hands.parallel_gripper import ParallelGripperDocument
     from rgss.scenes.hands.tool_at_object import object_in_hand, tool_with_pads_at
+    from rgss.scenes.hands.unpowered import unpowered_shortfall
     from rgss.scenes.hands.vacuum_gripper import VacuumGripperDocument, at_top
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

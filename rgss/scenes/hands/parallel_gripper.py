@@ -51,6 +51,7 @@ class ParallelGripper:
         others: list[tuple[Location, float]] = [(("grasp_depth",), entry.grasp_depth)]
         if entry.command is not None:
             others.append((("command", "travel_time"), entry.command.travel_time))
+            yield from negative(document, [(("command", "unpowered_force"), entry.command.unpowered_force)])
             travels = {round(one.open - one.closed, 9) for one in entry.mountings.values()}
             if len(travels) > 1:
                 yield document.finding(
@@ -101,7 +102,11 @@ class ParallelGripper:
         drive = drive_of(entry.finger, entry.firm_grasp)
         if entry.command is not None:
             # The fingers of each mounting cover their own travel in the duration of the command.
-            drive = replace(drive, command_s=entry.command.travel_time)
+            drive = replace(
+                drive,
+                command_s=entry.command.travel_time,
+                unpowered_force_n=entry.command.unpowered_force,
+            )
             settings["gripper.finger.speed"] = mountings[mounting].stroke_m / entry.command.travel_time
         return GripperFile(mountings=mountings, mounting=mounting, drive=drive, settings=settings)
 

@@ -11,6 +11,7 @@ from rgss.documents import DocumentModel, Identifier, JointPosition, Seconds
 from rgss.tasks.reading.check_entry import CheckEntry
 from rgss.tasks.reading.grip_entry import GripEntry
 from rgss.tasks.reading.move_entry import MoveEntry
+from rgss.tasks.reading.neutral_entry import NeutralEntry
 from rgss.tasks.reading.reader import Location, Position, TaskReader
 from rgss.tasks.reading.release_entry import ReleaseEntry
 from rgss.tasks.reading.target_entry import TargetEntry
@@ -68,6 +69,7 @@ class StepEntry(DocumentModel):
     move: MoveEntry | None = None
     grip: GripEntry | None = None
     release: ReleaseEntry | None = None
+    neutral: NeutralEntry | None = None
     wait: WaitEntry | None = None
     check: CheckEntry | None = None
     repeat: RepeatEntry | None = None
@@ -80,7 +82,7 @@ class StepEntry(DocumentModel):
         return {kind: one for kind, one in kinds.items() if one is not None}
 
 
-Kind = MoveEntry | GripEntry | ReleaseEntry | WaitEntry | CheckEntry | RepeatEntry | ForEachEntry
+Kind = MoveEntry | GripEntry | ReleaseEntry | NeutralEntry | WaitEntry | CheckEntry | RepeatEntry | ForEachEntry
 
 
 class TaskDocument(DocumentModel):

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from rgss.tasks.steps.kinds import RestingMachine, Step, StepMachine
     from rgss.tasks.steps.move import MoveStep, Target
     from rgss.tasks.steps.move_kind import MoveKind
+    from rgss.tasks.steps.neutral import NeutralStep
     from rgss.tasks.steps.release import ReleaseStep
     from rgss.tasks.steps.step_control import StepControl
     from rgss.tasks.steps.wait import WaitStep

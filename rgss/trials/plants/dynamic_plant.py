@@ -15,8 +15,8 @@ import numpy as np
 from rgss.evidence import Failure, Metric
 from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.scenes import Gripper, JointKind, Scene, Workpiece, grasp_opening_m, object_in_hand
-from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, Step, StepControl, TaskProgram, WaitStep
+from rgss.scenes import Gripper, JointKind, Scene, Workpiece, grasp_opening_m, object_in_hand, unpowered_shortfall
+from rgss.tasks import CheckStep, GripStep, MoveStep, NeutralStep, ReleaseStep, Step, StepControl, TaskProgram, WaitStep
 from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics_by_differences
@@ -136,6 +136,12 @@ class DynamicPlant:
         self._model = self._empty
         opening_s = self._hand.opening_s(self._grips.view_of(step))
         return self._rest(step, opening_s, {"opening_s": opening_s})
+
+    def neutral(self, step: NeutralStep) -> PhaseResult:
+        """Rest for the duration of a command; what the unpowered fingers do not hold is dropped."""
+        result = self._rest(step, self._hand.least_opening_s or self._hand.longest_travel_s, {})
+        why = unpowered_shortfall(self._gripper, self._grips.view_of(step)) if self._grips.is_lifted(step) else ""
+        return replace(result, failure=Failure.OBJECT_DROPPED, detail=why) if why else result
 
     def wait(self, step: WaitStep) -> PhaseResult:
         """Hold the configuration with the held object."""

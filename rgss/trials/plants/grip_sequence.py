@@ -22,7 +22,9 @@ class GripSequence:
             name: scene if name == scene.workpiece.id else scene_about(scene, name, place="", placements=placements)
             for name in placements
         }
-        self._views = {stage.step.name: views[stage.object] for stage in stages_of(task, scene.workpiece.id)}
+        stages = stages_of(task, scene.workpiece.id)
+        self._views = {stage.step.name: views[stage.object] for stage in stages}
+        self._lifted = {stage.step.name for stage in stages if stage.is_held and not stage.is_standing}
         self._geometry = geometry
 
     def view_of(self, step: Step) -> Scene:
@@ -32,6 +34,14 @@ class GripSequence:
             step: The step.
         """
         return self._views[step.name]
+
+    def is_lifted(self, step: Step) -> bool:
+        """True if the hand alone holds the object during a step.
+
+        Args:
+            step: The step.
+        """
+        return step.name in self._lifted
 
     def travel_m(self, step: Step) -> float:
         """Travel in m of a finger from open to contact with the object of a step.

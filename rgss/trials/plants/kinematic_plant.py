@@ -13,8 +13,8 @@ from functools import lru_cache
 import numpy as np
 
 from rgss.evidence import Failure, Metric
-from rgss.scenes import Gripper, Joint
-from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, WaitStep
+from rgss.scenes import Gripper, Joint, unpowered_shortfall
+from rgss.tasks import CheckStep, GripStep, MoveStep, NeutralStep, ReleaseStep, WaitStep
 from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import tool_metrics_by_differences
@@ -69,6 +69,7 @@ class KinematicPlant:
         """
         self._tool = tool
         self._joints = joints
+        self._gripper = gripper
         self._hand = hand_of(gripper)
         self._grips = grips
         self._control = control
@@ -111,6 +112,12 @@ class KinematicPlant:
         """Open: the same travel back."""
         opening_s = self._hand.opening_s(self._grips.view_of(step))
         return self._result(step.name, opening_s, {"opening_s": opening_s})
+
+    def neutral(self, step: NeutralStep) -> PhaseResult:
+        """Rest for the duration of a command; what the unpowered fingers do not hold is dropped."""
+        result = self._result(step.name, self._hand.least_opening_s or self._hand.longest_travel_s, {})
+        why = unpowered_shortfall(self._gripper, self._grips.view_of(step)) if self._grips.is_lifted(step) else ""
+        return replace(result, failure=Failure.OBJECT_DROPPED, detail=why) if why else result
 
     def wait(self, step: WaitStep) -> PhaseResult:
         """Hold the configuration."""
