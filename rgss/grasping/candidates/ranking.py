@@ -13,7 +13,9 @@ from rgss.grasping.candidates.boxes import box_frames
 from rgss.grasping.candidates.cylinders import cylinder_frames
 from rgss.grasping.candidates.fingertips import off_support
 from rgss.grasping.candidates.frames import ToolFrame, approach_of
+from rgss.grasping.candidates.hand_symmetry import with_half_turns
 from rgss.grasping.candidates.meshes import antipodal_frames
+from rgss.grasping.candidates.ranked_grasp import RankedGrasp
 from rgss.grasping.candidates.scoring import com_distance_m, contact_points, quality_1
 from rgss.scenes import (
     Approach,
@@ -22,7 +24,6 @@ from rgss.scenes import (
     GripperGeometry,
     MeshShape,
     Pose,
-    SuctionPoint,
     Workpiece,
     centre_of_mass,
     settled_grasp,
@@ -44,30 +45,6 @@ class FrameRejection(str, Enum):
     RIM = "rim of a pad"
     NO_FORCE_CLOSURE = "no force closure"
     SEAL = "no flat face under the whole lip"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RankedGrasp:
-    """A candidate with its quality.
-
-    Attributes:
-        id: Its name.
-        tool_in_object: Transform of the grasp-centre frame to the object's frame.
-        opening_m: Distance of the pads from the gripper's axis.
-        approach: Kind of its approach.
-        quality_1: Smallest maximum wrench for finger forces of 1 N; for a cup, the weight that it holds divided by its
-        force.
-        com_distance_m: Distance of the centre of mass from the line or the centre of the contacts.
-        suction: Pose of a suction cup on the object; None for fingers.
-    """
-
-    id: str
-    tool_in_object: Pose
-    opening_m: float
-    approach: Approach
-    quality_1: float
-    com_distance_m: float
-    suction: SuctionPoint | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,6 +81,8 @@ def ranked_grasps(
 ) -> RankedGrasps:
     """Grasp candidates of an object, ordered by quality, then distance of the centre of mass, then approach.
 
+    Of a symmetric hand the half turn of each is a candidate too.
+
     Args:
         workpiece: The object.
         geometry: The gripper's shape.
@@ -133,7 +112,7 @@ def ranked_grasps(
     )
     nearest = {FrameRejection.TOO_WIDE: min, FrameRejection.TOO_NARROW: max}
     return RankedGrasps(
-        grasps=tuple(found),
+        grasps=with_half_turns(found, geometry),
         rejected_frames=dict(rejected_frames),
         nearest_opening_m={why: of(openings_m[why]) for why, of in nearest.items() if why in openings_m},
     )

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.grasping.candidates.frames import approach_of, tool_frame
-from rgss.grasping.candidates.ranking import FrameRejection, RankedGrasp, RankedGrasps
+from rgss.grasping.candidates.ranked_grasp import RankedGrasp
+from rgss.grasping.candidates.ranking import FrameRejection, RankedGrasps
 from rgss.grasping.candidates.suction import given_suction_point, suction_points
 from rgss.scenes import (
     Approach,

@@ -133,7 +133,7 @@ def test_a_given_grasp_is_a_candidate_by_its_name():
     frame = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.01), (math.pi, 0.0, 0.0))
     given = GivenGrasp(id="rim", tool_in_object=frame, width_m=0.06)
     options = GraspCandidates(samples=0)
-    (only,) = ranked_grasps(piece(SHAPES["mesh"], grasps=(given,)), hand(2), options, friction=0.7).grasps
+    only, _ = ranked_grasps(piece(SHAPES["mesh"], grasps=(given,)), hand(2), options, friction=0.7).grasps
     assert (only.id, only.approach) == ("rim", Approach.ABOVE)
     assert only.opening_m == pytest.approx(0.03)
 
@@ -203,4 +203,34 @@ def test_a_given_grasp_is_not_raised():
     found = ranked_grasps(low, hand(2), GraspCandidates(approaches=(Approach.ABOVE,)), friction=0.7, clearance_m=0.008)
     (mine,) = (grasp for grasp in found.grasps if grasp.id == "mine")
     assert mine.tool_in_object.position_m[2] == pytest.approx(0.0, abs=1e-9)
-    assert all(grasp.id.endswith(":tips") for grasp in found.grasps if grasp.id != "mine")
+    assert all(grasp.id.endswith(":tips") for grasp in found.grasps if not grasp.id.startswith("mine"))
+
+
+def _axes(pose):
+    return np.array([pose.position_m, pose.rotate((1.0, 0.0, 0.0)), pose.rotate((0.0, 0.0, 1.0))])
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_the_half_turn_of_each_candidate_of_two_fingers_is_one_of_the_same_quality(name):
+    geometry = hand(2)
+    found = ranked_grasps(piece(SHAPES[name]), geometry, EVERY, friction=0.8).grasps
+    assert found
+    poses = np.array([_axes(one.tool_in_object) for one in found])
+    for one, axes in zip(found, poses, strict=True):
+        # The first finger where the second one was; position and approach are the same.
+        partner = np.flatnonzero(np.abs(poses - axes * [[1.0], [-1.0], [1.0]]).max(axis=(1, 2)) < 1e-6)
+        assert len(partner) >= 1
+        assert found[partner[0]].quality_1 == pytest.approx(one.quality_1, rel=1e-6)
+        assert found[partner[0]].opening_m == pytest.approx(one.opening_m, abs=1e-9)
+
+
+def test_a_given_grasp_is_tried_with_either_finger_first_and_three_fingers_have_no_half_turn():
+    down = Pose(quaternion_xyzw=(1.0, 0.0, 0.0, 0.0))
+    given = piece(SHAPES["mesh"], grasps=(GivenGrasp(id="top", tool_in_object=down, width_m=0.05),))
+    alone = GraspCandidates(approaches=(Approach.ABOVE,), samples=0)
+    two, three = (ranked_grasps(given, hand(count), alone, friction=0.8).grasps for count in (2, 3))
+    assert [one.id for one in two] == ["top", "top:turned"]
+    first, turned = (one.tool_in_object for one in two)
+    assert turned.rotate((1.0, 0.0, 0.0)) == pytest.approx([-x for x in first.rotate((1.0, 0.0, 0.0))], abs=1e-9)
+    assert turned.rotate((0.0, 0.0, 1.0)) == pytest.approx(first.rotate((0.0, 0.0, 1.0)), abs=1e-9)
+    assert not any(one.id.endswith(":turned") for one in three)
