@@ -196,6 +196,22 @@ def with_rivals(made, *rivals: Rival):
     return dataclasses.replace(made, robustness=dataclasses.replace(made.robustness, analysis=analysis))
 
 
+def test_rare_great_values_are_said_beside_the_probability(made):
+    other = with_rivals(made)
+    weighting = other.robustness.analysis.weighting
+    assert weighting.uncertainty.heavy_tailed == ()
+    uncertainty = dataclasses.replace(weighting.uncertainty, heavy_tailed=("t_e",))
+    analysis = dataclasses.replace(
+        other.robustness.analysis, weighting=dataclasses.replace(weighting, uncertainty=uncertainty)
+    )
+    tailed = dataclasses.replace(other, robustness=dataclasses.replace(other.robustness, analysis=analysis))
+    probability, caution, *_ = uncertainty_sentences(tailed)
+    assert probability.startswith("Probability that variant")
+    assert caution.startswith("t_e has rare great values, which fewer than 30 replicates of the choice")
+    assert trade_document(tailed)["conclusion"]["uncertainty"]["heavy_tailed"] == ["t_e"]
+    assert caution in decision_part(tailed)["standing"]
+
+
 def test_the_document_of_a_report_lists_the_same_ties(made):
     def rival(row, probability):
         return Rival(row=row, probability=probability, within_margin=True, replicates=None, measure=None)

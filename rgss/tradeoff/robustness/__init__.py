@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.robustness.cost_box import BoxProblem, BoxRange, box_range
     from rgss.tradeoff.robustness.effects import LEAST_USED, Effect, FactorialAnalysis, factorial_effects
     from rgss.tradeoff.robustness.flip import WeightRange, WeightShift, weight_ranges, weight_shifts
+    from rgss.tradeoff.robustness.heavy_tails import ENOUGH_REPLICATES
     from rgss.tradeoff.robustness.kept_alternatives import KeptAlternative, KeptFor, worth_keeping
     from rgss.tradeoff.robustness.outcomes import admitted_weights, common_replicates, condition_masks, noisy_outcomes
     from rgss.tradeoff.robustness.overlap import Overlap, SharedPart, overlapping_measures, shared_parts

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.tradeoff.problem import TIE_TOLERANCE, Array, EvidenceTable, Threshold
+from rgss.tradeoff.robustness.heavy_tails import heavy_tailed_measures
 from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes, good_selection
 
 TIE_PROBABILITY = 0.05
@@ -71,6 +72,7 @@ class ChoiceUncertainty:
         perfect: Expected gain by perfect knowledge.
         scarce: Requirements on a share of trials of which all alternatives together have too few to tell it from its
             threshold.
+        heavy_tailed: Measures whose skewed noise the replicates of the choice and its rivals are too few to show.
     """
 
     chosen: int
@@ -83,6 +85,7 @@ class ChoiceUncertainty:
     gains: tuple[tuple[int, float], ...]
     perfect: float
     scarce: tuple[str, ...] = ()
+    heavy_tailed: tuple[str, ...] = ()
 
 
 def choice_uncertainty(
@@ -114,6 +117,9 @@ def choice_uncertainty(
     best = feasible & (totals >= highest - TIE_TOLERANCE)
     # What cannot be chosen is worth nothing.
     worth = np.where(feasible, totals, 0.0)
+    rivals = _rivals(found, chosen, margin, replicates, estimated, single)
+    compared = [chosen, *(one.row for one in rivals)]
+    means = [measure for measure in dict.fromkeys(_deciding(found)) if measure not in proportions]
     return ChoiceUncertainty(
         chosen=chosen,
         best=best.mean(axis=0),
@@ -121,11 +127,18 @@ def choice_uncertainty(
         good=good_selection(found.totals, feasible, chosen, margin),
         as_required=float(found.as_required(chosen).mean()),
         none_feasible=float((~feasible.any(axis=1)).mean()),
-        rivals=_rivals(found, chosen, margin, replicates, estimated, single),
+        rivals=rivals,
         gains=tuple((count, _expected_gain(worth, count / (replicates + count))) for count in more),
         perfect=_expected_gain(worth, np.ones(len(replicates))),
         scarce=_scarce(found.preferences.thresholds, int(replicates.sum()), proportions),
+        heavy_tailed=heavy_tailed_measures(found.table, means, replicates[compared]),
     )
+
+
+def _deciding(found: PosteriorOutcomes) -> tuple[str, ...]:
+    """The measures that are valued or demanded."""
+    preferences = found.preferences
+    return (*preferences.weighting.deciding_measures, *(one.measure for one in preferences.thresholds))
 
 
 def _scarce(thresholds: Sequence[Threshold], trials: int, proportions: Collection[str]) -> tuple[str, ...]:

@@ -82,4 +82,5 @@ def _uncertainty(made: StudyDecision) -> Plain | None:
         "expected_gains": [{"replicates": count, "gain": gain} for count, gain in one.gains],
         "perfect_knowledge": one.perfect,
         "scarce": list(one.scarce),
+        "heavy_tailed": list(one.heavy_tailed),
     }
