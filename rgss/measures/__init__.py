@@ -5,17 +5,15 @@ from rgss.measures.definition_digests import definition_digest
 from rgss.measures.definitions import (
     Constant,
     Direction,
-    Estimator,
     InputSymbol,
     Measure,
     MeasureKind,
     MeasureSet,
-    Population,
-    Summary,
 )
 from rgss.measures.document import MeasuresDocument
 from rgss.measures.equation_gaps import ModelGap, model_gaps
 from rgss.measures.estimates import Estimate, proportion_estimate
+from rgss.measures.estimators import Estimator, Population, Summary
 from rgss.measures.evaluation import COMPLETE, design_values, evaluate, replicate_ranges, trial_values
 from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
 from rgss.measures.functions import FUNCTIONS, Value

@@ -13,13 +13,13 @@ from rgss.findings import Finding
 from rgss.measures.consistency import check_entries, check_roles
 from rgss.measures.definitions import (
     Constant,
-    Estimator,
     Measure,
     MeasureSet,
 )
 from rgss.measures.dependencies import evaluation_order, transitive_use
 from rgss.measures.dimensions import PURE, Kind, kind_of, si_unit
 from rgss.measures.document import ConstantEntry, MeasureEntry, MeasuresDocument
+from rgss.measures.estimators import Estimator
 from rgss.measures.expressions import Binary, Expression, ExpressionProblem
 from rgss.measures.parsing import parse_expression
 from rgss.measures.ratios import QUOTIENT

@@ -11,6 +11,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from rgss.documents import DocumentModel, Identifier, QuantityText, Text, UnitText
 from rgss.errors import DefinitionError
+from rgss.measures.estimators import Estimator, Population, Summary
 from rgss.measures.expressions import Expression
 from rgss.measures.ranges import Range
 from rgss.quantities import dimension
@@ -32,33 +33,6 @@ class Direction(str, Enum):
     HIGHER = "higher"
     LOWER = "lower"
     NONE = "none"
-
-
-class Estimator(str, Enum):
-    """Estimator of one value from trial values.
-
-    A mean is the mean of the trials' values; a proportion is the share of trials with the value 1; a ratio is the sum
-    of a quotient's numerators divided by the sum of its denominators.
-    """
-
-    MEAN = "mean"
-    PROPORTION = "proportion"
-    RATIO = "ratio"
-
-
-class Population(str, Enum):
-    """Population of an estimate: successful trials, or all trials."""
-
-    SUCCESSFUL = "successful"
-    ALL = "all"
-
-
-class Summary(str, Enum):
-    """Reduction of a row to the estimated number."""
-
-    SUM = "sum"
-    MEAN = "mean"
-    MAX = "max"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -249,11 +223,11 @@ class MeasureSet:
 
     def __post_init__(self) -> None:
         """Sort the inputs once: measures are evaluated for each trial of each design."""
-        trial_inputs = tuple((symbol.metric, symbol) for symbol in self.inputs if symbol.from_trial)
-        varying = {symbol.id for _, symbol in trial_inputs if not symbol.of_design}
-        of_design = frozenset(measure.id for measure in self.measures if varying.isdisjoint(self.used[measure.id]))
-        object.__setattr__(self, "trial_inputs", trial_inputs)
-        object.__setattr__(self, "of_design", of_design)
+        inputs = tuple((symbol.metric, symbol) for symbol in self.inputs if symbol.from_trial)
+        varying = {symbol.id for _, symbol in inputs if not symbol.of_design}
+        object.__setattr__(self, "trial_inputs", inputs)
+        fixed = frozenset(measure.id for measure in self.measures if varying.isdisjoint(self.used[measure.id]))
+        object.__setattr__(self, "of_design", fixed)
 
     def measure(self, id: str) -> Measure:  # noqa: A002 - the domain's word
         """Measure by id.

@@ -15,8 +15,8 @@ from rgss.measures.definitions import (
     InputSymbol,
     MeasureKind,
     NumberOrQuantityText,
-    Summary,
 )
+from rgss.measures.estimators import Summary
 
 
 class ConstantEntry(DocumentModel):

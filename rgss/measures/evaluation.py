@@ -6,8 +6,9 @@ import math
 from collections.abc import Mapping, Sequence
 
 from rgss.errors import DefinitionError
-from rgss.measures.definitions import Estimator, InputSymbol, Measure, MeasureSet, Population
+from rgss.measures.definitions import InputSymbol, Measure, MeasureSet
 from rgss.measures.estimates import Estimate, mean_estimate, proportion_estimate
+from rgss.measures.estimators import Estimator, Population
 from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.possible_values import possible_ranges, symbol_ranges
 from rgss.measures.ranges import Range

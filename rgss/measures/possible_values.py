@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from rgss.measures.definitions import Estimator, MeasureSet
+from rgss.measures.definitions import MeasureSet
+from rgss.measures.estimators import Estimator
 from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
 from rgss.measures.functions import FUNCTIONS
 from rgss.measures.ranges import Range

@@ -172,7 +172,7 @@ def test_variants_of_equal_trials_are_apart_if_a_measure_of_trials_takes_somethi
     shipped, read_trade_off_of, monkeypatch, valued, apart_by
 ):
     """If trials were the same for all, equation 4.3 would still depend on the speed, the bench on the hand."""
-    monkeypatch.setattr(until_decided, "key_of", lambda spec: "the same")
+    monkeypatch.setattr(until_decided, "keys_of", lambda specs: ["the same"] * len(specs))
     project, variants = shipped, shipped.designs.expand()
     if valued is not None:
         study = read_trade_off_of("values:", f"  - {{measure: {valued}, weight: 1.0, worst: 0.8 kg, best: 1.4 kg}}")

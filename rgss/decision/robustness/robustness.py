@@ -122,8 +122,7 @@ def analyse_robustness(
     refused: dict[str, str] = {}
     parts = PartComputer()
     resamples = _resamples(table, np.random.default_rng(project.study.seed), refused)
-    # The posterior draws are its first, as at the end of a sweep until decided: both state the same probability.
-    generator = np.random.default_rng(project.study.seed)
+    generator = np.random.default_rng(project.study.seed)  # the posterior is drawn first, as by a sweep until decided
     values = single_values(problem, table)
     weights = np.array([problem.weighting.weights[measure] for measure in problem.weighting.deciding_measures])
     chosen = None if decision.chosen is None else table.row_of(decision.chosen)

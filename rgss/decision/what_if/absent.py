@@ -15,6 +15,10 @@ def absent_input(project: Project, name: str) -> UnknownSuppositionError | None:
         project: The project with its study.
         name: Name of the input that the study does not have.
     """
+    if any(one.id == name and one.criterion is None for one in project.requirements.system):
+        return UnknownSuppositionError(
+            f"--what-if: {name} has no limit to suppose", hint="what has one names its measure under 'criterion'"
+        )
     if name.partition(".")[0] == WORKLOAD and not project.workload.cases:
         if project.study.workload.cases:
             return UnknownSuppositionError(

@@ -53,7 +53,18 @@ def printed_names(project, text, document):
     names |= {one["requirement"] for one in document["robustness"]["prices"]}
     names |= {one["id"] for one in document["robustness"]["assumptions"]}
     names |= {requirement for one in document["infeasible"] for requirement in one["requirements"]}
-    return {name for name in names if not name.startswith("evidence:")}
+    # The conclusion names requirements that trials do not decide too.
+    without_limit = {one.id for one in project.requirements.system if one.criterion is None}
+    return {name for name in names - without_limit if not name.startswith("evidence:")}
+
+
+def test_a_requirement_without_a_limit_is_told(shipped):
+    with pytest.raises(DefinitionError) as caught:
+        suppose(shipped, ["SYS-011=1"])
+
+    assert str(caught.value) == (
+        "--what-if: SYS-011 has no limit to suppose (what has one names its measure under 'criterion')"
+    )
 
 
 @pytest.mark.parametrize("study", STUDIES)

@@ -43,17 +43,7 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
         }
         for gap in made.gaps
     ]
-    document["verified_by_equation"] = [
-        {
-            "requirement": one.requirement,
-            "measure": one.measure,
-            "simulated_as": one.simulated_as,
-            "compared": one.compared,
-            "otherwise": list(one.otherwise),
-            "greatest_difference": one.greatest,
-        }
-        for one in made.equations
-    ]
+    document["verified_by_equation"] = _equations_to_json(made)
     document["readings"] = [
         {
             "measure": one.reading.measure,
@@ -88,6 +78,20 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
     reopened = () if what_if is None else what_if.reopened
     document["screening"] = None if screened is None else {**screening_to_json(screened), "would_go_on": list(reopened)}
     return document
+
+
+def _equations_to_json(made: StudyDecision) -> list[dict[str, Any]]:
+    return [
+        {
+            "requirement": one.requirement,
+            "measure": one.measure,
+            "simulated_as": one.simulated_as,
+            "compared": one.compared,
+            "otherwise": list(one.otherwise),
+            "greatest_difference": one.greatest,
+        }
+        for one in made.equations
+    ]
 
 
 def portfolio_to_json(portfolio: PortfolioDecision) -> dict[str, Any]:
