@@ -20,6 +20,7 @@ from rgss.trials.workcell import cell_of, with_grasp_of
 _INSET_SHARE = 0.35
 _INSET_MARGIN_SHARE = 0.02
 _FRAME_COLOUR = 255
+_INSTANTS = 16
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -75,6 +76,8 @@ class Film:
         with ExitStack() as cameras:  # closes the first camera if the second fails
             open_camera = partial(Camera, scene, spec.gripper, places=marked_places(scene, spec.task).values())
             self._camera = cameras.enter_context(open_camera(view, width=width, height=height))
+            last = len(trace.time_s) - 1
+            self._camera.fit(self._posture(round(last * place / _INSTANTS)) for place in range(_INSTANTS + 1))
             if inset is not None:
                 across, down = round(_INSET_SHARE * width), round(_INSET_SHARE * height)
                 self._inset = cameras.enter_context(open_camera(inset, width=across, height=down))
@@ -105,16 +108,19 @@ class Film:
         """Frame at the end of each phase that ran."""
         return tuple(self._frame(span.last) for span in self._trace.spans)
 
-    def _frame(self, sample: int) -> Frame:
+    def _posture(self, sample: int) -> Posture:
         trace = self._trace
         present = _pose([*trace.workpiece_position_m[sample], *trace.workpiece_quaternion_xyzw[sample]])
         objects = {name: _pose(rows[sample]) for name, rows in trace.objects.items()}
-        posture = Posture(
+        return Posture(
             joints_rad=trace.joint_positions_rad[sample].tolist(),
             finger_travel_m=trace.finger_travel_m[sample].tolist(),
             workpiece=objects.pop(self._first, present),
             others=objects,
         )
+
+    def _frame(self, sample: int) -> Frame:
+        trace, posture = self._trace, self._posture(sample)
         picture = self._camera.picture(posture)
         if self._inset is not None:
             _set_into(picture, self._inset.picture(posture))

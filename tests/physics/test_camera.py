@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from rgss.errors import SimulationError
-from rgss.physics.camera import VIEWS, Camera, View
 from rgss.physics.engine import pybullet
-from rgss.physics.rendering import Lens, Window, draw
-from rgss.physics.shadows import darkness
+from rgss.physics.pictures.camera import VIEWS, Camera, View
+from rgss.physics.pictures.rendering import Lens, Window, draw
+from rgss.physics.pictures.shadows import darkness
 from rgss.physics.stage import FINGER_COLOUR, GRIPPER_BASE_COLOUR, Posture
 from rgss.scenes import Pose
 

@@ -11,8 +11,8 @@ import pytest
 
 from rgss.evidence import Fidelity, PhaseOutcome, record_digest
 from rgss.kinematics import Arm
-from rgss.physics import camera
-from rgss.physics.camera import VIEWS, Camera
+from rgss.physics.pictures import camera
+from rgss.physics.pictures.camera import VIEWS, Camera
 from rgss.scenes import Box, SceneObject
 from rgss.trials.filming import Film
 from rgss.trials.pieces.run import run_trial

@@ -310,8 +310,8 @@ def test_what_makes_no_piece_is_in_no_digest(piece):
     assert not {name for name in modules if name.split(".")[1] in ("cli", "reports", "studies", "tradeoff", "trace")}
     assert not modules & {
         "rgss.evidence.store.store",
-        "rgss.physics.camera",
-        "rgss.physics.rendering",
+        "rgss.physics.pictures.camera",
+        "rgss.physics.pictures.rendering",
         "rgss.scenes.scene_file",
         "rgss.trials.filming",
         "rgss.trials.lifecycle",

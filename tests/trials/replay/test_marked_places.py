@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from rgss.physics import Camera, Posture
-from rgss.physics.camera import View
+from rgss.physics.pictures.camera import View
 from rgss.scenes import NamedPlace, PlaceRegion
 from rgss.studies import load_project, trial_specs
 from rgss.tasks import HandAction, default_task

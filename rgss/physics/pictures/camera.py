@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.physics.rendering import Array, Lens, Picture, Vector, Window, draw
-from rgss.physics.shadows import Light, Receiver, darkness
+from rgss.physics.pictures.framing import Framing, corners_of, framed_corners, framing
+from rgss.physics.pictures.rendering import Array, Lens, Picture, Vector, Window, draw
+from rgss.physics.pictures.shadows import Light, Receiver, darkness
 from rgss.physics.stage import Posture, Stage
 from rgss.scenes import Gripper, PlaceRegion, Scene
 
@@ -34,19 +35,23 @@ class View:
         elevation_rad: Elevation of the camera above the horizontal, seen from its target.
         distance_m: Distance of the camera from its target.
         follows_tool: True if the target is the grasp centre; else it is just above the middle of the task.
+        is_fitted: True if target and distance are those at which a trial is in the picture, where the trial is known.
     """
 
     azimuth_rad: float
     elevation_rad: float
     distance_m: float
     follows_tool: bool = False
+    is_fitted: bool = False
 
 
 VIEWS: Mapping[str, View] = MappingProxyType(
     {
-        "overview": View(azimuth_rad=math.radians(215), elevation_rad=math.radians(25), distance_m=2.85),
+        "overview": View(
+            azimuth_rad=math.radians(215), elevation_rad=math.radians(25), distance_m=2.85, is_fitted=True
+        ),
         "hand": View(azimuth_rad=math.radians(235), elevation_rad=math.radians(14), distance_m=0.85, follows_tool=True),
-        "side": View(azimuth_rad=math.radians(230), elevation_rad=math.radians(8), distance_m=2.8),
+        "side": View(azimuth_rad=math.radians(230), elevation_rad=math.radians(8), distance_m=2.8, is_fitted=True),
     }
 )
 """Predefined views by name, for scenes of the size of an arm's reach."""
@@ -100,6 +105,8 @@ class Camera:
         grasp, place = scene.grasp.position_m, scene.place_pose.position_m
         x, y, z = ((a + b) / 2 for a, b in zip(grasp, place, strict=True))
         self._middle = (x, y, z + _ABOVE_M)
+        self._framing: Framing | None = None
+        self._reach_m = min(_ARM_REACH_M, 1.2 * view.distance_m)
         self._background: _Background | None = None
         self._sun = Light(self._middle, reach_m=_SCENE_REACH_M, resolution=1024, tolerance_m=0.045)
         self._sun_depths: Array | None = None
@@ -117,6 +124,30 @@ class Camera:
         """Close the stage; closing twice is allowed."""
         self._stage.close()
 
+    def fit(self, postures: Iterable[Posture]) -> None:
+        """Move the camera so that what moves is in every picture, with what it stands on or passes; see `View`.
+
+        Args:
+            postures: Postures of the trial.
+        """
+        if not self._view.is_fitted:
+            return
+        moving: list[Vector] = []
+        for posture in postures:
+            self._stage.take(posture)
+            moving += self._stage.corners()
+        points = np.array(moving, dtype=float)
+        self._framing = framing(
+            framed_corners(points, [corners_of(solid) for solid in self._stage.solids() if not solid.link]),
+            azimuth_rad=self._view.azimuth_rad,
+            elevation_rad=self._view.elevation_rad,
+            field_of_view_rad=_FIELD_OF_VIEW_RAD,
+            aspect=self._width / self._height,
+        )
+        # The light that follows the moving bodies covers all of them.
+        self._reach_m = min(_ARM_REACH_M, float(np.linalg.norm(np.ptp(points, axis=0))))
+        self._background = None
+
     def picture(self, posture: Posture) -> Picture:
         """Render the scene.
 
@@ -127,8 +158,7 @@ class Camera:
         stage.take(posture)
         target = stage.tool_position() if self._view.follows_tool else self._middle
         lens = self._lens(target)
-        reach = min(_ARM_REACH_M, 1.2 * self._view.distance_m)
-        light = Light(target, reach_m=reach, resolution=640, tolerance_m=0.005)
+        light = Light(target, reach_m=self._reach_m, resolution=640, tolerance_m=0.005)
         # Fixed bodies are drawn once, if the camera is fixed too.
         if self._background is None or self._view.follows_tool:
             self._background = self._draw_background(lens, light)
@@ -178,13 +208,15 @@ class Camera:
         across = view.distance_m * math.cos(view.elevation_rad)
         along = (math.cos(view.azimuth_rad), math.sin(view.azimuth_rad))
         straight_down = across < 1e-3 * view.distance_m
+        eye = (
+            target[0] + across * along[0],
+            target[1] + across * along[1],
+            target[2] + view.distance_m * math.sin(view.elevation_rad),
+        )
+        fitted = self._framing
         return Lens(
-            eye_m=(
-                target[0] + across * along[0],
-                target[1] + across * along[1],
-                target[2] + view.distance_m * math.sin(view.elevation_rad),
-            ),
-            target_m=target,
+            eye_m=eye if fitted is None else fitted.eye_m,
+            target_m=target if fitted is None else fitted.target_m,
             up=(-along[0], -along[1], 0.0) if straight_down else (0.0, 0.0, 1.0),
             field_of_view_rad=_FIELD_OF_VIEW_RAD,
             width=self._width,

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.physics.rendering import AMBIENT, DIFFUSE, TOWARDS_LIGHT, Array, Lens, Vector, draw
+from rgss.physics.pictures.rendering import AMBIENT, DIFFUSE, TOWARDS_LIGHT, Array, Lens, Vector, draw
 
 _DISTANCE_M = 15.0
 _NEIGHBOURS = (-1, 0, 1)
