@@ -14,7 +14,7 @@ _DIGEST = re.compile(r"[0-9a-f]{8,64}")
 ABSENT = "–"
 """The value of an input that is not there."""
 
-_NOTHING = "None"
+_NOTHING = frozenset({ABSENT, "None", "''", "[]", "{}"})
 
 
 class InputKind(str, Enum):
@@ -69,8 +69,8 @@ def value_changes(baseline: Baseline, now: Inputs) -> Iterator[InputChange]:
         then, present = baseline.inputs_of(run, variant), now[run][variant]
         for name in sorted(then.keys() | present.keys()):
             was, is_now = then.get(name, ABSENT), present.get(name, ABSENT)
-            # A later release may have more inputs, which are not used where they are None.
-            if was != is_now and {was, is_now} != {ABSENT, _NOTHING}:
+            # A later release may have more inputs, which are not used where they are None or empty.
+            if was != is_now and not (ABSENT in (was, is_now) and {was, is_now} <= _NOTHING):
                 found.setdefault((name, was, is_now), []).append((run, variant))
     for (name, was, is_now), places in found.items():
         where = "" if len(places) == len(known) else _where(places)

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 ABSENT = "–"
-_NOTHING = "None"
+_NOTHING = frozenset({ABSENT, "None", "''", "[]", "{}"})
+"""Texts of values that are as good as absent: a later release may have more inputs, which are not used with these."""
+
 _TITLES = ("phase", "subtask", "id", "name")
 
 
@@ -29,7 +31,7 @@ class Change:
 def changes_between(then: Any, now: Any) -> tuple[Change, ...]:
     """Every value that differs, by its dotted name, in the order of the values, and then every list in another order.
 
-    A value that is None is the same as one that is absent.
+    A value that is None or empty is the same as one that is absent.
 
     Args:
         then: Plain data: mappings, lists, texts, numbers.
@@ -39,10 +41,14 @@ def changes_between(then: Any, now: Any) -> tuple[Change, ...]:
     values = (
         Change(name=name, then=before.get(name, ABSENT), now=after.get(name, ABSENT))
         for name in dict.fromkeys([*before, *after])
-        # A later release may have more inputs, which are not used where they are None.
-        if before.get(name, _NOTHING) != after.get(name, _NOTHING)
+        if _differ(before.get(name, ABSENT), after.get(name, ABSENT))
     )
     return (*values, *_reordered(then, now, ""))
+
+
+def _differ(then: str, now: str) -> bool:
+    is_unused = ABSENT in (then, now) and {then, now} <= _NOTHING
+    return then != now and not is_unused
 
 
 def values_by_name(value: Any) -> dict[str, str]:

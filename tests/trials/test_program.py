@@ -13,6 +13,7 @@ from rgss.tasks import (
     CheckStep,
     GripStep,
     MoveStep,
+    NeutralStep,
     ReleaseStep,
     Step,
     Target,
@@ -31,6 +32,7 @@ STEPS = {
     GripStep: (GripStep(name=Phase.GRASP), "grip"),
     ReleaseStep: (ReleaseStep(name=Phase.PLACE), "release"),
     WaitStep: (WaitStep(name="wait", duration_s=0.5), "wait"),
+    NeutralStep: (NeutralStep(name="neutral"), "neutral"),
     CheckStep: (CHECK, "check"),
 }
 """A step of each kind, and the method of the plant that it calls."""
@@ -58,6 +60,9 @@ class ScriptedPlant:
 
     def release(self, step):
         return self._rest("release", step)
+
+    def neutral(self, step):
+        return self._rest("neutral", step)
 
     def wait(self, step):
         return self._rest("wait", step)
