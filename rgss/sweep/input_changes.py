@@ -31,8 +31,6 @@ class Change:
 def changes_between(then: Any, now: Any) -> tuple[Change, ...]:
     """Every value that differs, by its dotted name, in the order of the values, and then every list in another order.
 
-    A value that is None or empty is the same as one that is absent.
-
     Args:
         then: Plain data: mappings, lists, texts, numbers.
         now: The same as it is now.
@@ -41,14 +39,23 @@ def changes_between(then: Any, now: Any) -> tuple[Change, ...]:
     values = (
         Change(name=name, then=before.get(name, ABSENT), now=after.get(name, ABSENT))
         for name in dict.fromkeys([*before, *after])
-        if _differ(before.get(name, ABSENT), after.get(name, ABSENT))
+        if before.get(name) != after.get(name)
     )
     return (*values, *_reordered(then, now, ""))
 
 
-def _differ(then: str, now: str) -> bool:
-    is_unused = ABSENT in (then, now) and {then, now} <= _NOTHING
-    return then != now and not is_unused
+def input_changes(then: Any, now: Any) -> tuple[Change, ...]:
+    """Inputs that differ, as `changes_between` has them; one that is None or empty is the same as one that is absent.
+
+    Args:
+        then: Former inputs, as plain data.
+        now: The present ones.
+    """
+    return tuple(
+        change
+        for change in changes_between(then, now)
+        if not (ABSENT in (change.then, change.now) and {change.then, change.now} <= _NOTHING)
+    )
 
 
 def values_by_name(value: Any) -> dict[str, str]:

@@ -10,7 +10,7 @@ from typing import Any
 
 from rgss.evidence import EvidenceStore, PieceKind, StoredTrial
 from rgss.studies import CODE, named_inputs
-from rgss.sweep.input_changes import ABSENT, changes_between
+from rgss.sweep.input_changes import ABSENT, input_changes
 from rgss.sweep.task_queue import Trial
 from rgss.sweep.trial_keys import trials_of
 from rgss.trials.code import versions
@@ -174,7 +174,7 @@ def _differences(trial: Trial, stored: StoredTrial, store: EvidenceStore) -> tup
     code = _changed(Reason.CODE, then.pop(CODE, {}), now.pop(CODE))
     inputs = [
         Cause(reason=Reason.INPUT, name=change.name, then=change.then, now=change.now)
-        for change in changes_between(then, now)
+        for change in input_changes(then, now)
     ]
     return (*inputs, *engines, *code) or (Cause(reason=Reason.UNKNOWN),)
 

@@ -12,7 +12,7 @@ from rgss.evidence.records import Numerics, numerics_difference
 from rgss.studies import CODE, Project, named_inputs, trial_specs
 from rgss.sweep.agreement import Agreement, beyond_tolerance
 from rgss.sweep.engine_process import compute
-from rgss.sweep.input_changes import ABSENT, Change, changes_between
+from rgss.sweep.input_changes import ABSENT, Change, changes_between, input_changes
 from rgss.sweep.trial_keys import key_of
 from rgss.trials import mujoco_settings
 from rgss.trials.code import are_of_this_kind, fixed_numerics, versions
@@ -136,7 +136,7 @@ def replay(project: Project, stored: StoredTrial, *, inputs: Mapping[str, Any] |
         inputs=_changed_pieces(spec, stored),
         changes=()
         if inputs is None
-        else changes_between(_without_code(inputs), _without_code(named_inputs(spec).values)),
+        else input_changes(_without_code(inputs), _without_code(named_inputs(spec).values)),
         differences=()
         if record_digest(again) == stored.content_digest
         else changes_between(to_plain(record), to_plain(again)),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rgss.sweep.input_changes import Change, changes_between
+from rgss.sweep.input_changes import Change, changes_between, input_changes
 
 
 @pytest.mark.parametrize(
@@ -17,12 +17,10 @@ from rgss.sweep.input_changes import Change, changes_between
         ({"a": {"b": "x"}}, {"a": {"b": "y"}}, [("a.b", "'x'", "'y'")]),
         ({"a": [1, 2]}, {"a": [1, 3, 4]}, [("a[1]", "2", "3"), ("a[2]", "–", "4")]),
         ({"a": 1, "b": 2}, {"b": 2, "c": 3}, [("a", "1", "–"), ("c", "–", "3")]),
-        ({"a": {}}, {"a": {"b": 1}}, [("a.b", "–", "1")]),
+        ({"a": {}}, {"a": {"b": 1}}, [("a", "{}", "–"), ("a.b", "–", "1")]),
         ({"a": []}, {"a": None}, [("a", "[]", "None")]),
-        ({"a": 1}, {"a": 1, "b": None, "c": {"d": None}}, []),
-        ({"a": 1, "b": None}, {"a": 1}, []),
-        ({"a": 1}, {"a": 1, "b": "", "c": [], "d": {}}, []),
-        ({"a": 1, "b": "x"}, {"a": 1, "b": ""}, [("b", "'x'", "''")]),
+        ({"a": 1}, {"a": 1, "b": None}, [("b", "–", "None")]),
+        ({"a": 1, "b": []}, {"a": 1}, [("b", "[]", "–")]),
         ({"a": 1, "b": None}, {"a": 1, "b": "None"}, [("b", "None", "'None'")]),
         (
             {"bodies": [{"id": "table", "friction": 0.5}, {"id": "floor", "friction": 0.5}]},
@@ -54,6 +52,21 @@ from rgss.sweep.input_changes import Change, changes_between
 )
 def test_every_difference_is_named_by_its_place(then, now, expected):
     assert [(change.name, change.then, change.now) for change in changes_between(then, now)] == expected
+
+
+@pytest.mark.parametrize(
+    ("then", "now", "expected"),
+    [
+        ({"a": 1}, {"a": 1, "b": None, "c": {"d": None}}, []),
+        ({"a": 1, "b": None}, {"a": 1}, []),
+        ({"a": 1}, {"a": 1, "b": "", "c": [], "d": {}}, []),
+        ({"a": {}}, {"a": {"b": 1}}, [("a.b", "–", "1")]),
+        ({"a": 1, "b": "x"}, {"a": 2, "b": ""}, [("a", "1", "2"), ("b", "'x'", "''")]),
+        ({"a": []}, {"a": None}, [("a", "[]", "None")]),
+    ],
+)
+def test_an_input_that_is_empty_is_the_same_as_one_that_is_absent(then, now, expected):
+    assert [(change.name, change.then, change.now) for change in input_changes(then, now)] == expected
 
 
 def test_changes_come_in_the_order_of_what_was_and_then_of_what_is_new():
