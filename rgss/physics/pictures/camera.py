@@ -125,7 +125,7 @@ class Camera:
         self._stage.close()
 
     def fit(self, postures: Iterable[Posture]) -> None:
-        """Move the camera so that what moves is in every picture, with what it stands on or passes; see `View`.
+        """Fit the camera's position to the moving bodies in these postures and the fixed ones near them; see `View`.
 
         Args:
             postures: Postures of the trial.

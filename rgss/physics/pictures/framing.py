@@ -1,4 +1,4 @@
-"""Framing of a picture: the place of a camera that has what moves in view, with what it stands on or passes."""
+"""Position of a camera that shows the moving bodies of a trial and the fixed bodies near them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _BORDER = 1.04
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Framing:
-    """Place of a camera.
+    """Position of a camera and of its target.
 
     Attributes:
         eye_m: Its position in the world, shape (3,).

@@ -47,7 +47,6 @@ def timeline_to_json(timeline: Timeline, scene: ReplayScene) -> dict[str, Any]:
             }
             for one in scene.perceived
         ],
-        "middle_m": list(scene.middle_m),
     }
 
 

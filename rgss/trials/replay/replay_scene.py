@@ -138,7 +138,6 @@ class ReplayScene:
         touches: What else of the robot touched, by start; contacts of less than 0.1 s apart are one.
         lines: Planned paths and graphs of the planner.
         perceived: Error of the perceived pose of each object.
-        middle_m: Point between grasp and place in the world, the initial target of the viewer.
     """
 
     time_s: Series
@@ -147,4 +146,3 @@ class ReplayScene:
     touches: tuple[Touch, ...]
     lines: tuple[Line, ...]
     perceived: tuple[PerceivedOffset, ...]
-    middle_m: tuple[float, float, float]

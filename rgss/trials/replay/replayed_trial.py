@@ -28,7 +28,6 @@ REPLAY_RATE_HZ = 60.0
 MOST_SAMPLES = 2400
 """Greatest number of samples of a replay; longer trials are sampled at a lower rate, to limit the file size."""
 
-_ABOVE_M = 0.10
 _PERCEIVED_COLOUR = (0.55, 0.25, 0.75, 0.35)
 
 
@@ -103,8 +102,6 @@ def _scene_of(spec: TrialSpec, recorder: ReplayRecorder, end_s: float) -> Replay
     seen = [one.workpiece for one in conditions.perceived_scene.objects]
     nodes += [_object_node(one, NodeKind.PERCEIVED, [one.pose], colour=_PERCEIVED_COLOUR) for one in seen]
     forces = [recorder.contacts_of(finger, total)[chosen] for finger in range(recorder.pressing)]
-    grasp, place = true_scene.grasp.position_m, true_scene.place_pose.position_m
-    x, y, z = ((a + b) / 2 for a, b in zip(grasp, place, strict=True))
     return ReplayScene(
         time_s=recorder.times_s(total)[chosen],
         nodes=tuple(nodes),
@@ -115,7 +112,6 @@ def _scene_of(spec: TrialSpec, recorder: ReplayRecorder, end_s: float) -> Replay
         touches=recorder.touches(end_s),
         lines=planned_lines(spec),
         perceived=tuple(_offset(true.workpiece, one) for true, one in zip(true_scene.objects, seen, strict=True)),
-        middle_m=(x, y, z + _ABOVE_M),
     )
 
 
