@@ -32,6 +32,18 @@ def import_sdk(module: str, *, distribution: str, extra: str) -> ModuleType:
         ) from error
 
 
+def prints_to_stderr(module: str) -> None:
+    """Let a module of an SDK print to standard error: what it says is not part of our output.
+
+    It also prints from threads of its own at any time, so that redirecting the standard output while it is called
+    would not do.
+
+    Args:
+        module: Name of the module.
+    """
+    vars(importlib.import_module(module))["print"] = _print_to_stderr
+
+
 @contextlib.contextmanager
 def sdk_errors(message: str, *, hint: str = "") -> Iterator[None]:
     """Context that translates exceptions of an SDK, including a bare ``Exception``, into errors of the driver.
@@ -61,3 +73,7 @@ def close_sdk(disconnect: Callable[[], object]) -> None:
     # The SDKs raise a bare Exception for whatever goes wrong. The robot was stopped before.
     with contextlib.suppress(Exception):
         disconnect()
+
+
+def _print_to_stderr(*values: object, **_: object) -> None:
+    sys.stderr.write(" ".join(str(value) for value in values) + "\n")

@@ -1,21 +1,39 @@
-"""The driver of UFACTORY arms, on a double whose calls have the signatures of the real SDK."""
+"""The driver of UFACTORY arms: by the real SDK on a server of the protocol, and on a double with its signatures."""
 
 import importlib
 import inspect
+import os
+import socket
+import subprocess
 import sys
 
 import pytest
 
 from rgss.drivers import GripperState, SetPoint, StreamOutcome, StreamSettings, XarmDriver, stream
 from rgss.errors import DefinitionError, DriverError
-from tests.drivers.conftest import Robot, guard, pick_task
+from tests.drivers.conftest import Robot, guard, limits, pick_task
+from tests.drivers.xarm_server import (
+    GET_VERSION,
+    LITE6,
+    MOTION_ENABLE,
+    MOVE_SERVO_JOINT,
+    SET_MODE,
+    SET_STATE,
+    WRITE_TOOL_REGISTER,
+    XarmServer,
+)
+from tests.fixtures.processes import wait_until
+
+# Each test process has a loopback address of its own, since the report's port is fixed.
+ADDRESS = f"127.{1 + os.getpid() % 250}.{os.getpid() // 250 % 250}.9"
+UNHURRIED_S = 30.0
 
 
 class Api:
     """A controller that follows at once; it reports seven values, as the real one does, whatever its axes are."""
 
     def __init__(self, axis=3):
-        self.connected, self.axis, self.error_code = True, axis, 0
+        self.connected, self.axis, self.error_code, self.mode = True, axis, 0, 0
         self.calls = []
         self.codes = {}
         self.angles = [0.0] * 7
@@ -31,6 +49,17 @@ class Api:
     def set_servo_angle_j(self, angles, is_radian=None):
         self.angles[: len(angles)] = angles
         return self._note("set_servo_angle_j", tuple(angles), is_radian=is_radian)
+
+    def get_err_warn_code(self):
+        return self.codes.get("get_err_warn_code", 0), [self.error_code, 0]
+
+    def set_mode(self, mode):
+        code = self._note("set_mode", mode)
+        self.mode = self.mode if code else mode
+        return code
+
+    def set_timeout(self, timeout):
+        self.timeout_s = timeout
 
     def disconnect(self):
         self._note("disconnect")
@@ -90,7 +119,9 @@ def test_every_call_fits_the_signature_of_the_sdk():
         seen.add(name)
     assert {"set_servo_angle_j", "stop_lite6_gripper", "close_lite6_gripper", "set_state", "disconnect"} <= seen
     inspect.signature(_real().get_joint_states).bind(None, is_radian=True, num=2)
-    assert {"connected", "axis", "error_code"} <= set(dir(_real()))
+    inspect.signature(_real().get_err_warn_code).bind(None)
+    inspect.signature(_real().set_timeout).bind(None, 0.05)
+    assert {"connected", "axis", "error_code", "mode"} <= set(dir(_real()))
 
 
 class Outputs(Api):
@@ -232,3 +263,123 @@ def test_an_arm_that_was_enabled_is_stopped_if_the_connection_fails():
         _stream(api)
 
     assert [options or arguments for name, arguments, options in api.calls if name == "set_state"] == [(4,)]
+
+
+@pytest.fixture
+def server(monkeypatch):
+    """A Lite6 on the loopback, at a free port instead of the privileged one."""
+    with XarmServer(ADDRESS) as made:
+        ports = importlib.import_module("xarm.core.config.x_config").XCONF.SocketConf
+        monkeypatch.setattr(ports, "TCP_CONTROL_PORT", made.control_port)
+        yield made
+    # The SDK sets it for the whole process.
+    socket.setdefaulttimeout(None)
+
+
+@pytest.fixture
+def arm(server):
+    """The driver of the Lite6 on the loopback; a loaded machine may answer late."""
+    driver = XarmDriver(ADDRESS, joints=6, reply_timeout_s=UNHURRIED_S)
+    yield driver
+    driver.disconnect()
+
+
+def test_the_real_sdk_runs_a_task_on_a_server_of_the_protocol(server, arm):
+    result = stream(arm, pick_task(6), guard(limits(6)), Robot((0.0,) * 6), StreamSettings(speed=1.0))
+
+    assert (result.outcome, result.detail) == (StreamOutcome.COMPLETED, "")
+    assert len(server.points) == result.sent
+    assert server.points[-1] == pytest.approx((0.0,) * 7, abs=1e-6)
+    assert max(point[0] for point in server.points) == pytest.approx(0.5, abs=1e-6)
+    opened = [GET_VERSION, MOTION_ENABLE, SET_MODE, SET_STATE, WRITE_TOOL_REGISTER, WRITE_TOOL_REGISTER]
+    assert [asked for asked in server.requests if asked != MOVE_SERVO_JOINT][: len(opened)] == opened
+    assert (server.mode, server.state, server.outputs) == (1, 4, [0, 1])
+
+
+def test_the_real_sdk_reports_joints_and_errors(server, arm):
+    server.angles = [0.1, -0.2, 0.3, -0.4, 0.5, -0.6, 0.0]
+    arm.connect()
+    first = arm.read()
+    assert first.positions_rad == pytest.approx((0.1, -0.2, 0.3, -0.4, 0.5, -0.6))
+    assert (first.fault, len(first.velocities_rad_s)) == ("", 6)
+    assert arm.read().stamp > first.stamp
+
+    server.error = 31
+    wait_until(lambda: arm.read().fault == "the controller reports error 31")
+    with pytest.raises(DriverError, match="the xArm controller refused stop_lite6_gripper with code 1"):
+        arm.send(_point(GripperState.NEUTRAL, (0.1, -0.2, 0.3, -0.4, 0.5, -0.6)))
+
+
+def test_the_real_sdk_finds_an_error_before_the_first_report(server, arm):
+    server.error = 22
+    with pytest.raises(DriverError, match=r"the controller reports error 22 \(find its cause"):
+        arm.connect()
+    assert server.requests == [GET_VERSION]
+
+
+def test_an_arm_of_other_joints_is_told_by_the_real_sdk(server, arm):
+    server.version = LITE6.replace("6,9", "7,13")
+    with pytest.raises(DriverError, match="has 7 joints, the task moves 6"):
+        arm.connect()
+
+
+def test_a_controller_that_falls_silent_is_no_report_and_takes_nothing(server):
+    driver = XarmDriver(ADDRESS, joints=6)
+    driver.connect()
+    wait_until(lambda: driver.read().stamp >= 1.0)
+    server.is_silent = True
+    last = driver.read()
+    assert driver.read() == last
+    with pytest.raises(DriverError, match=r"the xArm controller did not answer stop_lite6_gripper \(check the net"):
+        driver.send(_point(GripperState.NEUTRAL, (0.0,) * 6))
+    with pytest.raises(DriverError, match="the xArm controller did not answer"):
+        driver.stop()
+    driver.disconnect()
+
+
+def test_a_controller_that_stays_in_another_mode_is_refused_and_stopped(server, arm, monkeypatch):
+    monkeypatch.setattr("rgss.drivers.xarm._MODE_TIMEOUT_S", 0.1)
+    server.takes_modes = False
+    with pytest.raises(DriverError, match=r"the controller reports mode 0 instead of servo motion mode \(1\)"):
+        arm.connect()
+    assert server.state == 4
+
+
+# In a process of its own: the SDK keeps the standard output that it finds when it is imported.
+ALONE = """
+import sys
+from rgss.drivers import GripperState, SetPoint, XarmDriver
+from rgss.drivers.sdk_modules import import_sdk
+import_sdk("xarm.core.config.x_config", distribution="", extra="").XCONF.SocketConf.TCP_CONTROL_PORT = int(sys.argv[2])
+driver = XarmDriver(sys.argv[1], joints=6, reply_timeout_s=30.0)
+driver.connect()
+driver.send(SetPoint(positions_rad=(0.1,) * 6, velocities_rad_s=(0.0,) * 6, gripper=GripperState.OPEN))
+driver.disconnect()
+print("sent")
+"""
+
+
+def test_nothing_of_the_sdk_reaches_the_standard_output(server):
+    command = [sys.executable, "-c", ALONE, ADDRESS, str(server.control_port)]
+    ran = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert (ran.returncode, ran.stdout) == (0, "sent\n"), ran.stderr
+    assert "ROBOT_IP" in ran.stderr
+
+
+def test_a_controller_is_found_by_its_name(server, monkeypatch):
+    monkeypatch.setattr(socket, "gethostbyname", {"lite6.example": ADDRESS}.__getitem__)
+    driver = XarmDriver("lite6.example", joints=6, reply_timeout_s=UNHURRIED_S)
+    driver.connect()
+    assert len(driver.read().positions_rad) == 6
+    driver.disconnect()
+
+
+def test_a_name_that_nobody_knows_is_one_line(monkeypatch):
+    def unknown(name):
+        raise socket.gaierror(-2, "Name or service not known")
+
+    monkeypatch.setattr(socket, "gethostbyname", unknown)
+    with pytest.raises(
+        DriverError, match=r"no xArm controller answers at lite6.example: .*not known \(check its address"
+    ):
+        XarmDriver("lite6.example", joints=6).connect()
