@@ -46,6 +46,7 @@ from rgss.documents.reader import LARGEST_FILE_BYTES, Document, read_document
 from rgss.documents.refusals import MOST_PROBLEMS, cut_short
 from rgss.documents.regular_file import chunks_of, open_regular
 from rgss.documents.schemas import json_schema
+from rgss.documents.small_sources import write_small_source
 from rgss.documents.spreadsheet_cells import (
     LONGEST_EXCEL_TEXT,
     neutralised,

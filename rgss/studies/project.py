@@ -21,8 +21,7 @@ from rgss.studies.design_settings import GRIPPER, design_findings
 from rgss.studies.finding_suppression import without_consequences
 from rgss.studies.measure_sources import metric_ranges, source_findings
 from rgss.studies.measure_traces import measure_traces
-from rgss.studies.motion import motion_findings
-from rgss.studies.neutral_steps import neutral_findings
+from rgss.studies.motion import motion_findings, neutral_findings
 from rgss.studies.project_folders import REQUIREMENTS, measures_of, requirements_named, study_file
 from rgss.studies.study import StudyDefinition, named_file, read_study
 from rgss.studies.uncertainty_findings import uncertainty_findings

@@ -9,6 +9,5 @@ if TYPE_CHECKING:
     from rgss.cli.evidence.place import EvidencePlace
     from rgss.cli.evidence.summary import summarise
     from rgss.cli.evidence.verification import verify_evidence
-    from rgss.cli.evidence.words import plural
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

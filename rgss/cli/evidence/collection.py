@@ -7,7 +7,8 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from rgss.cli.evidence.place import EvidencePlace, contents_and_studies, named_trials
-from rgss.cli.evidence.words import counted, plural, size_text
+from rgss.cli.evidence.words import counted_trials, size_text
+from rgss.counted import counted
 
 if TYPE_CHECKING:
     from rgss.evidence.store import Garbage
@@ -69,8 +70,8 @@ def collect(options: argparse.Namespace, store: EvidencePlace) -> int:
 def _garbage_lines(garbage: Garbage) -> Iterable[str]:
     if garbage.trials:
         variants = len({trial.variant for trial in garbage.trials})
-        yield f"{counted('trials', garbage.trials)} of {variants} {plural('variant', variants)}"
+        yield f"{counted_trials('trials', garbage.trials)} of {counted(variants, 'variant')}"
     for name, keys in (("piece", garbage.pieces), ("set", garbage.inputs), ("failure", garbage.failures)):
         of = {"set": " of inputs", "failure": " of the run"}.get(name, "")
         if keys:
-            yield f"{len(keys)} {plural(name, len(keys))}{of}"
+            yield f"{counted(len(keys), name)}{of}"

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from rgss.cli.evidence.place import EvidencePlace, contents_and_studies, named_trials, trials_by_study
-from rgss.cli.evidence.words import by_fidelity, counted, divided, printable_text, size_text
+from rgss.cli.evidence.words import by_fidelity, counted_trials, divided, printable_text, size_text
 
 if TYPE_CHECKING:
     from rgss.decision import NamingStudy
@@ -91,7 +91,7 @@ def _print_summary(
     from rgss.cli.output import print_table
 
     print(f"Evidence: {store.label}, {size_text(contents.size_bytes)}")
-    print(f"Trials: {len(contents.trials)}; {counted('current', current)}, {counted('stale', stale)}")
+    print(f"Trials: {len(contents.trials)}; {counted_trials('current', current)}, {counted_trials('stale', stale)}")
     kinds = ", ".join(f"{number} of kind {kind}" for kind, number in contents.pieces.items())
     print(f"Pieces: {sum(contents.pieces.values())}{f' ({kinds})' if kinds else ''}")
     print()

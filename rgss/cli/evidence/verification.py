@@ -6,7 +6,8 @@ import argparse
 from typing import TYPE_CHECKING
 
 from rgss.cli.evidence.place import EvidencePlace
-from rgss.cli.evidence.words import plural, printable_text
+from rgss.cli.evidence.words import printable_text
+from rgss.counted import counted
 
 if TYPE_CHECKING:
     from rgss.evidence.store import Verification
@@ -37,9 +38,9 @@ def verify_evidence(options: argparse.Namespace, store: EvidencePlace) -> int:
         return FINDINGS if found.damages else CLEAN
     for damage in found.damages:
         print(printable_text(f"{store.label}: {damage}"))
-    sound = ", ".join(f"{number} {plural(what, number)}" for what, number in found.sound.items())
+    sound = ", ".join(counted(number, what.removesuffix("s")) for what, number in found.sound.items())
     if found.damages:
-        print(f"{len(found.damages)} {plural('damage', len(found.damages))}; sound: {sound or 'nothing'}.")
+        print(f"{counted(len(found.damages), 'damage')}; sound: {sound or 'nothing'}.")
         print(mended or _how_to_mend(found))
         return FINDINGS
     print(f"Sound: {sound}.")
@@ -70,7 +71,7 @@ def _mend(found: Verification, store: EvidencePlace) -> str:
     removed = remove_damaged_rows(store.path, found, label=store.label)
     if not removed:
         return "The ledger is rewritten for the rows that exist; 'rgss sweep' makes the others again as needed."
-    return f"{removed} damaged {plural('row', removed)} removed; 'rgss sweep' makes their contents again."
+    return f"{counted(removed, 'damaged row')} removed; 'rgss sweep' makes their contents again."
 
 
 def _how_to_mend(found: Verification) -> str:

@@ -24,16 +24,11 @@ def by_fidelity(trials: Iterable[TrialName]) -> Mapping[str, int]:
     return dict(sorted(Counter(trial.fidelity for trial in trials).items()))
 
 
-def counted(what: str, trials: Iterable[TrialName]) -> str:
+def counted_trials(what: str, trials: Iterable[TrialName]) -> str:
     """Number of trials, in all and of each fidelity."""
     numbers = by_fidelity(trials)
     each = ", ".join(f"{number} {printable_text(fidelity)}" for fidelity, number in numbers.items())
     return f"{sum(numbers.values())} {what}{f' ({each})' if each else ''}"
-
-
-def plural(word: str, number: int) -> str:
-    """A word in singular or plural."""
-    return word if number == 1 or word == "inputs" else f"{word}s"
 
 
 def size_text(size_bytes: int) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rgss.cli.options import add_fidelity, add_replicates, chosen_project, with_sweep_options
+from rgss.counted import counted
 
 if TYPE_CHECKING:
     from rgss.cli.evidence import EvidencePlace
@@ -82,7 +83,6 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _export(options: argparse.Namespace, store: EvidencePlace) -> int:
-    from rgss.cli.evidence import plural
     from rgss.cli.main import CLEAN
     from rgss.cli.output import announce, print_json
     from rgss.decision import asked_of
@@ -105,7 +105,7 @@ def _export(options: argparse.Namespace, store: EvidencePlace) -> int:
     if options.json:
         print_json({"evidence": store.label, "file": str(options.file), "trials": count, "missing": missing})
         return CLEAN
-    announce(f"{count} {plural('trial', count)} written to {options.file}", options.file)
+    announce(f"{counted(count, 'trial')} written to {options.file}", options.file)
     if missing:
         sweep = with_sweep_options("'rgss sweep'", options)
         print(f"{missing} more {'has' if missing == 1 else 'have'} no evidence yet; {sweep} makes it.")

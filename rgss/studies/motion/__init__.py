@@ -1,4 +1,4 @@
-"""The sections ``timing`` and ``control`` of a study: velocity profile, control mode, gains and thresholds."""
+"""The sections ``timing`` and ``control`` of a study, and steps of its task that set the gripper's drive."""
 
 from typing import TYPE_CHECKING
 
@@ -6,6 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.studies.motion.calibrated import calibrated_at, motion_findings
+    from rgss.studies.motion.neutral_steps import neutral_findings
     from rgss.studies.motion.physics import PadCompliance, PhysicsEntry, pads_of, physics_findings
     from rgss.studies.motion.section import (
         ControlEntry,

@@ -8,7 +8,7 @@ from dataclasses import replace
 from datetime import date
 from pathlib import Path
 
-from rgss.documents import LARGEST_FILE_BYTES, replaced_file, unwritable
+from rgss.documents import write_small_source
 from rgss.errors import DefinitionError, EvidenceError
 from rgss.findings import shown
 from rgss.requirements import RecordedResult, RequirementSet, VerificationRecord
@@ -101,16 +101,8 @@ def write_records(folder: Path, records: Mapping[str, VerificationRecord]) -> Pa
         DefinitionError: The file would exceed the size limit of the reader, or the folder cannot be written.
         StorageError: The disk is full.
     """
-    path, content = folder / VERIFICATIONS, records_yaml(records).encode("utf-8")
-    if len(content) > LARGEST_FILE_BYTES:
-        limit = LARGEST_FILE_BYTES // (1024 * 1024)
-        raise DefinitionError(f"{len(records)} records take more than {limit} MiB", hint="give shorter notes")
-    try:
-        with replaced_file(path, replace_source=True) as part:
-            part.write_bytes(content)
-    except OSError as error:
-        raise unwritable(Path(VERIFICATIONS), error) from error
-    return path
+    text, holds = records_yaml(records), f"{len(records)} records"
+    return write_small_source(folder / VERIFICATIONS, text, holds=holds, hint="give shorter notes")
 
 
 def records_yaml(records: Mapping[str, VerificationRecord]) -> str:

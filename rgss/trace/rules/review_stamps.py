@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 
-from rgss.documents import LARGEST_FILE_BYTES, replaced_file, unwritable
+from rgss.documents import write_small_source
 from rgss.errors import DefinitionError
 from rgss.requirements import RequirementSet, Review
 from rgss.trace.rules.upstream import upstream_of_each
@@ -88,16 +88,8 @@ def write_reviews(folder: Path, reviews: Mapping[str, Review]) -> Path:
         DefinitionError: The file would exceed the size limit of the reader, or the folder cannot be written.
         StorageError: The disk is full.
     """
-    path, content = folder / REVIEWS, reviews_yaml(reviews).encode("utf-8")
-    if len(content) > LARGEST_FILE_BYTES:
-        limit = LARGEST_FILE_BYTES // (1024 * 1024)
-        raise DefinitionError(f"{len(reviews)} reviews take more than {limit} MiB", hint="review fewer elements")
-    try:
-        with replaced_file(path, replace_source=True) as part:
-            part.write_bytes(content)
-    except OSError as error:
-        raise unwritable(Path(REVIEWS), error) from error
-    return path
+    text, holds = reviews_yaml(reviews), f"{len(reviews)} reviews"
+    return write_small_source(folder / REVIEWS, text, holds=holds, hint="review fewer elements")
 
 
 def reviews_yaml(reviews: Mapping[str, Review]) -> str:

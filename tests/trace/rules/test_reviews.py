@@ -210,7 +210,7 @@ def test_a_write_that_fails_leaves_what_was_there(reviewed, monkeypatch):
 
 
 def test_more_reviews_than_can_be_read_are_not_written(project, monkeypatch):
-    monkeypatch.setattr("rgss.trace.rules.review_stamps.LARGEST_FILE_BYTES", 100)
+    monkeypatch.setattr("rgss.documents.small_sources.LARGEST_FILE_BYTES", 100)
     with pytest.raises(DefinitionError, match="1 reviews take more than 0 MiB"):
         review(project, "SYS-1")
 

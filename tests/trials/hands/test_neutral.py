@@ -12,7 +12,7 @@ from rgss.drivers import GripperState, SetPoint, SimulatedDriver
 from rgss.errors import DefinitionError
 from rgss.evidence import Failure, Fidelity
 from rgss.scenes import load_gripper_file
-from rgss.studies.neutral_steps import neutral_findings
+from rgss.studies.motion import neutral_findings
 from rgss.tasks import NeutralStep, load_task
 from rgss.trials import plan_of, timing_of
 from rgss.trials.pieces.run import Pieces
