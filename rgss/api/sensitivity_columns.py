@@ -15,7 +15,7 @@ TORNADO = FrameDescription(
         Column(name="base", meaning="its value in the study", unit=AS_UNIT, kind=Kind.NUMBER),
         Column(name="low", meaning="low end of its range", unit=AS_UNIT, kind=Kind.NUMBER),
         Column(name="high", meaning="high end of its range", unit=AS_UNIT, kind=Kind.NUMBER),
-        Column(name="range_is", meaning="stated, elicited, a share of the value, or a cut share"),
+        Column(name="range_is", meaning="stated, elicited or a share of the value, or one of these cut"),
         Column(
             name="lead_low",
             meaning="lead of the choice over the best rival at the low end; missing where it is infeasible",

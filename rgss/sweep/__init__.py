@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from rgss.sweep.evidence_writer import Origin, origin_of
     from rgss.sweep.inline_workers import InlineWorkers
     from rgss.sweep.input_changes import values_by_name
+    from rgss.sweep.kept_searches import KeptSearches
     from rgss.sweep.persistent_pool import PersistentWorkerPool
     from rgss.sweep.planner_comparison import ComparedPlanner, compared_planners, has_searches, limits_of
     from rgss.sweep.planning_history import planning_runs

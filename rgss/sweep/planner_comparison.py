@@ -10,8 +10,8 @@ from rgss.errors import DefinitionError
 from rgss.evidence import PlanOutcome
 from rgss.motion import PlannerSettings
 from rgss.studies import Project, planner_problem, trial_specs
-from rgss.sweep.engine_process import compute
-from rgss.trials import PlannedMove, TaskPlan, TrialSpec, searches_of
+from rgss.sweep.kept_searches import KeptSearches
+from rgss.trials import PlannedMove, TaskPlan, TrialSpec
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,6 +76,7 @@ def compared_planners(
     *,
     seeds: Sequence[int],
     names: Sequence[str] = (),
+    kept: KeptSearches | None = None,
     on_plan: Callable[[int, int], None] | None = None,
 ) -> tuple[ComparedPlanner, ...]:
     """Search for every move of the task with the planners of the designs and with the references.
@@ -84,6 +85,7 @@ def compared_planners(
         project: The project with its study.
         seeds: The seeds.
         names: Planners in place of those of the designs and of the study's references.
+        kept: Searches to take and to add to; none by default.
         on_plan: Callback after each task that was planned: their number so far, and how many there are.
 
     Raises:
@@ -95,12 +97,13 @@ def compared_planners(
             f"{project.study.label}: no move of task {project.study.task.id!r} is planned",
             hint="planners search for moves of mode 'planned'",
         )
+    kept = kept or KeptSearches(None)
     total, done, found = len(seeds) * sum(len(specs) for _, _, _, specs in chosen), 0, []
     for name, is_reference, settings, specs in chosen:
         plans = []
         for spec in specs:
             for seed in seeds:
-                plans.append(compute(searches_of, replace(spec, seed=seed)))
+                plans.append(kept.plan(replace(spec, seed=seed)))
                 done += 1
                 if on_plan is not None:
                     on_plan(done, total)

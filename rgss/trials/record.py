@@ -21,6 +21,9 @@ from rgss.trials.phase_result import PhaseResult
 from rgss.trials.planning import PlannedMove, TaskPlan
 from rgss.trials.trial_spec import TrialSpec
 
+_CARRIED = (Aggregation.WORST_CARRIED, Aggregation.SUM_CARRIED)
+"""Rules over the phases with an object in the hand."""
+
 _PLANNING_FAILURES = {
     PlanOutcome.BUDGET_SPENT: Failure.PLANNING_LIMIT,
     PlanOutcome.NOT_VERIFIED: Failure.PATH_NOT_VERIFIED,
@@ -158,21 +161,26 @@ def _metrics(
         "grasp_force_closure_share_1": _force_closure_share(task, phases),
         "bench_payload_kg": bench_payload_kg,
     }
+    grips, carried = frozenset(task.grips), frozenset(task.carried)
+    of_rule: dict[Aggregation | None, Sequence[PhaseRecord]] = {
+        Aggregation.AT_GRASP: [phase for phase in phases if phase.phase in grips],
+        **{rule: [phase for phase in phases if phase.phase in carried] for rule in _CARRIED},
+    }
     return {
-        name: computed[name] if metric.trial is Aggregation.COMPUTED else _aggregated(metric, task, phases)
+        name: computed[name]
+        if metric.trial is Aggregation.COMPUTED
+        else _aggregated(metric, task, of_rule.get(metric.trial, phases))
         for name, metric in METRICS.items()
     }
 
 
 def _aggregated(metric: MetricDescriptor, task: TaskProgram, phases: Sequence[PhaseRecord]) -> Metric:
-    """Aggregated value of the trial; None if no phase has a value."""
+    """Aggregated value of the trial over the phases of the rule; None if none of them has a value."""
     rule = metric.trial
     if rule is Aggregation.AT_GRASP:
-        return _at_grasps(metric, [phase for phase in phases if phase.phase in task.grips])
+        return _at_grasps(metric, phases)
     if rule is Aggregation.OF_GREATEST:
         return _of_greatest(metric, phases)
-    if rule in (Aggregation.WORST_CARRIED, Aggregation.SUM_CARRIED):
-        phases = [phase for phase in phases if phase.phase in task.carried]
     values = [value for phase in phases if (value := phase.metrics.get(metric.name)) is not None]
     if not values:
         return None

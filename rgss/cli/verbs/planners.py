@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.errors import DefinitionError
     from rgss.reports.study import planner_data
     from rgss.studies import MOST_REPLICATES
-    from rgss.sweep import compared_planners, limits_of
+    from rgss.sweep import KeptSearches, compared_planners, limits_of
 
     require_engines("'rgss planners'")
     project = chosen_project(options)
@@ -42,7 +42,8 @@ def run(options: argparse.Namespace) -> int:
         raise DefinitionError(f"--seeds must be from 1 to {MOST_REPLICATES}", hint="omit it for the study's number")
     seeds = range(project.study.seed, project.study.seed + number)
     names = [name.strip() for name in (options.only or "").split(",") if name.strip()]
-    compared = compared_planners(project, seeds=seeds, names=names, on_plan=_report)
+    kept = KeptSearches.beside(project.evidence)
+    compared = compared_planners(project, seeds=seeds, names=names, kept=kept, on_plan=_report)
     limits_s = limits_of(project)
     if options.json:
         print_json(

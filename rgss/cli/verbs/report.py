@@ -204,7 +204,7 @@ def _planners(options: argparse.Namespace, project: Project) -> dict[str, Any] |
     """Planners of the designs and the study's references on the same moves; None if they are not compared."""
     from rgss.engines import missing_engines
     from rgss.reports.study import planner_comparison
-    from rgss.sweep import compared_planners, has_searches, limits_of
+    from rgss.sweep import KeptSearches, compared_planners, has_searches, limits_of
 
     # The board edition has no room for the comparison.
     if options.no_planners or options.board:
@@ -213,7 +213,8 @@ def _planners(options: argparse.Namespace, project: Project) -> dict[str, Any] |
     if missing_engines() or not study.planning.references or not has_searches(project):
         return None
     seeds = range(study.seed, study.seed + min(study.replicates, MOST_PLANNED_SEEDS))
-    return planner_comparison(compared_planners(project, seeds=seeds), limits_of(project), seeds)
+    compared = compared_planners(project, seeds=seeds, kept=KeptSearches.beside(project.evidence))
+    return planner_comparison(compared, limits_of(project), seeds)
 
 
 def _check_file(path: Path) -> None:

@@ -10,7 +10,7 @@ from rgss.studies import Project
 
 _NAMES: Mapping[str, str] = MappingProxyType(
     {
-        PRICES: "All assumed prices",
+        PRICES: "All assumed prices of components",
         "fidelity": "Fidelity of the trials",
         "physics.rate": "Rate of the physics engine",
         "physics.solver_iterations": "Solver iterations of a physics step",

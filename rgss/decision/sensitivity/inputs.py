@@ -22,13 +22,19 @@ class InputKind(str, Enum):
 class RangeBasis(str, Enum):
     """Source of a range: stated in the study, elicited, or a share of the value by convention.
 
-    A cut share ends where a value that is anchored on the input would be undefined.
+    A cut one ends where a value that is anchored on the input would be undefined.
     """
 
     STATED = "stated"
     ELICITED = "elicited"
     SHARE = "share"
     CUT_SHARE = "cut_share"
+    CUT_STATED = "cut_stated"
+
+    @property
+    def cut(self) -> RangeBasis:
+        """Basis of a range that ends before the end it had; an elicited one is of weights, which are always defined."""
+        return RangeBasis.CUT_STATED if self is RangeBasis.STATED else RangeBasis.CUT_SHARE
 
 
 class FlipSearch(str, Enum):

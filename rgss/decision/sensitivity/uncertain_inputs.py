@@ -114,8 +114,7 @@ def _anchors(standings: Standings, book: RangeBook) -> Iterator[UncertainInput]:
             name = f"value.{valued.measure}.{key}"
             low, high, basis = book.range_of(name, unit, anchor, spread, least=least)
             standing = standings.with_anchor(valued, key)
-            if basis is RangeBasis.SHARE:
-                low, high, basis = _where_defined(standing, anchor, low, high)
+            low, high, basis = _where_defined(standing, anchor, low, high, basis)
             yield UncertainInput(
                 id=name,
                 kind=InputKind.ANCHOR,
@@ -163,8 +162,8 @@ def _thresholds(standings: Standings, book: RangeBook) -> Iterator[UncertainInpu
         spread = book.choice.thresholds * abs(base)
         low, high, basis = book.range_of(name, threshold.unit, base, spread)
         standing = standings.with_threshold(threshold.requirement)
-        if moved_along and basis is RangeBasis.SHARE:
-            low, high, basis = _where_defined(standing, base, low, high)
+        if moved_along:
+            low, high, basis = _where_defined(standing, base, low, high, basis)
         yield UncertainInput(
             id=name,
             kind=InputKind.THRESHOLD,
@@ -181,11 +180,11 @@ def _thresholds(standings: Standings, book: RangeBook) -> Iterator[UncertainInpu
 
 
 def _where_defined(
-    standing: Callable[[float], Standing], base: float, low: float, high: float
+    standing: Callable[[float], Standing], base: float, low: float, high: float, basis: RangeBasis
 ) -> tuple[float, float, RangeBasis]:
-    """A share of a value as a range, cut where the values that are anchored on the input are not defined."""
+    """A range, cut where the values that are anchored on the input are not defined."""
     ends = (_nearest_defined(standing, base, low), _nearest_defined(standing, base, high))
-    return (*ends, RangeBasis.SHARE if ends == (low, high) else RangeBasis.CUT_SHARE)
+    return (*ends, basis if ends == (low, high) else basis.cut)
 
 
 def _nearest_defined(standing: Callable[[float], Standing], base: float, end: float) -> float:

@@ -28,7 +28,7 @@ from rgss.tradeoff.problem import EVIDENCE_PREFIX
 
 WEIGHT, VALUE = "weight", "value"
 PRICES = "prices"
-"""A factor on every assumed price."""
+"""A factor on every assumed price of the catalogue."""
 
 EXAMPLE = 'weight.t_p=0.4, "SYS-012.threshold=0.8 kg" or "catalogue.kg-2-light.cost=4500 USD"'
 
@@ -251,7 +251,7 @@ def _number(project: Project, name: str, text: str) -> tuple[Change, Project]:
 
 
 def _prices(project: Project, text: str) -> tuple[list[Change], Project]:
-    """Every assumed price times a factor."""
+    """Every assumed price of the catalogue times a factor."""
     factor = _quantity(PRICES, text, "1")
     if factor < 0.0:
         raise DefinitionError(f"--what-if: {PRICES} must be a factor of at least 0, got {factor:g}")

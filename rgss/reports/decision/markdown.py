@@ -182,16 +182,19 @@ def _costs(found: RobustnessFindings) -> Iterator[str]:
     box, refused = found.analysis.costs, found.analysis.refused
     if box is None:
         if "costs" in refused:
-            yield f"*Whether the assumed costs matter* was not analysed: {refused['costs']}."
+            yield f"*Whether the assumed costs of components matter* was not analysed: {refused['costs']}."
         return
     if box.range.factor is None:
-        yield "*The assumed costs do not matter*: the choice stands wherever they are from 0 to twice what is assumed."
+        yield (
+            "*The assumed costs of components do not matter*: the choice stands wherever they are from 0 to twice "
+            "what is assumed."
+        )
         return
     winners = found.variants(box.range.overtaken_by)
     then = f"{variants_text(winners)} can win" if winners else "the choice can be infeasible"
     yield (
-        f"*The assumed costs matter.* All of them together may be off by ±{share_in_words(box.range.factor)} "
-        f"before {then}. Alone, the choice stands while"
+        "*The assumed costs of components matter.* All of them together may be off by "
+        f"±{share_in_words(box.range.factor)} before {then}. Alone, the choice stands while"
     )
     yield ""
     costs = {number.id for number in box.numbers}

@@ -72,10 +72,10 @@ def bend_sentences(bends: Sequence[BentValue]) -> Iterator[str]:
 
 def range_sentence(tornado: Tornado) -> str:
     """Sentence on the sources of the ranges."""
-    stated = sum(bar.basis.value == "stated" for bar in tornado.bars)
+    stated = sum(bar.basis.value in ("stated", "cut_stated") for bar in tornado.bars)
     elicited = sum(bar.basis.value == "elicited" for bar in tornado.bars)
     shares = len(tornado.bars) - stated - elicited
-    cut = [bar.id for bar in tornado.bars if bar.basis.value == "cut_share"]
+    cut = [bar.id for bar in tornado.bars if bar.basis.value.startswith("cut_")]
     smaller = f" Nearer, since beyond it a value function is not defined: {', '.join(cut)}." if cut else ""
     return (
         f"Of the ranges {stated} are stated, {elicited} elicited and {shares} a share of the value, which is a "

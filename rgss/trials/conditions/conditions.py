@@ -13,7 +13,8 @@ from types import MappingProxyType
 
 from rgss.errors import DefinitionError
 from rgss.scenes import Cylinder, Gripper, Scene, Workpiece, with_raised_stack
-from rgss.scenes.uncertainty import Application, Case, UncertainQuantity, draws_of, in_order, quantity_of
+from rgss.scenes.uncertainty import Application, Case, UncertainQuantity, draws_of, in_order
+from rgss.trials.conditions.inputs import ConditionInputs, condition_inputs
 from rgss.trials.conditions.object_conditions import (
     ObjectConditions,
     moved,
@@ -154,8 +155,7 @@ def conditions_of(spec: TrialSpec) -> Conditions:
     Args:
         spec: The trial.
     """
-    known = replace(spec, variant=0, planner="", planning_limit_s=0.0)
-    return _conditions_of(known)
+    return conditions_from(condition_inputs(spec))
 
 
 def nominal_conditions(spec: TrialSpec) -> Conditions:
@@ -164,8 +164,33 @@ def nominal_conditions(spec: TrialSpec) -> Conditions:
     Args:
         spec: The trial.
     """
-    case = spec.workload.case_of(spec.seed)
-    scene, gripper = _scene_of(spec.scene, case), spec.gripper
+    return _nominal(condition_inputs(spec))
+
+
+@lru_cache(maxsize=_KEPT)
+def conditions_from(inputs: ConditionInputs) -> Conditions:
+    """Conditions from what they depend on.
+
+    Args:
+        inputs: The inputs of the conditions.
+    """
+    nominal = _nominal(inputs)
+    joints = len(inputs.scene.robot.joints)
+    draws = draws_of(inputs.uncertainty, inputs.seed, joints=joints) if inputs.uncertainty.values else _NO_DRAWS
+    quantities = in_order(inputs.uncertainty.names)
+    own = _changes([one for one in quantities if not one.object], draws, nominal)
+    drawn = {one.object for one in quantities if one.object}
+    others = []
+    for known in (one.workpiece for one in inputs.scene.others if one.workpiece.id in drawn):
+        before = nominal_object(known)
+        changes = _changes([one for one in quantities if one.object == known.id], draws, before)
+        others.append(replace(before, **changes))  # type: ignore[arg-type]
+    return replace(nominal, draws=draws, others=tuple(others), **own)  # type: ignore[arg-type]
+
+
+def _nominal(inputs: ConditionInputs) -> Conditions:
+    case = inputs.workload.case_of(inputs.seed)
+    scene, gripper = _scene_of(inputs.scene, case), inputs.gripper
     return Conditions(
         scene=scene,
         design_gripper=gripper,
@@ -173,27 +198,11 @@ def nominal_conditions(spec: TrialSpec) -> Conditions:
         mass_kg=scene.workpiece.mass_kg,
         centre_of_mass_m=scene.workpiece.centre_of_mass_m,
         friction=scene.workpiece.friction,
-        tool_speed_m_s=spec.tool_speed_m_s,
+        tool_speed_m_s=inputs.tool_speed_m_s,
         finger_force_n=gripper.finger_force_n,
         finger_speed_m_s=gripper.finger_velocity_m_s,
         pad_friction=gripper.friction,
     )
-
-
-@lru_cache(maxsize=_KEPT)
-def _conditions_of(spec: TrialSpec) -> Conditions:
-    nominal = nominal_conditions(spec)
-    joints = len(spec.scene.robot.joints)
-    draws = draws_of(spec.uncertainty, spec.seed, joints=joints) if spec.uncertainty.values else _NO_DRAWS
-    quantities = in_order(spec.uncertainty.names)
-    own = _changes([one for one in quantities if not one.object], draws, nominal)
-    drawn = {one.object for one in quantities if one.object}
-    others = []
-    for known in (one.workpiece for one in spec.scene.others if one.workpiece.id in drawn):
-        before = nominal_object(known)
-        changes = _changes([one for one in quantities if one.object == known.id], draws, before)
-        others.append(replace(before, **changes))  # type: ignore[arg-type]
-    return replace(nominal, draws=draws, others=tuple(others), **own)  # type: ignore[arg-type]
 
 
 def _changes(
@@ -209,53 +218,6 @@ def _changes(
         present = changes.get(quantity.field, getattr(nominal, quantity.field))
         changes[quantity.field] = _applied(quantity, present, drawn[0])
     return changes
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DrawnValue:
-    """One draw of a trial with its nominal and resulting value.
-
-    Attributes:
-        name: Name of the draw, such as ``gripper.finger.force``.
-        unit: Unit of the two values.
-        nominal: The value of the files, the design and the case.
-        drawn: The value in the trial.
-    """
-
-    name: str
-    unit: str
-    nominal: float
-    drawn: float
-
-
-def drawn_values(spec: TrialSpec) -> tuple[DrawnValue, ...]:
-    """Draws of a trial with the nominal values, in the order of the registry.
-
-    Args:
-        spec: The trial.
-    """
-    conditions, nominal = conditions_of(spec), nominal_conditions(spec)
-    drawn = {one.id: one for one in conditions.others}
-    found = []
-    for name in conditions.draws:
-        quantity = quantity_of(name)
-        if quantity.count > 1:
-            before, after = 0.0, conditions.draws[name]
-        elif quantity.object:
-            known = nominal_object(conditions.assumed(quantity.object))
-            before, after = getattr(known, quantity.field), getattr(drawn[quantity.object], quantity.field)
-        else:
-            before, after = getattr(nominal, quantity.field), getattr(conditions, quantity.field)
-        found.append(DrawnValue(name=name, unit=_unit_of(quantity), nominal=before, drawn=after))
-    return tuple(found)
-
-
-def _unit_of(quantity: UncertainQuantity) -> str:
-    """Unit of the field of a quantity; a factor has the unit of its field."""
-    if quantity.application is not Application.SCALE:
-        return quantity.unit
-    endings = {"_kg": "kg", "_n": "N", "_m_s": "m/s"}
-    return next((unit for ending, unit in endings.items() if quantity.field.endswith(ending)), "1")
 
 
 def _applied(quantity: UncertainQuantity, present: float, drawn: float) -> float:

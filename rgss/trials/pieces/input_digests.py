@@ -20,7 +20,7 @@ from rgss.motion import Objective
 from rgss.scenes import Robot
 from rgss.tasks import TaskProgram
 from rgss.trials.code import ENTRIES, versions_of
-from rgss.trials.conditions import conditions_of
+from rgss.trials.conditions import ConditionInputs, condition_inputs, conditions_from
 from rgss.trials.payload_bench import BenchSpec, bench_of
 from rgss.trials.pieces.plain_values import to_plain, without
 from rgss.trials.pieces.scene_digests import (
@@ -82,10 +82,9 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
 @lru_cache(maxsize=_SPECS_KEPT)
 def _digests_of(spec: TrialSpec, versions: tuple[tuple[str, str], ...]) -> TrialDigests:
     used = _version_digests(versions)
-    conditions = conditions_of(spec)
+    drawn = _digests_of_conditions(condition_inputs(spec))
     plan = _joined(
-        geometry_digest(conditions.perceived_scene),
-        *choice_digest(conditions),
+        *drawn.planned,
         _digest_of(spec.gripper.geometry),
         _digest_of(spec.planned_by),
         _potential_digest(spec),
@@ -96,16 +95,14 @@ def _digests_of(spec: TrialSpec, versions: tuple[tuple[str, str], ...]) -> Trial
     )
     timing = _joined(
         plan,
-        conditions.tool_speed_m_s,
+        drawn.tool_speed_m_s,
         _rates_digest(spec.scene.robot),
         *_stated(spec.settings.timing),
         used["timing"],
     )
     execution = _joined(
         timing,
-        _digest_of(conditions.true_gripper),
-        physics_digest(conditions.true_scene),
-        true_values_digest(conditions),
+        *drawn.executed,
         _digest_of(spec.settings.physics),
         _digest_of(spec.settings.control),
         *_controller_digest(spec),
@@ -115,10 +112,45 @@ def _digests_of(spec: TrialSpec, versions: tuple[tuple[str, str], ...]) -> Trial
     )
     bench = bench_of(spec)
     lifted = "" if bench is None else _bench_digest(bench, used["bench"])
-    drawn = [conditions.case, dict(conditions.draws)]
     limits_s = [spec.planning_limit_s, spec.task.time_limit_s]
-    trial = digest([execution, lifted, limits_s, used["record"], drawn])
+    trial = digest([execution, lifted, limits_s, used["record"], [drawn.case, dict(drawn.draws)]])
     return TrialDigests(plan=plan, timing=timing, execution=execution, bench=lifted, trial=trial)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _ConditionDigests:
+    """Digests of the conditions of a trial, by the pieces that use them.
+
+    Attributes:
+        planned: Those of the plan.
+        tool_speed_m_s: Greatest tool speed of the timing.
+        executed: Those of the execution.
+        case: The case of the workload.
+        draws: The draws.
+    """
+
+    planned: tuple[str, ...]
+    tool_speed_m_s: float
+    executed: tuple[str, ...]
+    case: str
+    draws: Mapping[str, float]
+
+
+# Suppositions about planning and limits leave the conditions of every trial as they are.
+@lru_cache(maxsize=_SPECS_KEPT)
+def _digests_of_conditions(inputs: ConditionInputs) -> _ConditionDigests:
+    conditions = conditions_from(inputs)
+    return _ConditionDigests(
+        planned=(geometry_digest(conditions.perceived_scene), *choice_digest(conditions)),
+        tool_speed_m_s=conditions.tool_speed_m_s,
+        executed=(
+            _digest_of(conditions.true_gripper),
+            physics_digest(conditions.true_scene),
+            true_values_digest(conditions),
+        ),
+        case=conditions.case,
+        draws=conditions.draws,
+    )
 
 
 def bench_digest(spec: BenchSpec, versions: Mapping[str, str]) -> str:

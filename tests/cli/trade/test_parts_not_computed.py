@@ -27,7 +27,7 @@ EMPTY = {
     Part.RANGES: ("Range of each weight: not computed.", {"ranges": None}),
     Part.ACCEPTABILITY: ("Acceptability and confidence: not computed.", {"acceptability": None}),
     Part.ASSUMPTIONS: ("Assumptions: not computed.", {"assumptions": ()}),
-    Part.COSTS: ("All assumed costs together: not computed.", {"costs": None}),
+    Part.COSTS: ("All assumed costs of components together: not computed.", {"costs": None}),
     Part.PRICES: ("Price of each requirement: not computed.", {"prices": ()}),
     Part.REVERSALS: ("Rank reversal: not computed.", {"reversals": ()}),
     Part.STRETCHED: ("Of values stretched over the sample it was not computed.", {"stretched": ()}),

@@ -68,7 +68,7 @@ def test_the_page_has_its_parts_in_order(page):
     assert places == sorted(places)
     assert f"Variant {document['chosen']} has the highest value" in text
     assert re.search(r"^Closest limits: SYS-\d+ \(.+\) at .+ inside; SYS-\d+ ", text, re.MULTILINE)
-    assert "All assumed costs together may be off by ±" in text
+    assert "All assumed costs of components together may be off by ±" in text
     assert "Rank reversal: none, whichever variant is removed." in text
 
 
@@ -204,7 +204,7 @@ def test_a_section_goes_between_the_markers_of_a_file(rgss, with_evidence, page,
     assert text.endswith(f"{END}\n\nend\n")
     assert "old" not in text
     assert "*What decides it.*" in text
-    assert "*The assumed costs matter.*" in text
+    assert "*The assumed costs of components matter.*" in text
     for one in document["robustness"]["assumptions"]:
         decisive = one["low"] is not None or one["high"] is not None
         if one["id"].endswith(".cost"):

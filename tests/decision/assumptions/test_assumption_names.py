@@ -55,5 +55,9 @@ def test_what_is_no_single_number_is_as_stated():
 
 def test_the_questions_of_a_study_have_them(reference):
     questions = questions_of(reference)
-    assert {one.title for one in questions} >= {"Gripper force", "Goal bias of all planners", "All assumed prices"}
+    assert {one.title for one in questions} >= {
+        "Gripper force",
+        "Goal bias of all planners",
+        "All assumed prices of components",
+    }
     assert [one.about for one in questions if not one.title] == []

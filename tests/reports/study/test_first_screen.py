@@ -59,7 +59,10 @@ DOCUMENT = {
         "failed_records": [],
         "modelling": {
             "rows": [
-                {"changes": True, "sentence": "All assumed prices: multiplied by 1.5 instead of as stated. Then none."},
+                {
+                    "changes": True,
+                    "sentence": "All assumed prices of components: multiplied by 1.5 instead of as stated. Then none.",
+                },
                 {"changes": None, "sentence": ""},
                 {"changes": False, "sentence": "Clock: 3 ms instead of 1 ms. Then variant 2 is chosen."},
             ]
@@ -161,7 +164,7 @@ def test_an_interval_that_goes_far_is_cut_at_the_end_of_the_chart():
 def test_what_would_change_it():
     shown = first_screen_content(DOCUMENT)
     assert shown["changes"] == [
-        "All assumed prices: multiplied by 1.5 instead of as stated. Then none.",
+        "All assumed prices of components: multiplied by 1.5 instead of as stated. Then none.",
         "Weight of SHARE: below 0.3 instead of 0.6. Then variants 1, 3 come first.",
     ]
     assert shown["other_changes"] == "3 assumptions with alternatives (1 without trials)"

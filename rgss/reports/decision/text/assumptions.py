@@ -10,6 +10,8 @@ from rgss.decision.study_decision import RobustnessFindings
 from rgss.reports.decision.words import UNKNOWN, amount, variants_text
 from rgss.reports.plain_text import aligned_table
 
+_ALL = "All assumed costs of components together"
+
 
 def assumption_lines(found: RobustnessFindings) -> Iterator[str]:
     """The range of each assumed number, and of all costs together.
@@ -21,7 +23,7 @@ def assumption_lines(found: RobustnessFindings) -> Iterator[str]:
     if found.is_missing(Part.ASSUMPTIONS):
         yield "Assumptions: not computed."
     if found.is_missing(Part.COSTS):
-        yield "All assumed costs together: not computed."
+        yield f"{_ALL}: not computed."
     if found.decisive:
         titles = ["assumption", "is", "stays best from", "to", "below wins", "above wins"]
         yield from aligned_table(titles, [_row(found, one) for one in found.decisive], right=(1, 2, 3))
@@ -55,12 +57,12 @@ def _costs(found: RobustnessFindings) -> Iterator[str]:
     if box is None:
         return
     if box.range.factor is None:
-        yield f"All assumed costs together may be off by ±{100.0 * box.range.most:.0f} %, and the choice stays best."
+        yield f"{_ALL} may be off by ±{100.0 * box.range.most:.0f} %, and the choice stays best."
         return
     winners = found.variants(box.range.overtaken_by)
     then = f"{variants_text(winners)} can win" if winners else "the choice can miss a threshold"
     moved = [f"{component} at {amount(value, 'USD')}" for component, value in found.corner.items()]
     corner = f" (with {', '.join(moved)})" if moved else ""
-    yield (f"All assumed costs together may be off by ±{100.0 * box.range.factor:.2f} %; beyond that, {then}{corner}.")
+    yield f"{_ALL} may be off by ±{100.0 * box.range.factor:.2f} %; beyond that, {then}{corner}."
     if box.unmoved:
         yield f"(no percentage moves what is assumed to cost nothing: {', '.join(box.unmoved)})"
