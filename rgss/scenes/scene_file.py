@@ -210,6 +210,8 @@ def _positive_values(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
     work, place, task = entry.workpiece, entry.place_region, entry.task
     yield ("gravity",), entry.gravity
     yield from object_lengths(work)
+    # What nothing can grip needs no study; a body may be smooth.
+    yield ("workpiece", "friction"), work.friction
     yield ("workpiece", "force_limit"), work.force_limit
     yield ("workpiece", "force_window"), work.force_window
     yield ("workpiece", "landing_limit"), work.landing_limit
@@ -224,7 +226,6 @@ def _positive_values(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
 def _values_from_zero(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
     for index, body in enumerate(entry.bodies):
         yield ("bodies", index, "friction"), body.friction
-    yield ("workpiece", "friction"), entry.workpiece.friction
     yield ("place_region", "largest_drop"), entry.place_region.largest_drop
     yield ("task", "place_clearance"), entry.task.place_clearance
 

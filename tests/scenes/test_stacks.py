@@ -123,3 +123,12 @@ def test_colours_need_not_be_stated(kitchen):
     objects = [one.workpiece.colour for one in scene.objects]
     assert len(set(objects)) == 3
     assert scene.bodies[1].colour not in objects
+
+
+def test_an_object_without_friction_is_refused(kitchen):
+    """No hand could grip it: what its friction bears is what its weight is divided by."""
+    before = PLATE.format(plate="mug", nut="plate", region="nut", place="plate")
+    nothing = before.replace("friction: 0.9", "friction: 0", 1)
+    kitchen.change("kitchen.yaml", "place_region:\n", nothing)
+    (finding,) = kitchen.findings("scene")
+    assert "scene.not-positive friction must be greater than zero" in finding

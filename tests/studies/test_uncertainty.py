@@ -134,7 +134,7 @@ def test_the_named_inputs_have_the_distributions_and_not_the_draws(folder, appen
         (
             "\nworkload:\n  - {case: a, friction: -1, rationale: r}\n",
             "-1, rationale: r}",
-            "friction must not be less than zero",
+            "friction must be greater than zero",
         ),
     ],
 )

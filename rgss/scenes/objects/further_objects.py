@@ -96,7 +96,7 @@ def positive_values(entry: SceneDocument) -> Iterator[tuple[Location, float]]:
     """
     for index, one in enumerate(entry.workpieces):
         yield from object_lengths(one, at=("workpieces", index))
-        for key in ("force_limit", "force_window", "landing_limit"):
+        for key in ("friction", "force_limit", "force_window", "landing_limit"):
             yield ("workpieces", index, key), getattr(one, key)
         yield from place_limits(one.place_region, at=("workpieces", index, "place_region"))
     for index, place in enumerate(entry.places):

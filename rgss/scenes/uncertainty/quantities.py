@@ -123,6 +123,7 @@ _ALL = (
         "friction",
         "Friction coefficient of the object; that of a contact is the product with the other body's.",
         _REPLACE,
+        zero=False,
     ),
     _deviation(
         "perception.x", "m", "perceived_x_m", "Perceived minus true position of the object along the world's x."
@@ -179,6 +180,7 @@ _ALL = (
         "pad_friction",
         "Friction coefficient of the pads divided by that of the design.",
         _SCALE,
+        zero=False,
     ),
     _of_execution(
         "gripper.force_sensor.noise",

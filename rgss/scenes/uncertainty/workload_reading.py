@@ -9,7 +9,7 @@ from rgss.findings import Finding
 from rgss.scenes.uncertainty.document import CaseEntry
 from rgss.scenes.uncertainty.workload import Case, Workload
 
-_POSITIVE = ("mass", "radius", "height")
+_POSITIVE = ("mass", "radius", "height", "friction")
 
 
 def read_workload(entries: Sequence[CaseEntry], document: Document, findings: list[Finding]) -> Workload:
@@ -31,9 +31,6 @@ def read_workload(entries: Sequence[CaseEntry], document: Document, findings: li
             if value is not None and value <= 0.0:
                 message = f"{key} must be greater than zero"
                 findings.append(document.finding("workload.not-positive", message, ("workload", index, key)))
-        if entry.friction is not None and entry.friction < 0.0:
-            message = "friction must not be less than zero"
-            findings.append(document.finding("workload.negative", message, ("workload", index, "friction")))
     return Workload(
         cases=tuple(
             Case(
