@@ -22,6 +22,7 @@ from rgss.studies.finding_suppression import without_consequences
 from rgss.studies.measure_sources import metric_ranges, source_findings
 from rgss.studies.measure_traces import measure_traces
 from rgss.studies.motion import motion_findings, neutral_findings
+from rgss.studies.planning import resolution_findings
 from rgss.studies.project_folders import REQUIREMENTS, measures_of, requirements_named, study_file
 from rgss.studies.study import StudyDefinition, named_file, read_study
 from rgss.studies.uncertainty_findings import uncertainty_findings
@@ -163,6 +164,7 @@ class _Reader:
                     self._findings += task_findings(study.task_file, scene)
                     self._findings += neutral_findings(study.task_file, grippers)
                 self._findings += uncertainty_findings(scene, study, written, grippers)
+                self._findings += resolution_findings(study.planning, scene.robot, written)
                 self._findings += design_findings(designs, document, grippers, scene.robot, study.planning)
                 self._findings += motion_findings(study.motion, study.rate_hz, written, designs, document, scene.robot)
             if measures is not None and named_set is not None:

@@ -9,6 +9,7 @@ from html import escape
 from rgss.html_tables import html_table, html_view
 from rgss.tradeoff.infeasibility import Conflicts, RequirementCount
 from rgss.tradeoff.milp import DecisionStatus
+from rgss.tradeoff.problem import EVIDENCE_PREFIX
 from rgss.tradeoff.programs import Certificate
 
 LONGEST_LIST = 10_000
@@ -165,6 +166,18 @@ class Decision:
     demands: Mapping[str, str] = field(hash=False)
     counts: Counts
     certificate: Certificate
+
+    @property
+    def unmeasured(self) -> tuple[str, ...]:
+        """Conditions of which no alternative has a value, if they alone leave nothing feasible; empty otherwise.
+
+        Then nothing is shown to be infeasible: the evidence does not have what is asked of it.
+        """
+        if self.conflicts is None:
+            return ()
+        unknown = (*self.conflicts.unmeasured, *(EVIDENCE_PREFIX + one for one in self.conflicts.unvalued))
+        is_for_want = any(set(one.requirements) <= set(unknown) for one in self.infeasible)
+        return unknown if is_for_want else ()
 
     def __repr__(self) -> str:
         counts = self.counts

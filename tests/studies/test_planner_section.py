@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 import pytest
@@ -140,6 +141,15 @@ def test_planning_that_cannot_be(edit, problems, place_of, text, at, expected):
     (problem,) = problems()
     assert problem.startswith(f"{place_of(STUDY, at)}: error: ")
     assert expected in problem
+
+
+def test_a_resolution_beyond_the_ranges_of_the_joints(edit, problems, place_of, folder):
+    """OMPL takes it as a share of the diagonal, which must be less than one."""
+    extent_rad = math.hypot(*(one.upper_rad - one.lower_rad for one in load_project(folder).scene.robot.joints))
+    edit(STUDY, "  resolution: 0.01 rad\n", f"  resolution: {extent_rad + 0.1:.1f} rad\n")
+    (problem,) = problems()
+    assert problem.startswith(f"{place_of(STUDY, f'{extent_rad + 0.1:.1f} rad')}: error: resolution of ")
+    assert "is not below the diagonal of the joints' ranges" in problem
 
 
 RANGE = (

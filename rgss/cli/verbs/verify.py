@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from datetime import date
 
 from rgss.cli.options import STUDY_HELP
 
@@ -58,6 +59,7 @@ def run(options: argparse.Namespace) -> int:
             result=RecordedResult(options.result.replace("-", "_")),
             by=options.by,
             on=options.on,
+            today=date.today(),
             note=options.note,
             files=options.file,
         )

@@ -16,6 +16,7 @@ from rgss.errors import RgssError
 from rgss.evidence import EvidenceStore
 from rgss.studies import Project
 from rgss.tradeoff import Decision
+from rgss.tradeoff.problem import EVIDENCE_PREFIX
 from rgss.trials.pieces import TrialSpec
 
 
@@ -129,6 +130,8 @@ def _outcome(
                 in_motion=in_motion,
             )
         other = choose(scenario.project, found.measured)
+        if other.unmeasured and not decision.unmeasured:
+            return AssumptionOutcome(question=question, taken_as=_taken_as(scenario), reason=_lacking(other, question))
         former, chosen = decision.chosen, other.chosen
         is_among = former in other.ties if other.ties else former is None
         unseparated = (
@@ -158,6 +161,13 @@ def _outcome(
         in_motion=in_motion,
         admitted=admitted,
     )
+
+
+def _lacking(other: Decision, question: Question) -> str:
+    """Reason for a missing answer: what the trials of the alternative do not observe."""
+    names = " and ".join(one.removeprefix(EVIDENCE_PREFIX) for one in other.unmeasured)
+    trials = f"{question.alternative} trials give" if question.about == FIDELITY else "the trials then give"
+    return f"{trials} no value of {names}"
 
 
 def _taken_as(scenario: Scenario) -> str:

@@ -81,9 +81,13 @@ def assumption_sentences(made: StudyDecision) -> Iterator[str]:
 
 def _fidelity_sentences(made: StudyDecision) -> Iterator[str]:
     for one in made.assumptions:
-        if one.question.about != _FIDELITY or one.reason:
+        if one.question.about != _FIDELITY:
             continue
         here, other = one.taken_as, one.question.alternative
+        if one.reason:
+            if here:
+                yield f"Whether {other} trials decide as {here} trials do cannot be known: {one.reason}."
+            continue
         if one.missing:
             yield (
                 f"Whether {other} trials decide as {here} trials do is not known: {counted(one.missing, 'trial')} "

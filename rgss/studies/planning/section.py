@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Literal
@@ -11,6 +12,7 @@ from pydantic import Field
 from rgss.documents import Document, DocumentModel, Identifier, Metres, Radians, Seconds, Text
 from rgss.findings import Finding
 from rgss.motion import OnUnverified, PlannerSettings
+from rgss.scenes import Robot
 from rgss.studies.planning.declared_planners import PlannerField, planner_problem, read_planners
 from rgss.tasks import MoveKind
 
@@ -101,6 +103,24 @@ def read_planning(planning: PlanningEntry, document: Document, findings: list[Fi
         planners=planners,
         references=planning.references,
     )
+
+
+def resolution_findings(planning: PlanningChoice, robot: Robot, document: Document) -> Iterator[Finding]:
+    """A finding for a resolution at which a search would check nothing between two configurations.
+
+    Args:
+        planning: The section.
+        robot: The arm.
+        document: The study's file, for positions.
+    """
+    extent_rad = math.sqrt(math.fsum((joint.upper_rad - joint.lower_rad) ** 2 for joint in robot.joints))
+    if planning.resolution_rad >= extent_rad:
+        message = (
+            f"resolution of {planning.resolution_rad:g} rad is not below the diagonal of the joints' ranges, "
+            f"{extent_rad:.3g} rad"
+        )
+        hint = "such as 0.05 rad; a search checks the states of a motion that far apart"
+        yield document.finding("study.coarse-resolution", message, ("planning", "resolution"), hint=hint)
 
 
 def _value_findings(planning: PlanningEntry, document: Document) -> Iterator[Finding]:

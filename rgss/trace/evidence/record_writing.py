@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from datetime import date
+from datetime import date, timedelta
 from pathlib import Path
 
 from rgss.documents import write_small_source
@@ -28,7 +28,7 @@ _HEAD = (
 
 
 def new_record(
-    project: Path, *, result: RecordedResult, by: str, on: str, note: str = "", files: Sequence[str] = ()
+    project: Path, *, result: RecordedResult, by: str, on: str, today: date, note: str = "", files: Sequence[str] = ()
 ) -> VerificationRecord:
     """A record of what a person found, for `with_record`.
 
@@ -37,23 +37,28 @@ def new_record(
         result: What was found.
         by: Who verified.
         on: When, as ``2026-05-12``.
+        today: The present day; a verification of later days has not taken place.
         note: What was done or seen.
         files: What it rests on, such as the protocol, and what was inspected; relative to the current folder or the
             project's.
 
     Raises:
-        DefinitionError: The name or the note is no line of text, the date is none, or a file is not in the project.
+        DefinitionError: The name or the note is no line of text, the date is none or still to come, or a file is not in
+            the project.
         EvidenceError: A file cannot be read.
     """
     try:
-        day = date.fromisoformat(on).isoformat()
+        day = date.fromisoformat(on)
     except ValueError:
         raise DefinitionError(f"{shown(on)} is no date", hint="write year, month and day: --on 2026-05-12") from None
+    # East of here it may be tomorrow.
+    if day > today + timedelta(days=1):
+        raise DefinitionError(f"{day} has not come yet", hint="give the day of the verification, or record it then")
     told = _line(note, "a note", LONGEST_NOTE, "--note TEXT") if note.strip() else None
     return VerificationRecord(
         result=result,
         by=_line(by, "who verified", LONGEST_NAME, "--by NAME"),
-        date=day,
+        date=day.isoformat(),
         note=told,
         files=dict(sorted(_stamped(project, name) for name in files)),
         requirement="0" * 64,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from rgss.errors import DefinitionError
 from rgss.evidence import Failure, Fidelity, Provenance
 from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
 from rgss.reports.decision.assumption_rows import assumption_sentences
+from rgss.reports.decision.text.conflicts import conflict_lines
 from rgss.reports.decision.words import ids_text
 from rgss.studies import load_project, trial_specs
 from rgss.studies.assumptions_section import StudyAssumption
@@ -102,6 +104,36 @@ def test_trials_of_another_fidelity_are_decided_by_once_they_are_there(evidence,
     assert (found.missing, found.is_same, found.taken_as) == (0, True, "dynamic")
     assert found.otherwise == (0, project.study.replicates)
     assert found.otherwise_of_choice == project.study.replicates
+
+
+TIMES = ("planning_time_s", "task_time_s", "attempt_time_s")
+
+
+def test_trials_that_do_not_observe_a_valued_measure_decide_nothing(evidence, filled):
+    """Nothing is infeasible then: what is asked of the trials is not in them."""
+    project, _, _, record = evidence
+    store = filled(project, record)
+    measured = measure_variants(project, store)
+
+    def blind(spec):
+        made = record(spec)
+        return replace(made, metrics={name: value for name, value in made.metrics.items() if name not in TIMES})
+
+    put(project.with_fidelity("kinematic"), store, blind)
+    project = asked(project, ("fidelity", ("kinematic",)))
+    found = outcome(project, measured, store, "fidelity")
+    assert (found.is_same, found.missing) == (None, 0)
+    assert re.fullmatch(r"kinematic trials give no value of .*\bt_p\b.*", found.reason)
+    made = decide_study(project, measured, evidence="", assumptions=(found,))
+    (sentence,) = (one for one in assumption_sentences(made) if "kinematic" in one)
+    assert sentence == f"Whether kinematic trials decide as dynamic trials do cannot be known: {found.reason}."
+    assert not any("The choice depends on fidelity" in one for one in assumption_sentences(made))
+
+    kinematic = project.with_fidelity("kinematic")
+    alone = choose(kinematic, measure_variants(kinematic, store))
+    (line,) = list(conflict_lines(alone, shown_feasible=False))[:1]
+    assert line.startswith("No variant can be chosen: the trials give no value of ")
+    assert line.endswith(" for one.")
 
 
 def test_an_alternative_under_which_the_choice_fails_changes_it(evidence, filled, record_of):

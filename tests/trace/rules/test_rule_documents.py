@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from datetime import date
 from types import MappingProxyType
 from typing import Any
 
@@ -136,7 +137,7 @@ def _failed_test(project: Any) -> None:
 def _verified(project: Any, result: RecordedResult, name: str = "SYS-1") -> Any:
     """The record of the requirement, under this id."""
     requirements = load_requirements(project.folder)
-    record = new_record(project.folder, result=result, by="Reader", on="2026-05-12")
+    record = new_record(project.folder, result=result, by="Reader", on="2026-05-12", today=date(2026, 5, 12))
     kept = with_record(requirements, ["SYS-1"], record)
     write_records(project.folder, {name: kept["SYS-1"]})
     project.evidence = EvidenceState(records=evidence_of_records(load_requirements(project.folder), project.folder))

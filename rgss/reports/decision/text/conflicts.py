@@ -9,6 +9,7 @@ from rgss.reports.decision.words import UNKNOWN, basis_text, moved_limit
 from rgss.reports.plain_text import aligned_table
 from rgss.trace.views import share_in_words
 from rgss.tradeoff import Conflicts, Decision, LimitChange
+from rgss.tradeoff.problem import EVIDENCE_PREFIX
 
 MOST_LISTED = 6
 
@@ -20,7 +21,7 @@ def conflict_lines(decision: Decision, *, shown_feasible: bool) -> Iterator[str]
         decision: A decision without a choice.
         shown_feasible: Whether verdicts decide what is feasible.
     """
-    yield f"No variant meets every requirement by its {basis_text(shown_feasible=shown_feasible)}."
+    yield headline(decision, shown_feasible=shown_feasible)
     conflicts = decision.conflicts
     if conflicts is None:
         return
@@ -29,6 +30,24 @@ def conflict_lines(decision: Decision, *, shown_feasible: bool) -> Iterator[str]
     yield from _minimal(conflicts)
     yield from _joint_repairs(conflicts)
     yield from ("", f"Nearest: variant {conflicts.nearest.variant}, which {violated_text(conflicts)}.")
+
+
+def headline(decision: Decision, *, shown_feasible: bool) -> str:
+    """Why nothing is chosen, in a sentence.
+
+    Args:
+        decision: A decision without a choice.
+        shown_feasible: Whether verdicts decide what is feasible.
+    """
+    unknown = set(decision.unmeasured)
+    if not unknown:
+        return f"No variant meets every requirement by its {basis_text(shown_feasible=shown_feasible)}."
+    other = next(one.variant for one in decision.infeasible if set(one.requirements) <= unknown)
+    names = " and ".join(one.removeprefix(EVIDENCE_PREFIX) for one in decision.unmeasured)
+    return (
+        f"No variant can be chosen: the trials give no value of {names}. All else that is asked is met, by variant "
+        f"{other} for one."
+    )
 
 
 def _requirements(decision: Decision, conflicts: Conflicts) -> list[str]:
