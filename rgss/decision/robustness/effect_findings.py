@@ -40,7 +40,8 @@ class MeasureEffects:
         analysis: The effects; None if no balanced block of designs has estimates, and if the
             designs are a sample.
         sampled: For a sample of designs, the share of each factor alone with its interval, by
-            factor; empty otherwise, and if too few designs have estimates.
+            factor, without those that the measure's definition does not contain; empty otherwise, and if too few
+            designs have estimates.
         not_computed: Reason why the effects were not computed, as part of a sentence; empty if they were.
     """
 
@@ -72,7 +73,7 @@ class StudyEffects:
 def leading_factors(effects: MeasureEffects, *, least: float = 0.01) -> Mapping[str, float]:
     """The factors by their total-order share of a measure's variance, the largest first.
 
-    For a sample of designs it is the share that each explains alone.
+    For a sample of designs it is the share that each explains alone, of those that exceed what chance gives.
 
     Args:
         effects: The effects on the measure.
@@ -85,4 +86,4 @@ def leading_factors(effects: MeasureEffects, *, least: float = 0.01) -> Mapping[
 def _shares(effects: MeasureEffects) -> Mapping[str, float]:
     if effects.analysis is not None:
         return effects.analysis.total_order
-    return {factor: index.share for factor, index in effects.sampled.items()}
+    return {factor: index.share for factor, index in effects.sampled.items() if index.share > index.by_chance}

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from rgss.assessment import VariantMeasures, replicates_of
 from rgss.decision.robustness.effect_findings import FactorLevels, MeasureEffects, StudyEffects
+from rgss.designs import COMPONENT_PREFIX, DESIGN_PREFIX
 from rgss.measures import Measure, MeasureKind
 from rgss.studies import Project
 from rgss.tradeoff.problem import Resamples
@@ -27,6 +28,7 @@ SAMPLE_RESAMPLES = 200
 """Number of resamples of sampled designs for the intervals of shares."""
 
 _NO_FACTORS = "no factor varies"
+_NOT_IN_IT = "it contains nothing that varies"
 
 
 def study_effects(project: Project, measured: Sequence[VariantMeasures], resamples: Resamples | None) -> StudyEffects:
@@ -109,15 +111,22 @@ def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEf
         for factor in project.designs.factors
         if factor.span is not None or len(factor.levels) > 1
     )
-    classes = np.stack([_classes(factor, rows) for factor in factors], axis=1) if factors else np.zeros((0, 0))
+    classes = {factor.id: _classes(factor, rows) for factor in factors}
     found = []
     for measure in _analysed(project):
         values = np.array([_number(entry.estimates[measure.id].value) for entry in rows])
         known = np.isfinite(values)
         missing = _missing_of_sample(int(known.sum()), factors)
+        contained = () if missing else tuple(factor for factor in factors if _may_act(project, measure, factor))
+        missing = missing or ("" if contained else _NOT_IN_IT)
         indices = (
-            first_order_indices(classes[known], values[known], resamples=SAMPLE_RESAMPLES, generator=generator)
-            if not missing
+            first_order_indices(
+                np.stack([classes[factor.id][known] for factor in contained], axis=1),
+                values[known],
+                resamples=SAMPLE_RESAMPLES,
+                generator=generator,
+            )
+            if contained
             else ()
         )
         found.append(
@@ -128,7 +137,7 @@ def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEf
                 left_out=() if known.all() else (f"{int((~known).sum())} designs",),
                 designs=int(known.sum()),
                 analysis=None,
-                sampled={factor.id: index for factor, index in zip(factors, indices, strict=False)},
+                sampled={factor.id: index for factor, index in zip(contained, indices, strict=True)},
                 not_computed=missing,
             )
         )
@@ -138,6 +147,19 @@ def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEf
         constants=tuple(parameter.id for parameter in project.designs.parameters if parameter.id not in varying),
         measures=tuple(found),
     )
+
+
+def _may_act(project: Project, measure: Measure, factor: FactorLevels) -> bool:
+    """False if a measure that follows from the design alone does not contain what a factor sets.
+
+    A sample that is spread over few points confounds such a factor with the interaction of others.
+    """
+    if measure.from_trials:
+        return True
+    used = project.measures.sources(measure.id)
+    # Which component a design has may depend on any parameter.
+    has_components = any(one.startswith(COMPONENT_PREFIX) for one in used)
+    return has_components or any(f"{DESIGN_PREFIX}{parameter}" in used for parameter in factor.parameters)
 
 
 def _missing_of_sample(known: int, factors: Sequence[FactorLevels]) -> str:

@@ -27,11 +27,13 @@ class SampledIndex:
         share: The share of the variance that the factor explains alone; may be below 0 by chance.
         low: The lower end of its bootstrap interval.
         high: The upper end.
+        by_chance: The share that a factor without any effect exceeds in one of twenty such samples.
     """
 
     share: float
     low: float
     high: float
+    by_chance: float = 0.0
 
 
 def classes_of(values: Array) -> NDArray[np.int64]:
@@ -61,6 +63,10 @@ def first_order_indices(
     the expected value of that. Total-order indices cannot be estimated from such a sample without a model of the
     measure.
 
+    A resample has designs twice, which differ in nothing within their class, so that its shares are too large; their
+    mean excess is taken off the interval. What a factor without an effect has by chance is found by permuting the
+    values.
+
     Args:
         classes: The class of each design in each factor, shape (n, d).
         values: The measure of each design, shape (n,); finite.
@@ -84,9 +90,16 @@ def first_order_indices(
         [_indices(classes[rows], values[rows]) for rows in generator.integers(0, count, size=(resamples, count))]
     )
     tail = (1.0 - CONFIDENCE) / 2.0
-    low, high = np.quantile(drawn, [tail, 1.0 - tail], axis=0)
+    low, high = np.quantile(drawn, [tail, 1.0 - tail], axis=0) - np.maximum(drawn.mean(axis=0) - found, 0.0)
+    shuffled = np.array([_indices(classes, generator.permutation(values)) for _ in range(resamples)])
+    by_chance = np.quantile(shuffled, CONFIDENCE, axis=0)
     return tuple(
-        SampledIndex(share=float(found[factor]), low=float(low[factor]), high=float(high[factor]))
+        SampledIndex(
+            share=float(found[factor]),
+            low=float(low[factor]),
+            high=float(high[factor]),
+            by_chance=float(by_chance[factor]),
+        )
         for factor in range(factors)
     )
 

@@ -60,3 +60,19 @@ def test_a_measure_that_is_level():
 def test_too_few_designs_or_values(values):
     with pytest.raises(TradeoffError, match=r"do not do for shares of the variance \(leave out designs without a val"):
         indices_of(np.zeros((len(values), 1), dtype=np.int64), values)
+
+
+def test_a_factor_without_effect_is_seldom_told_from_chance():
+    """Two factors and their product make the values, three do nothing; before, two of five of these had a share."""
+    named, excluded = [], []
+    for seed in range(30):
+        points = qmc.LatinHypercube(5, rng=seed).random(32)
+        values = (2.0 + (points[:, 0] > 0.5)) * (5.0 + 8.0 * points[:, 1])
+        classes = np.stack([points[:, 0] > 0.5, *map(classes_of, points[:, 1:].T)], axis=1).astype(np.int64)
+        found = indices_of(classes, values, seed, resamples=100)
+        assert found[1].share > found[1].by_chance
+        named += [one.share > one.by_chance for one in found[2:]]
+        excluded += [one.low > 0.0 for one in found[2:]]
+
+    assert np.mean(named) < 0.12
+    assert np.mean(excluded) < 0.06

@@ -132,6 +132,11 @@ def _drivers(found: RobustnessFindings) -> Iterator[str]:
     for reason in dict.fromkeys(one.not_computed for one in found.drivers if one.not_computed):
         measures = ", ".join(one.measure for one in found.drivers if one.not_computed == reason)
         yield f"Not computed for {measures}: {reason}."
+    if found.sampled:
+        yield (
+            "(estimated from a sample of designs: shares need not sum to 100 %, and factors are left out whose share "
+            "chance alone gives in one of twenty such samples)"
+        )
     effects = found.analysis.effects
     notes = [f"{factor.id} sets {' and '.join(factor.parameters)}" for factor in effects.factors]
     if effects.constants:
