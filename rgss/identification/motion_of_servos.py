@@ -42,6 +42,23 @@ class ServoMotion:
     velocities_rad_s: Array
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ServoCommands:
+    """Commands of a joint and its start.
+
+    Attributes:
+        times_s: Times of the samples, rising, shape (times,).
+        commanded_rad: Commanded positions, shape (times,).
+        commanded_rad_s: Commanded speeds, shape (times,).
+        start: Position (rad) and speed (rad/s) at the first sample, each one for all servos or of shape (servos,).
+    """
+
+    times_s: Array
+    commanded_rad: Array
+    commanded_rad_s: Array
+    start: tuple[float | Array, float | Array] = (0.0, 0.0)
+
+
 def servo_motion(
     servos: Sequence[JointServo],
     times_s: Array,
@@ -67,24 +84,109 @@ def servo_motion(
         commands: Course of the commanded positions between samples.
         longest_step_s: Bound of the step.
     """
-    pieces = steps_per_sample(float(np.median(np.diff(times_s))), longest_step_s)
-    steps = pieces * (len(times_s) - 1)
-    step_s = float(times_s[-1] - times_s[0]) / steps
-    edges = times_s[0] + step_s * np.arange(steps + 1)
-    speeds = np.array([mean_commands(times_s, commanded_rad_s, edges - each.delay_s) for each in servos])
-    if commands is CommandedPositions.INTERPOLATED:
-        middles = edges[:-1] + step_s / 2
-        targets = np.array([np.interp(middles - each.delay_s, times_s, commanded_rad) for each in servos])
-    else:
-        targets = np.array([mean_commands(times_s, commanded_rad, edges - each.delay_s) for each in servos])
-    loop = VelocityLoop(servos, step_s)
-    q, v = (np.array(np.broadcast_to(each, len(servos)), dtype=np.float64) for each in start)
-    positions, velocities = np.empty((steps + 1, len(servos))), np.empty((steps + 1, len(servos)))
-    positions[0], velocities[0] = q, v
+    given = ServoCommands(times_s=times_s, commanded_rad=commanded_rad, commanded_rad_s=commanded_rad_s, start=start)
+    (motion,) = servo_motions(servos, [given], commands=commands, longest_step_s=longest_step_s)
+    return motion
+
+
+def servo_motions(
+    servos: Sequence[JointServo],
+    given: Sequence[ServoCommands],
+    *,
+    commands: CommandedPositions = CommandedPositions.HELD,
+    longest_step_s: float = LONGEST_STEP_S,
+) -> list[ServoMotion]:
+    """Motion of several servos under each of several series of commands, as `servo_motion` solves it.
+
+    Steps of all series are taken together, since a step takes nearly as long for many servos as for one.
+
+    Args:
+        servos: The servos.
+        given: The series.
+        commands: Course of the commanded positions between samples.
+        longest_step_s: Bound of the step.
+    """
+    found: dict[int, ServoMotion] = {}
+    courses = [_Course.of(servos, each, commands, longest_step_s) for each in given]
+    for together in _batches([each.steps for each in courses], len(servos)):
+        motions = _solved(servos, [courses[index] for index in together])
+        found.update(zip(together, motions, strict=True))
+    return [found[index] for index in range(len(given))]
+
+
+_MOST_VALUES = 2_000_000
+"""Bound of the values of one array, 16 MB."""
+
+
+def _batches(steps: Sequence[int], servos: int) -> list[list[int]]:
+    """Indices of series that are solved together: those of like lengths, as many as memory allows."""
+    batches: list[list[int]] = []
+    for index in sorted(range(len(steps)), key=lambda each: -steps[each]):
+        longest = steps[batches[-1][0]] if batches else 0
+        if batches and (len(batches[-1]) + 1) * servos * (longest + 1) <= _MOST_VALUES:
+            batches[-1].append(index)
+        else:
+            batches.append([index])
+    return batches
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Course:
+    """Commands of several servos in each step of a series, delayed: shapes (steps, servos)."""
+
+    given: ServoCommands
+    edges: Array
+    step_s: float
+    targets: Array
+    speeds: Array
+
+    @property
+    def steps(self) -> int:
+        """Number of steps."""
+        return len(self.edges) - 1
+
+    @staticmethod
+    def of(
+        servos: Sequence[JointServo], given: ServoCommands, commands: CommandedPositions, longest_step_s: float
+    ) -> _Course:
+        times_s, commanded_rad = given.times_s, given.commanded_rad
+        pieces = steps_per_sample(float(np.median(np.diff(times_s))), longest_step_s)
+        steps = pieces * (len(times_s) - 1)
+        step_s = float(times_s[-1] - times_s[0]) / steps
+        edges = times_s[0] + step_s * np.arange(steps + 1)
+        speeds = [mean_commands(times_s, given.commanded_rad_s, edges - each.delay_s) for each in servos]
+        if commands is CommandedPositions.INTERPOLATED:
+            middles = edges[:-1] + step_s / 2
+            targets = [np.interp(middles - each.delay_s, times_s, commanded_rad) for each in servos]
+        else:
+            targets = [mean_commands(times_s, commanded_rad, edges - each.delay_s) for each in servos]
+        return _Course(given=given, edges=edges, step_s=step_s, targets=np.array(targets).T, speeds=np.array(speeds).T)
+
+
+def _solved(servos: Sequence[JointServo], courses: Sequence[_Course]) -> list[ServoMotion]:
+    """Motions of series that begin together; the shorter ones are continued without a command, which is not used."""
+    count, steps = len(servos), max(each.steps for each in courses)
+    loop = VelocityLoop([*servos] * len(courses), np.repeat([each.step_s for each in courses], count))
+    targets, speeds = np.zeros((2, steps, count * len(courses)))
+    positions, velocities = np.empty((2, steps + 1, count * len(courses)))
+    for index, each in enumerate(courses):
+        own = slice(index * count, (index + 1) * count)
+        targets[: each.steps, own], speeds[: each.steps, own] = each.targets, each.speeds
+        positions[0, own], velocities[0, own] = each.given.start
+    q, v = positions[0], velocities[0]
     for index in range(steps):
-        q, v = loop.after(q, v, targets[:, index], speeds[:, index])
+        q, v = loop.after(q, v, targets[index], speeds[index])
         positions[index + 1], velocities[index + 1] = q, v
-    return ServoMotion(
-        positions_rad=np.array([np.interp(times_s, edges, each) for each in positions.T]),
-        velocities_rad_s=np.array([np.interp(times_s, edges, each) for each in velocities.T]),
-    )
+    return [
+        ServoMotion(
+            positions_rad=_sampled(each, positions[:, index * count : (index + 1) * count]),
+            velocities_rad_s=_sampled(each, velocities[:, index * count : (index + 1) * count]),
+        )
+        for index, each in enumerate(courses)
+    ]
+
+
+def _sampled(course: _Course, values: Array) -> Array:
+    """Values at the edges of the steps, interpolated at the sample times, shape (servos, times)."""
+    times_s, edges = course.given.times_s, course.edges
+    return np.array([np.interp(times_s, edges, each) for each in values[: len(edges)].T])

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.identification.motion_of_servos import LONGEST_STEP_S, servo_motion
+from rgss.identification.motion_of_servos import LONGEST_STEP_S, ServoCommands, servo_motions
 from rgss.identification.recording import CommandedPositions, Segment
 from rgss.scenes import JointServo, ServoControl
 
@@ -69,10 +69,12 @@ class ServoProblem:
         self._lower, self._upper, self.least = (np.array(values) for values in zip(*ends, strict=True))
         self._weights = (1.0, 1.0)
         self._longest_step_s = _SEARCH_STEP_S
+        self._last: tuple[bytes, Array, Array] | None = None
 
     def refine(self) -> None:
         """Solve servos in the finest steps from now on; the search among several starts needs none."""
         self._longest_step_s = LONGEST_STEP_S
+        self._last = None
 
     def servo(self, values: Array) -> JointServo:
         """The servo with parameters, each within its ends."""
@@ -81,25 +83,11 @@ class ServoProblem:
 
     def residuals(self, values: Array) -> Array:
         """Weighted residuals, shape (residuals,)."""
-        (found,) = self._many([values])
-        return found
+        return self._linearised(values)[0]
 
     def jacobian(self, values: Array) -> Array:
         """Derivatives of the residuals, shape (residuals, parameters)."""
-        steps = 1.0e-4 * np.maximum(np.abs(values), self.least)
-        groups = self._independent()
-        ahead, behind = (
-            [np.clip(values + sign * np.where(group, steps, 0.0), self._lower, self._upper) for group in groups]
-            for sign in (1.0, -1.0)
-        )
-        found = self._many([*ahead, *behind])
-        columns = np.zeros((len(found[0]), len(values)))
-        for index, group in enumerate(groups):
-            change = found[index] - found[len(groups) + index]
-            for column in np.flatnonzero(group).tolist():
-                span = float(ahead[index][column] - behind[index][column])
-                columns[:, column] = np.where(self._rows_of(column), change, 0.0) / span
-        return columns
+        return self._linearised(values)[1]
 
     def solved(self, begin: Array | None = None) -> Array:
         """The best parameters from several starts, or from one that is given."""
@@ -134,6 +122,7 @@ class ServoProblem:
             1.0 / max(least, float(np.sqrt(np.mean(speeds**2)))),
             1.0 / max(least, float(np.sqrt(np.mean(positions**2)))),
         )
+        self._last = None
 
     def rms(self, values: Array) -> dict[str, float]:
         """Root mean square of the residual speeds by pose, in rad/s."""
@@ -157,6 +146,29 @@ class ServoProblem:
             return 0.0
         correlations = [float(np.sum(residuals[lag:] * residuals[:-lag])) / total for lag in range(1, LAGS + 1)]
         return count * (count + 2.0) * math.fsum(r * r / (count - k) for k, r in enumerate(correlations, start=1))
+
+    def _linearised(self, values: Array) -> tuple[Array, Array]:
+        """Residuals and their derivatives; both are computed at once, and kept for the next call."""
+        key = values.tobytes()
+        if self._last is None or self._last[0] != key:
+            self._last = key, *self._both(values)
+        return self._last[1], self._last[2]
+
+    def _both(self, values: Array) -> tuple[Array, Array]:
+        steps = 1.0e-4 * np.maximum(np.abs(values), self.least)
+        groups = self._independent()
+        ahead, behind = (
+            [np.clip(values + sign * np.where(group, steps, 0.0), self._lower, self._upper) for group in groups]
+            for sign in (1.0, -1.0)
+        )
+        residuals, *found = self._many([values, *ahead, *behind])
+        columns = np.zeros((len(residuals), len(values)))
+        for index, group in enumerate(groups):
+            change = found[index] - found[len(groups) + index]
+            for column in np.flatnonzero(group).tolist():
+                span = float(ahead[index][column] - behind[index][column])
+                columns[:, column] = np.where(self._rows_of(column), change, 0.0) / span
+        return residuals, columns
 
     def _independent(self) -> list[NDArray[np.bool_]]:
         """Parameters that may be changed at once, since no residual depends on two of them."""
@@ -192,26 +204,26 @@ class ServoProblem:
     def _compared(self, many: Sequence[Array]) -> list[list[tuple[Array, Array]]]:
         """Fitted minus measured speeds and positions of each segment, for each set of parameters."""
         servos = [self.servo(values) for values in many]
-        found: list[list[tuple[Array, Array]]] = [[] for _ in servos]
-        for number, segment in enumerate(self._segments):
-            series = segment.excited
-            motion = servo_motion(
-                servos,
-                segment.times_s,
-                series.commanded_rad,
-                series.commanded_rad_s,
+        given = [
+            ServoCommands(
+                times_s=segment.times_s,
+                commanded_rad=segment.excited.commanded_rad,
+                commanded_rad_s=segment.excited.commanded_rad_s,
                 start=self._starts_of(number, many),
-                commands=self._commands,
-                longest_step_s=self._longest_step_s,
             )
-            for index, parts in enumerate(found):
-                parts.append(
-                    (
-                        motion.velocities_rad_s[index] - series.measured_rad_s,
-                        motion.positions_rad[index] - series.measured_rad,
-                    )
+            for number, segment in enumerate(self._segments)
+        ]
+        motions = servo_motions(servos, given, commands=self._commands, longest_step_s=self._longest_step_s)
+        return [
+            [
+                (
+                    motion.velocities_rad_s[index] - segment.excited.measured_rad_s,
+                    motion.positions_rad[index] - segment.excited.measured_rad,
                 )
-        return found
+                for segment, motion in zip(self._segments, motions, strict=True)
+            ]
+            for index in range(len(servos))
+        ]
 
     def _starts_of(self, number: int, many: Sequence[Array]) -> tuple[float | Array, float | Array]:
         """Position and speed at the start of a segment, for each set of parameters."""

@@ -39,12 +39,12 @@ def mean_commands(times_s: Array, commands: Array, edges_s: Array) -> Array:
 class VelocityLoop:
     """One step of several servos, with precomputed coefficients."""
 
-    def __init__(self, servos: Sequence[JointServo], step_s: float) -> None:
+    def __init__(self, servos: Sequence[JointServo], step_s: float | Array) -> None:
         """Compute the coefficients.
 
         Args:
             servos: The servos; their delays are not applied here.
-            step_s: Length of a step.
+            step_s: Length of a step, one for all or of shape (servos,).
         """
         self._kp = np.array([each.position_gain_hz2 for each in servos])
         self._kv = np.array([each.velocity_gain_hz for each in servos])

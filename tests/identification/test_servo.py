@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.identification import CommandedPositions, servo_motion
+from rgss.identification import CommandedPositions, motion_of_servos, servo_motion
+from rgss.identification.motion_of_servos import ServoCommands, servo_motions
 from rgss.scenes import JointServo
 from tests.identification.recordings import course_of, euler_motion
 
@@ -68,3 +69,30 @@ def test_all_effects_together_agree_with_fine_explicit_steps(commands):
 def test_impossible_parameters_are_refused(change):
     with pytest.raises(DefinitionError, match="must"):
         JointServo(**{"velocity_gain_hz": 1.0, **change})
+
+
+@pytest.mark.parametrize("commands", list(CommandedPositions))
+@pytest.mark.parametrize("most_values", [2_000_000, 1000])
+def test_series_that_are_solved_together_are_those_solved_alone(commands, most_values, monkeypatch):
+    """Whatever their lengths and sampling rates, bit for bit, in one batch and in several."""
+    monkeypatch.setattr(motion_of_servos, "_MOST_VALUES", most_values)
+    servos = [
+        JointServo(velocity_gain_hz=30, position_gain_hz2=400, delay_s=0.0137, viscous_hz=3, coulomb_rad_s2=1.5),
+        JointServo(velocity_gain_hz=5, delay_s=0.04),
+    ]
+    given = []
+    for samples, rate_hz in ((40, 100.0), (90, 250.0), (7, 100.0)):
+        times_s = 3.0 + np.arange(samples) / rate_hz
+        speeds = np.sin(9.0 * times_s)
+        start = (np.array([0.1, 0.2]), 0.3)
+        given.append(ServoCommands(times_s=times_s, commanded_rad=speeds / 9.0, commanded_rad_s=speeds, start=start))
+
+    together = servo_motions(servos, given, commands=commands)
+
+    for one, found in zip(given, together, strict=True):
+        alone = servo_motion(
+            servos, one.times_s, one.commanded_rad, one.commanded_rad_s, start=one.start, commands=commands
+        )
+        assert found.positions_rad.shape == (2, len(one.times_s))
+        assert np.array_equal(found.positions_rad, alone.positions_rad)
+        assert np.array_equal(found.velocities_rad_s, alone.velocities_rad_s)
