@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rgss.kinematics.coupling import Coupling
 from rgss.kinematics.description import build_model
 from rgss.kinematics.geometry import arm_parts
+from rgss.kinematics.sobol_points import sobol_points
 from rgss.scenes import Robot
 
 Vector = NDArray[np.float64]
@@ -87,8 +88,5 @@ class _LinkPairs:
 
 def _sampled(robot: Robot) -> Iterator[Vector]:
     yield np.array(robot.home_rad)
-    # Lazy: if nothing touches at home no sample is needed, and the import takes longer than all checks.
-    from scipy.stats.qmc import Sobol
-
     lower, upper = (np.array([getattr(joint, end) for joint in robot.joints]) for end in ("lower_rad", "upper_rad"))
-    yield from lower + Sobol(len(robot.joints), scramble=False).random(SAMPLES) * (upper - lower)
+    yield from lower + sobol_points(len(robot.joints), SAMPLES) * (upper - lower)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +14,7 @@ from rgss.kinematics.configurations import TOLERANCE, RangeExcess, excesses_of, 
 from rgss.kinematics.description import transform
 from rgss.kinematics.pose_residual import PoseResidual
 from rgss.kinematics.serial_chain import SerialChain
+from rgss.kinematics.sobol_points import sobol_points
 from rgss.scenes import Pose
 
 Vector = NDArray[np.float64]
@@ -143,7 +143,8 @@ class NumericalInverse:
         # Isolated configurations are brought back into the ranges by whole turns afterwards.
         free = self._turns & (not self.is_redundant)
         lower, upper = np.where(free, -math.pi, self._lower), np.where(free, math.pi, self._upper)
-        shares = _sobol(len(self._joints), count - 1)
+        # Without the first point, the corner.
+        shares = sobol_points(len(self._joints), count)[1:]
         return np.vstack([self._home, lower + shares * (upper - lower)])
 
     def _reached(self, residual: PoseResidual, starts: Vector, *, limited: bool = True) -> list[Vector]:
@@ -224,13 +225,3 @@ def _principal(angles: Vector) -> Vector:
     turn = 2 * math.pi
     found: Vector = angles - turn * np.round(angles / turn)
     return found
-
-
-@lru_cache(maxsize=16)
-def _sobol(dimensions: int, count: int) -> Vector:
-    """Points of a Sobol sequence in the unit cube without its first, the corner, shape (count, dimensions)."""
-    from scipy.stats.qmc import Sobol
-
-    points: Vector = Sobol(dimensions, scramble=False).random_base2(math.ceil(math.log2(count + 1)))[1 : count + 1]
-    points.setflags(write=False)
-    return points

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rgss.kinematics.arm import Arm
+from rgss.kinematics.sobol_points import sobol_points
 
 Array = NDArray[np.float64]
 
@@ -25,13 +26,11 @@ def position_gap_m(arm: Arm, point_m: ArrayLike) -> float:
         point_m: The point in the world, shape (3,).
     """
     from scipy.optimize import least_squares
-    from scipy.stats.qmc import Sobol
 
     point, lower = np.asarray(point_m, dtype=float), arm.lower_rad
     # The solver requires ranges of some width.
     upper = np.maximum(arm.upper_rad, lower + 1e-9)
-    shares = Sobol(len(lower), scramble=False).random_base2(round(math.log2(_SAMPLES)))
-    qs = lower + shares * (upper - lower)
+    qs = lower + sobol_points(len(lower), _SAMPLES) * (upper - lower)
     distances = np.linalg.norm(arm.tool_position(qs) - point, axis=1)
     ends = []
     for index in np.argsort(distances, kind="stable")[:_STARTS].tolist():

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.motion.toppra_module import load_toppra
+
 Vector = NDArray[np.float64]
 
 
@@ -45,11 +47,11 @@ def fastest_rates(grid: Vector, largest_squares: Vector, constraints: list[RateC
     Returns:
         ds/dt at the grid points in 1/s, shape (n,); None when the solver finds no motion.
     """
-    import toppra
-    from toppra.constraint.linear_constraint import LinearConstraint, canlinear_colloc_to_interpolate
+    engine = load_toppra()
+    linear = engine.constraint.linear_constraint
 
     def prepared(parameters: tuple[Any, ...], *, identical: bool) -> Any:
-        constraint = LinearConstraint()
+        constraint = linear.LinearConstraint()
         constraint.identical = identical
         constraint.dof = 1
         constraint.compute_constraint_params = lambda _path, _grid: parameters
@@ -58,12 +60,12 @@ def fastest_rates(grid: Vector, largest_squares: Vector, constraints: list[RateC
     squares = np.column_stack([np.zeros(len(grid)), largest_squares])
     problem = [prepared((None, None, None, None, None, None, squares), identical=False)]
     for one in constraints:
-        interpolated = canlinear_colloc_to_interpolate(
+        interpolated = linear.canlinear_colloc_to_interpolate(
             one.first, one.second, np.zeros_like(one.first), one.rows, one.bounds, None, None, grid, identical=True
         )
         problem.append(prepared(interpolated, identical=True))
     path = SimpleNamespace(path_interval=np.array([grid[0], grid[-1]]), dof=1)
-    solver = toppra.algorithm.TOPPRA(problem, path, gridpoints=grid, solver_wrapper="seidel")
+    solver = engine.algorithm.TOPPRA(problem, path, gridpoints=grid, solver_wrapper="seidel")
     _, rates, _ = solver.compute_parameterization(0.0, 0.0)
     if rates is None or not np.all(np.isfinite(rates)):
         return None

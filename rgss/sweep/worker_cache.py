@@ -1,7 +1,7 @@
 """Folders for the settings and fonts of a worker's plotting library: never in a folder of the worker's own.
 
-An engine imports matplotlib, which makes a temporary folder where the home folder cannot be written, as
-in many containers, and removes it when the process ends by itself. Workers do not: they are killed.
+matplotlib, which plots of an engine import, makes a temporary folder where the home folder cannot be written, as in
+many containers, and removes it when the process ends by itself. Workers do not: they are killed.
 
 This module imports nothing heavy, for worker processes load it before they set their limits.
 """
