@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.kinematics.cross_product import cross_product
 from rgss.kinematics.serial_chain import ChainState
 
 Array = NDArray[np.float64]
@@ -42,7 +43,7 @@ class PoseResidual:
             angular = _rotation_vectors(self.rotation @ state.rotation.transpose(0, 2, 1))
             return np.concatenate([linear, angular], axis=1), state.jacobian
         axes = state.rotation[:, :, 2]
-        crossed = np.cross(axes, self.rotation[:, 2])
+        crossed = cross_product(axes, self.rotation[:, 2])
         sines = np.linalg.norm(crossed, axis=1, keepdims=True)
         angles = np.arctan2(sines, (axes @ self.rotation[:, 2])[:, None])
         angular = crossed * (angles / np.maximum(sines, _LEAST_SINE))

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.kinematics.arm import Arm
+from rgss.kinematics.cross_product import cross_product
 
 Array = NDArray[np.float64]
 
@@ -71,6 +72,6 @@ class SerialChain:
                 rotation = rotation @ turns[:, joint]
             position = position + rotation @ self._steps[joint]
         turning = np.where(self._slides[:, None], 0.0, axes)
-        moving = np.where(self._slides[:, None], axes, np.cross(axes, position[:, None] - origins))
+        moving = np.where(self._slides[:, None], axes, cross_product(axes, position[:, None] - origins))
         jacobian = self._coupling.reduced(np.concatenate([moving, turning], axis=2).transpose(0, 2, 1))
         return ChainState(position_m=position, rotation=rotation @ self._at_zero, jacobian=jacobian)

@@ -165,8 +165,7 @@ class _Grid:
 def _sector(grid: _Grid, cell: Cell, rise_m: float, range_: tuple[float, float, float]) -> tuple[float, float] | None:
     """Widest sector of azimuths in which a cell and the place above it are reached; None if there is none."""
     low = _sectors(grid.positions(cell), range_)
-    best = max(low, key=_width, default=None)
-    if best is None or not (high := _sectors(grid.positions(cell, rise_m), range_)):
+    if not low or not (high := _sectors(grid.positions(cell, rise_m), range_)):
         return None
     both = [(max(a[0], b[0]), min(a[1], b[1])) for a in low for b in high]
     best = max(both, key=_width)
@@ -177,7 +176,9 @@ def _sectors(positions: tuple[float, ...], range_: tuple[float, float, float]) -
     lower, upper, sign = range_
     turns = (-math.tau, 0.0, math.tau)
     ends = [(sign * (lower - q + turn), sign * (upper - q + turn)) for q in positions for turn in turns]
-    return [(max(min(pair), -math.pi), min(max(pair), math.pi)) for pair in ends if min(pair) < math.pi]
+    within = ((max(min(pair), -math.pi), min(max(pair), math.pi)) for pair in ends if min(pair) < math.pi)
+    # Configurations of one position of the joint have one sector, and those of a turn beside it have none.
+    return [one for one in dict.fromkeys(within) if _width(one) > 0.0]
 
 
 def _width(sector: tuple[float, float]) -> float:
