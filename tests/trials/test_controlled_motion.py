@@ -12,6 +12,7 @@ from rgss.trials.controlled_motion import ControlledMotion
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.plants import ControlMode, JointController
+from tests.fixtures.shared_trials import record_without_bench
 
 ARM = ("peak_joint_torque_ratio", "peak_joint_speed_ratio", "tracking_error_m")
 
@@ -28,8 +29,8 @@ def test_what_the_arm_does_is_that_of_its_dynamics_and_the_object_is_carried(spe
     spec = spec_of()
     loose = replace(spec.settings.control, largest_tracking_error_m=0.1)
     spec = replace(spec, settings=replace(spec.settings, control=loose))
-    contact = run_trial(controlled(spec, **control))
-    dynamic = run_trial(controlled(spec, Fidelity.DYNAMIC, **control))
+    contact = record_without_bench(controlled(spec, **control))
+    dynamic = record_without_bench(controlled(spec, Fidelity.DYNAMIC, **control))
 
     assert contact.success
     assert contact.metrics["slip_m"] < 1e-3
@@ -41,13 +42,15 @@ def test_what_the_arm_does_is_that_of_its_dynamics_and_the_object_is_carried(spe
 
 @pytest.mark.engine
 def test_an_arm_that_does_not_follow_fails_in_contact_too(spec_of):
-    record = run_trial(controlled(spec_of(), mode=ControlMode.POSITION, natural_frequency_rad_s=5.0))
+    record = record_without_bench(controlled(spec_of(), mode=ControlMode.POSITION, natural_frequency_rad_s=5.0))
 
     assert (record.failure, record.failed_phase) == (Failure.TRACKING_ERROR, "move_to_grasp")
     # It is seen: contact physics runs the motion that failed too.
     (failed,) = (phase for phase in record.phases if phase.phase == "move_to_grasp")
     assert failed.metrics["workpiece_position_m"] is not None
-    dynamic = run_trial(controlled(spec_of(), Fidelity.DYNAMIC, mode=ControlMode.POSITION, natural_frequency_rad_s=5.0))
+    dynamic = record_without_bench(
+        controlled(spec_of(), Fidelity.DYNAMIC, mode=ControlMode.POSITION, natural_frequency_rad_s=5.0)
+    )
     assert record.failure_detail.startswith(dynamic.failure_detail)
 
 
@@ -55,7 +58,7 @@ def test_an_arm_that_does_not_follow_fails_in_contact_too(spec_of):
 def test_without_it_contact_physics_has_its_own_servo(spec_of):
     spec = spec_of()
     soft = replace(spec, settings=replace(spec.settings, controller=JointController(mode=ControlMode.POSITION)))
-    assert run_trial(soft) == run_trial(spec)
+    assert run_trial(soft) == run_trial(spec)  # with no piece in common
 
 
 def result(phase, failure=None, **metrics):

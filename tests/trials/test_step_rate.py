@@ -11,12 +11,12 @@ import pytest
 from rgss.physics import World
 from rgss.tasks import default_task
 from rgss.trials.execution import Execution
-from rgss.trials.pieces.run import run_trial
 from rgss.trials.planning import plan_task
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import Workcell
 from tests.fixtures.eight_states import Phase
+from tests.fixtures.shared_trials import record_without_bench
 
 pytestmark = [pytest.mark.engine, pytest.mark.slow]
 
@@ -27,7 +27,7 @@ def test_240_and_1000_hertz_agree(spec_of, variant, seed):
     spec = spec_of(variant=variant, seed=seed)
     settings = spec.settings
     fine = replace(spec, settings=replace(settings, physics=replace(settings.physics, rate_hz=1000.0)))
-    coarse_record, fine_record = run_trial(spec), run_trial(fine)
+    coarse_record, fine_record = record_without_bench(spec), record_without_bench(fine)
 
     assert coarse_record.success
     assert fine_record.success

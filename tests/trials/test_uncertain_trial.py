@@ -10,22 +10,13 @@ import pytest
 from rgss.evidence import Failure, record_digest, record_from_json, record_to_json
 from rgss.scenes.uncertainty import Constant, Normal, Uncertainty, UncertainValue
 from rgss.trials.conditions import conditions_of
-from rgss.trials.payload_bench.bench import PayloadResult
-from rgss.trials.payload_bench.rig import PayloadLimit
 from rgss.trials.pieces.run import Pieces, run_trial
 from tests.fixtures.eight_states import Phase
+from tests.fixtures.shared_trials import UNTRIED
 
 pytestmark = pytest.mark.engine
 
 THREE, TWO = 12, 30
-UNTRIED = PayloadResult(
-    payload_kg=0.0,
-    limited_by=PayloadLimit.NO_FIRM_GRASP,
-    bracket_kg=(0.0, 0.0),
-    theory_kg=0.0,
-    eq_4_8_kg=0.0,
-    probes=(),
-)
 
 
 @pytest.fixture(scope="module")

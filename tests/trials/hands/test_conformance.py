@@ -9,7 +9,7 @@ import pytest
 from rgss.evidence import Failure, Fidelity
 from rgss.scenes import Cylinder
 from rgss.trials.hands import hand_of
-from rgss.trials.pieces.run import Pieces
+from tests.fixtures.shared_trials import record_without_bench
 from tests.trials.hands.gripper_files import FILES, HELD, UNFIT, gripper_of
 
 
@@ -18,7 +18,7 @@ from tests.trials.hands.gripper_files import FILES, HELD, UNFIT, gripper_of
 def test_an_object_that_fits_is_carried_to_its_place(trial, name, fidelity):
     spec = trial(name, fidelity)
 
-    record = Pieces().record(spec)
+    record = record_without_bench(spec)
 
     assert record.failure_detail == ""
     assert record.success
@@ -36,7 +36,7 @@ def test_an_object_that_fits_is_carried_to_its_place(trial, name, fidelity):
 def test_an_object_that_does_not_fit_fails_at_the_grasp_with_the_reason(trial, name, fidelity):
     spec = trial(name, fidelity, radius_m=UNFIT[name])
 
-    record = Pieces().record(spec)
+    record = record_without_bench(spec)
 
     assert (record.failed_phase, record.failure) == ("grasp", Failure.NO_FIRM_GRASP)
     assert record.failure_detail == hand_of(spec.gripper).misfit(spec.scene)
@@ -45,7 +45,7 @@ def test_an_object_that_does_not_fit_fails_at_the_grasp_with_the_reason(trial, n
 
 @pytest.mark.parametrize("fidelity", Fidelity)
 def test_what_is_too_wide_for_a_mounting_is_not_entered(trial, fidelity):
-    record = Pieces().record(trial("parallel", fidelity, radius_m=0.019))
+    record = record_without_bench(trial("parallel", fidelity, radius_m=0.019))
 
     assert record.failed_phase == "move_to_grasp"
     assert record.failure_detail == (
@@ -72,14 +72,14 @@ def test_a_hand_needs_more_force_for_more_weight_or_as_much_as_is_stated(tmp_pat
 
 
 def test_a_command_takes_as_long_as_the_text_says(trial):
-    record = Pieces().record(trial("open-loop", Fidelity.CONTACT))
+    record = record_without_bench(trial("open-loop", Fidelity.CONTACT))
 
     assert record.metrics["grasp_cycle_time_s"] == pytest.approx(2 * 0.275, abs=0.01)
 
 
 def test_a_cup_is_torn_off_by_an_object_that_is_too_heavy(trial):
-    lifted = Pieces().record(trial("vacuum", Fidelity.CONTACT, mass_kg=1.3))
-    weighed = Pieces().record(trial("vacuum", Fidelity.CONTACT, mass_kg=1.5))
+    lifted = record_without_bench(trial("vacuum", Fidelity.CONTACT, mass_kg=1.3))
+    weighed = record_without_bench(trial("vacuum", Fidelity.CONTACT, mass_kg=1.5))
 
     # 1.3 kg weigh less than the 13.5 N that the cup holds, and more while they are accelerated upwards.
     assert (lifted.failed_phase, lifted.failure) == ("lift", Failure.OBJECT_DROPPED)
@@ -95,7 +95,7 @@ def at_rate(spec, rate_hz):
 def test_the_margin_of_a_cup_is_the_factor_by_which_its_load_could_grow(trial):
     phases = {}
     for mass_kg in (0.25, 0.5):
-        record = Pieces().record(at_rate(trial("vacuum", Fidelity.CONTACT, mass_kg=mass_kg), 960.0))
+        record = record_without_bench(at_rate(trial("vacuum", Fidelity.CONTACT, mass_kg=mass_kg), 960.0))
         phases[mass_kg] = {phase.phase: phase.metrics for phase in record.phases}
         lift = phases[mass_kg]["lift"]
         # Over the centre of mass the load is the weight and the force of the acceleration, along the cup's axis.
@@ -107,11 +107,11 @@ def test_the_margin_of_a_cup_is_the_factor_by_which_its_load_could_grow(trial):
     assert across[1] < phases[0.5]["lift"]["grip_margin_min"]
 
     # In coarse steps the pull jumps as the object leaves its support.
-    coarse = Pieces().record(trial("vacuum", Fidelity.CONTACT, mass_kg=0.5))
+    coarse = record_without_bench(trial("vacuum", Fidelity.CONTACT, mass_kg=0.5))
     (lift,) = (phase.metrics for phase in coarse.phases if phase.phase == "lift")
     assert 0.9 < lift["grip_margin_min"] / phases[0.5]["lift"]["grip_margin_min"] < 1.0
 
-    torn = Pieces().record(trial("vacuum", Fidelity.CONTACT, mass_kg=1.3))
+    torn = record_without_bench(trial("vacuum", Fidelity.CONTACT, mass_kg=1.3))
     assert 0.8 < torn.metrics["grip_margin_min"] < 1.0
 
 
@@ -130,7 +130,7 @@ def test_a_seal_has_its_limits(trial, changes, phase, start):
     spec = trial("vacuum", Fidelity.CONTACT, mass_kg=0.5)
     suction = replace(spec.gripper.suction, **changes)
 
-    record = Pieces().record(replace(spec, gripper=replace(spec.gripper, suction=suction)))
+    record = record_without_bench(replace(spec, gripper=replace(spec.gripper, suction=suction)))
 
     assert record.failed_phase == phase
     assert record.failure_detail.startswith(start)
@@ -141,7 +141,7 @@ def test_a_cup_that_is_off_the_top_does_not_seal(trial):
     own = spec.gripper.geometry
     wide = replace(own, cup=Cylinder(radius_m=HELD.radius_m, height_m=own.cup.height_m))
 
-    record = Pieces().record(replace(spec, gripper=replace(spec.gripper, geometry=wide)))
+    record = record_without_bench(replace(spec, gripper=replace(spec.gripper, geometry=wide)))
 
     assert record.failed_phase == "grasp"
     assert record.failure_detail.endswith(" mm off its place, and the face leaves it 0.00 mm")

@@ -15,7 +15,7 @@ from rgss.scenes import load_gripper_file
 from rgss.studies.motion import neutral_findings
 from rgss.tasks import NeutralStep, load_task
 from rgss.trials import plan_of, timing_of
-from rgss.trials.pieces.run import Pieces
+from tests.fixtures.shared_trials import record_without_bench
 from tests.trials.hands.gripper_files import FILES
 
 pytestmark = pytest.mark.engine
@@ -41,14 +41,14 @@ def neutral_after(trial):
 @pytest.mark.parametrize("fidelity", Fidelity)
 @pytest.mark.parametrize("share", [0.0, 0.8])
 def test_what_the_unpowered_fingers_do_not_hold_is_dropped(neutral_after, fidelity, share):
-    record = Pieces().record(neutral_after("lift", fidelity, share))
+    record = record_without_bench(neutral_after("lift", fidelity, share))
 
     assert (record.failed_phase, record.failure) == ("neutral", Failure.OBJECT_DROPPED)
 
 
 @pytest.mark.parametrize("fidelity", Fidelity)
 def test_what_they_hold_is_carried_on_and_placed(neutral_after, fidelity):
-    record = Pieces().record(neutral_after("lift", fidelity, 1.6))
+    record = record_without_bench(neutral_after("lift", fidelity, 1.6))
 
     assert record.failure_detail == ""
     assert record.success
@@ -61,7 +61,7 @@ def test_an_object_that_stands_needs_no_force(neutral_after, fidelity):
     spec = neutral_after("grasp", fidelity, 0.0)
     closing = spec.task.steps[spec.task.phases.index("grasp") + 2]
     assert closing.name == "lift"
-    record = Pieces().record(spec)
+    record = record_without_bench(spec)
     neutral = next(phase for phase in record.phases if phase.phase == "neutral")
     # It fails at the lift in contact, where nothing holds it, and not before.
     assert neutral.duration_s == pytest.approx(0.275, abs=0.01)

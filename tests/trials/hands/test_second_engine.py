@@ -9,8 +9,8 @@ import pytest
 from rgss.evidence import Failure, Fidelity
 from rgss.trials.hands import hand_of
 from rgss.trials.payload_bench.bench import run_bench
-from rgss.trials.pieces.run import Pieces
 from rgss.trials.second_engine import mujoco_settings
+from tests.fixtures.shared_trials import record_without_bench
 from tests.trials.hands.gripper_files import FILES, UNFIT
 
 GRAVITY = 9.81
@@ -36,8 +36,8 @@ def phases_of(record):
 @pytest.mark.parametrize("name", FILES)
 def test_an_object_that_fits_is_carried_to_its_place(trial, trial_in_mujoco, name):
     spec = trial_in_mujoco(name)
-    record = Pieces().record(spec)
-    first = Pieces().record(trial(name, Fidelity.CONTACT))
+    record = record_without_bench(spec)
+    first = record_without_bench(trial(name, Fidelity.CONTACT))
 
     assert record.failure_detail == ""
     assert record.success
@@ -56,7 +56,7 @@ def test_an_object_that_fits_is_carried_to_its_place(trial, trial_in_mujoco, nam
 @pytest.mark.parametrize("name", FILES)
 def test_an_object_that_does_not_fit_fails_at_the_grasp_with_the_reason(trial_in_mujoco, name):
     spec = trial_in_mujoco(name, radius_m=UNFIT[name])
-    record = Pieces().record(spec)
+    record = record_without_bench(spec)
 
     assert (record.failed_phase, record.failure) == ("grasp", Failure.NO_FIRM_GRASP)
     assert record.failure_detail == hand_of(spec.gripper).misfit(spec.scene)
@@ -66,8 +66,8 @@ def test_an_object_that_does_not_fit_fails_at_the_grasp_with_the_reason(trial_in
 def test_the_margin_of_a_cup_is_the_factor_by_which_its_load_could_grow(trial, trial_in_mujoco, mass_kg):
     spec = trial("vacuum", Fidelity.CONTACT, mass_kg=mass_kg)
     fine = replace(spec.settings.physics, rate_hz=960.0)
-    first = phases_of(Pieces().record(replace(spec, settings=replace(spec.settings, physics=fine))))
-    second = phases_of(Pieces().record(trial_in_mujoco("vacuum", mass_kg=mass_kg)))
+    first = phases_of(record_without_bench(replace(spec, settings=replace(spec.settings, physics=fine))))
+    second = phases_of(record_without_bench(trial_in_mujoco("vacuum", mass_kg=mass_kg)))
 
     lift = second["lift"]
     # Over the centre of mass the load is the weight and the force of the acceleration, along the cup's axis.
@@ -97,7 +97,7 @@ def test_a_seal_has_its_limits(trial_in_mujoco, mass_kg, changes, phase, start):
     spec = trial_in_mujoco("vacuum", mass_kg=mass_kg)
     suction = replace(spec.gripper.suction, **changes)
 
-    record = Pieces().record(replace(spec, gripper=replace(spec.gripper, suction=suction)))
+    record = record_without_bench(replace(spec, gripper=replace(spec.gripper, suction=suction)))
 
     assert record.failed_phase == phase
     assert record.failure_detail.startswith(start)
@@ -106,7 +106,7 @@ def test_a_seal_has_its_limits(trial_in_mujoco, mass_kg, changes, phase, start):
 @pytest.mark.parametrize("mass_kg", [0.1, 1.3])
 def test_a_linkage_has_the_same_grip_margin_on_both_engines(trial, trial_in_mujoco, mass_kg):
     margins = [
-        phases_of(Pieces().record(spec))["lift"]["grip_margin_min"]
+        phases_of(record_without_bench(spec))["lift"]["grip_margin_min"]
         for spec in (trial("linkage", Fidelity.CONTACT, mass_kg=mass_kg), trial_in_mujoco("linkage", mass_kg=mass_kg))
     ]
     assert margins[1] == pytest.approx(margins[0], rel=0.01)

@@ -10,8 +10,8 @@ import pytest
 from rgss.evidence import Fidelity
 from rgss.trials.metrics import CARRY_METRICS, GRASP_METRICS, METRICS, Aggregation, Direction
 from rgss.trials.monitors.grasp_record import worst_of
-from rgss.trials.pieces.run import run_trial
 from tests.fixtures.eight_states import Phase
+from tests.fixtures.shared_trials import record_without_bench
 
 pytestmark = pytest.mark.engine
 
@@ -137,7 +137,7 @@ def test_three_fingers_make_a_regular_polygon_and_two_make_none(replicate):
 def test_a_cup_that_slips_is_seen_to_slip(spec_of):
     spec = spec_of()
     spec = replace(spec, gripper=replace(spec.gripper, friction=0.13))
-    record = run_trial(spec)
+    record = record_without_bench(spec)
     lift = phase_metrics(record, Phase.LIFT)
 
     assert record.failed_phase == Phase.LIFT
@@ -151,7 +151,7 @@ def test_a_cup_that_slips_is_seen_to_slip(spec_of):
 
 def test_only_contact_knows_of_contacts(spec_of):
     for fidelity in (Fidelity.KINEMATIC, Fidelity.DYNAMIC):
-        metrics = run_trial(replace(spec_of(), fidelity=fidelity)).metrics
+        metrics = record_without_bench(replace(spec_of(), fidelity=fidelity)).metrics
         names = {name for name in metrics if name.startswith(("grasp_q", "grasp_f", "contact", "held", "at_grasp"))}
         assert len(names) > 35
         assert {metrics[name] for name in names} == {None}

@@ -11,8 +11,8 @@ from rgss.evidence import Failure, PhaseOutcome
 from rgss.scenes import NamedPlace, Pose
 from rgss.tasks import CheckStep, Nearness
 from rgss.trials.monitors import violated_condition
-from rgss.trials.pieces.run import run_trial
 from rgss.trials.plants import ControlSettings
+from tests.fixtures.shared_trials import record_without_bench
 from tests.trials.hands.gripper_files import gripper_of
 
 
@@ -23,7 +23,7 @@ def with_checks(spec, **checks):
 
 @pytest.mark.engine
 def test_a_check_ends_the_task_unless_its_conditions_hold(spec_of):
-    record = run_trial(
+    record = record_without_bench(
         with_checks(
             spec_of(),
             placed={"is_upright": True, "is_at_rest": True, "held": False},
@@ -47,7 +47,7 @@ def test_a_check_before_the_first_move_is_made_at_the_start(spec_of):
     near = Nearness(within_m=0.01, point_m=(0.0, 0.0, 0.0))
     before = (CheckStep(name="free", is_at_rest=True, held=False), CheckStep(name="there", near=near))
 
-    record = run_trial(replace(spec, task=replace(spec.task, steps=(*before, *spec.task.steps))))
+    record = record_without_bench(replace(spec, task=replace(spec.task, steps=(*before, *spec.task.steps))))
 
     assert (record.failure, record.failed_phase) == (Failure.CHECK_FAILED, "there")
     assert [phase.outcome for phase in record.phases] == [

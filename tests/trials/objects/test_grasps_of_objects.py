@@ -18,12 +18,12 @@ from rgss.scenes import (
 from rgss.scenes.uncertainty import Constant, Uncertainty, UncertainValue
 from rgss.tasks import load_task
 from rgss.trials import cell_of
-from rgss.trials.pieces.run import Pieces
 from rgss.trials.replay import NodeKind
 from rgss.trials.replay.replayed_trial import run_replayed_trial
 from rgss.trials.route import route_of
 from rgss.trials.scene_check import SceneProblemKind, reach_problems
 from rgss.trials.second_engine import mujoco_settings
+from tests.fixtures.shared_trials import record_without_bench
 from tests.trials.hands.gripper_files import gripper_of
 from tests.trials.objects.two_objects import CANDIDATES, CARTON, TIN, on_top
 
@@ -61,7 +61,7 @@ def test_each_object_is_carried_by_a_grasp_of_its_own(with_two, variant, order):
         half_m = sum(abs(share) * edge / 2 for share, edge in zip(across, CARTON.size_m, strict=True))
         assert taken[first].opening_m == pytest.approx(half_m, abs=1e-6)
     for fidelity in Fidelity:
-        record = Pieces().record(replace(spec, fidelity=fidelity))
+        record = record_without_bench(replace(spec, fidelity=fidelity))
         assert record.success, (fidelity, record.failed_phase, record.failure_detail)
         phases = {phase.phase: phase.metrics for phase in record.phases}
         for name, grasp in taken.items():
@@ -79,7 +79,7 @@ def test_each_object_is_carried_by_a_grasp_of_its_own(with_two, variant, order):
 def test_both_engines_carry_both_objects(with_two):
     spec = replace(with_two(), fidelity=Fidelity.CONTACT)
     other = replace(spec, settings=replace(spec.settings, physics=mujoco_settings()))
-    first, second = Pieces().record(spec), Pieces().record(other)
+    first, second = record_without_bench(spec), record_without_bench(other)
     assert (first.failure_detail, second.failure_detail) == ("", "")
     for one, two in zip(first.phases, second.phases, strict=True):
         assert one.duration_s == pytest.approx(two.duration_s, abs=3 / 240), one.phase
@@ -96,7 +96,7 @@ def test_a_low_object_is_held_by_the_pads_as_a_tall_one_is(with_two, order):
     scene = cell_of(spec).scene
     elements = [len(pad.elements) for pad in finger_pads(scene, spec.gripper.geometry)]
     assert all(4 < count <= 8 for count in elements)
-    record = Pieces().record(spec)
+    record = record_without_bench(spec)
     assert record.success, (record.failed_phase, record.failure_detail)
     carried = {phase.phase: phase.metrics for phase in record.phases}["tin.move_to_place_approach"]
     # With the elements of the carton alone it slips by 0.5 mm.
@@ -140,7 +140,7 @@ def test_a_cup_takes_objects_of_different_heights(with_two, tmp_path, candidates
         lip_m = flange_m - geometry.base.height_m - geometry.cup.height_m
         assert 0.0 < lip_m - top_m < spec.gripper.suction.largest_gap_m
     for fidelity in (Fidelity.KINEMATIC, Fidelity.CONTACT):
-        record = Pieces().record(replace(spec, fidelity=fidelity))
+        record = record_without_bench(replace(spec, fidelity=fidelity))
         assert record.success, (fidelity, record.failed_phase, record.failure_detail)
         chosen = ["chosen_grasp_rank" in phase.metrics for phase in record.phases]
         assert any(chosen) == (candidates is not None)
@@ -191,7 +191,7 @@ def test_the_first_object_is_set_down_at_another_place_before_its_own(with_two, 
     buffer = NamedPlace(id="buffer", region=tin.place, support=tin.place_support)
     scene = replace(spec.scene, places=(buffer,))
 
-    record = Pieces().record(replace(spec, scene=scene, task=load_task(path).program, fidelity=fidelity))
+    record = record_without_bench(replace(spec, scene=scene, task=load_task(path).program, fidelity=fidelity))
 
     assert record.success, (record.failed_phase, record.failure_detail)
     if fidelity is Fidelity.CONTACT:
@@ -206,7 +206,7 @@ def test_an_object_that_has_no_grasp_is_named_and_the_other_keeps_its_own(with_t
     (problem,) = [one for one in problems if one.kind is SceneProblemKind.NO_GRASP]
     assert problem.first == "tin"
     assert "too wide" in problem.detail
-    record = Pieces().record(replace(wide, fidelity=Fidelity.KINEMATIC))
+    record = record_without_bench(replace(wide, fidelity=Fidelity.KINEMATIC))
     assert record.failure is Failure.INVALID_GOAL
     assert record.failure_detail.startswith("no grasp candidate of tin can be carried out: ")
 
@@ -217,7 +217,7 @@ def test_another_object_that_topples_is_not_said_to_be_touched(with_two):
     # Its centre of mass is beside its foot.
     leaning = replace(tin, workpiece=replace(tin.workpiece, centre_of_mass_across_m=(TIN.radius_m + 0.01, 0.0)))
     scene = replace(spec.scene, others=(leaning,), task=replace(spec.scene.task, candidates=None))
-    record = Pieces().record(replace(spec, scene=scene, fidelity=Fidelity.CONTACT))
+    record = record_without_bench(replace(spec, scene=scene, fidelity=Fidelity.CONTACT))
     assert record.failure is Failure.NOT_UPRIGHT
     assert record.failed_phase == f"{spec.scene.workpiece.id}.move_to_grasp_approach"
     assert record.failure_detail.startswith("tin toppled by itself: it is tilted by ")
@@ -230,7 +230,7 @@ def test_an_object_is_stacked_on_one_that_was_carried_before(with_two, variant):
     first = spec.scene.workpiece.id
     spec = replace(spec, scene=on_top(spec.scene, of=first))
     for fidelity in Fidelity:
-        record = Pieces().record(replace(spec, fidelity=fidelity))
+        record = record_without_bench(replace(spec, fidelity=fidelity))
         assert record.success, (fidelity, record.failed_phase, record.failure_detail)
     released = {phase.phase: phase.metrics for phase in record.phases}["tin.release"]
     assert released["place_error_m"] < 1e-3
@@ -247,7 +247,7 @@ def test_an_object_is_put_on_one_that_stays_where_it_was_perceived(with_two):
     first = spec.scene.workpiece.id
     shifted = Uncertainty(values=(UncertainValue(quantity="workpiece.x", distribution=Constant(value=0.006)),))
     spec = replace(spec, scene=on_top(spec.scene, of=first), uncertainty=shifted, fidelity=Fidelity.CONTACT)
-    record = Pieces().record(spec)
+    record = record_without_bench(spec)
     assert record.success, (record.failed_phase, record.failure_detail)
     released = {phase.phase: phase.metrics for phase in record.phases}["tin.release"]
     x, y, _ = spec.scene.workpiece.pose.position_m
@@ -262,8 +262,8 @@ def test_a_stack_is_taken_down_from_the_top(with_two):
     stacked = replace(tin, support=scene.workpiece.id, workpiece=replace(tin.workpiece, pose=top))
     spec = replace(spec, scene=replace(scene, others=(stacked,)))
     for fidelity in Fidelity:
-        record = Pieces().record(replace(spec, fidelity=fidelity))
+        record = record_without_bench(replace(spec, fidelity=fidelity))
         assert record.success, (fidelity, record.failed_phase, record.failure_detail)
     below = with_two(order="cup, tin")
     below = replace(below, scene=replace(below.scene, others=(stacked,)), fidelity=Fidelity.CONTACT)
-    assert not Pieces().record(below).success
+    assert not record_without_bench(below).success

@@ -9,7 +9,7 @@ import pytest
 from rgss.evidence import Failure
 from rgss.scenes import Box
 from rgss.trials import held_loads
-from rgss.trials.pieces import run_trial
+from tests.fixtures.shared_trials import record_without_bench
 from tests.trials.hands.gripper_files import gripper_of
 from tests.trials.objects.two_objects import on_the_ground
 
@@ -37,7 +37,7 @@ def test_what_the_pads_do_not_bear_turns_in_the_hand(lite6, mass_kg, across_m, h
     assert load.needed == pytest.approx(1.0 + 2.0 / 9.81, rel=1e-3)
     assert load.is_borne is holds
     assert load.factor == pytest.approx(load.needed, rel=0.08)
-    record = run_trial(spec)
+    record = record_without_bench(spec)
     if holds:
         assert record.failure is None
     else:

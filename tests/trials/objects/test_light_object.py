@@ -6,21 +6,9 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.trials.payload_bench.bench import PayloadResult
-from rgss.trials.payload_bench.rig import PayloadLimit
-from rgss.trials.pieces.run import Pieces
+from tests.fixtures.shared_trials import record_without_bench
 
 pytestmark = pytest.mark.engine
-
-
-UNTRIED = PayloadResult(
-    payload_kg=0.0,
-    limited_by=PayloadLimit.NO_FIRM_GRASP,
-    bracket_kg=(0.0, 0.0),
-    theory_kg=0.0,
-    eq_4_8_kg=0.0,
-    probes=(),
-)
 
 
 @pytest.mark.parametrize("iterations", [20, 50])
@@ -34,7 +22,7 @@ def test_a_light_cup_does_not_creep_out_of_a_hand_that_holds_many_times_its_weig
         scene=replace(spec.scene, workpiece=cup),
         settings=replace(spec.settings, physics=physics),
     )
-    record = Pieces(bench=lambda _: UNTRIED).record(light)
+    record = record_without_bench(light)
     assert record.success
     assert record.metrics["grip_margin_min"] > 50.0
     assert record.metrics["slip_m"] < 3e-4

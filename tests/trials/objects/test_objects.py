@@ -13,10 +13,10 @@ import pytest
 from rgss.evidence import Failure, Fidelity
 from rgss.scenes import Approach, Box, GraspCandidates, LyingCylinder, MeshShape
 from rgss.trials.conditions import conditions_of
-from rgss.trials.pieces.run import Pieces
 from rgss.trials.planning.goal_reasons import Obstacle
 from rgss.trials.scene_check import SceneProblemKind, reach_problems
 from rgss.trials.workcell import cell_of, grasp_searches_of
+from tests.fixtures.shared_trials import record_without_bench
 
 SIDE_M, HALF_M = 0.04, 0.04
 HEXAGON = MeshShape(
@@ -82,7 +82,7 @@ def test_the_chosen_grasp_carries_the_object_at_every_fidelity(with_object, name
     spec = replace(with_object(name, variant), planning_limit_s=8.0)
     taken = cell_of(spec).scene.task.grasp
     for fidelity in Fidelity:
-        record = Pieces().record(replace(spec, fidelity=fidelity))
+        record = record_without_bench(replace(spec, fidelity=fidelity))
         assert record.success, (fidelity, record.failed_phase, record.failure_detail)
         grasp = next(phase.metrics for phase in record.phases if phase.phase == "grasp")
         assert grasp["chosen_grasp_rank"] == taken.rejected + 1
@@ -156,7 +156,7 @@ def test_the_best_grasp_that_no_arm_reaches_is_given_with_its_distance(with_obje
 
 def test_a_trial_without_a_grasp_says_why_no_candidate_can_be_carried_out(with_object):
     """And not only which waypoint the stated grasp, which the task does not use, would not serve."""
-    record = Pieces().record(replace(with_object(Box(size_m=(0.2, 0.21, 0.19))), fidelity=Fidelity.KINEMATIC))
+    record = record_without_bench(replace(with_object(Box(size_m=(0.2, 0.21, 0.19))), fidelity=Fidelity.KINEMATIC))
     assert record.failure is Failure.INVALID_GOAL
     detail = record.failure_detail
     assert re.fullmatch(
@@ -169,7 +169,7 @@ def test_a_trial_without_a_grasp_says_why_no_candidate_can_be_carried_out(with_o
     x, y, z = spec.scene.workpiece.pose.position_m
     away = replace(spec.scene.workpiece.pose, position_m=(x + 3.0, y, z))
     scene = replace(spec.scene, workpiece=replace(spec.scene.workpiece, pose=away))
-    detail = Pieces().record(replace(spec, scene=scene, fidelity=Fidelity.KINEMATIC)).failure_detail
+    detail = record_without_bench(replace(spec, scene=scene, fidelity=Fidelity.KINEMATIC)).failure_detail
     assert re.fullmatch(
         r"no grasp candidate of \w+ can be carried out: .*reach: \d+; of the best one, no valid configuration for "
         r"grasp_approach: out of reach: 3\.\d\d m .*",
@@ -190,7 +190,7 @@ def test_a_grasp_that_no_arm_reaches_is_counted_by_its_filter(with_object):
 
 def test_a_stated_grasp_of_a_box_is_from_above_at_the_stated_turn(with_object):
     spec = with_object("box", candidates=None)
-    record = Pieces().record(replace(spec, fidelity=Fidelity.CONTACT))
+    record = record_without_bench(replace(spec, fidelity=Fidelity.CONTACT))
     assert record.success, record.failure_detail
     assert not any("chosen_grasp_rank" in phase.metrics for phase in record.phases)
     assert conditions_of(spec).scene.grasp.rotate((0.0, 0.0, 1.0)) == pytest.approx((0.0, 0.0, -1.0))

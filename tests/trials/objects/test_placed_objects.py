@@ -17,7 +17,7 @@ from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.tasks import load_task
 from rgss.trials.object_checks import check_place
-from rgss.trials.pieces.run import run_trial
+from tests.fixtures.shared_trials import record_without_bench
 from tests.fixtures.shipped_project import REPOSITORY
 
 pytestmark = pytest.mark.engine
@@ -64,7 +64,7 @@ def pushed(tmp_path, steps):
 
 
 def test_the_worst_placed_object_is_that_of_the_trial():
-    record = run_trial(of_cubes(y=-OFF_M))
+    record = record_without_bench(of_cubes(y=-OFF_M))
     assert record.success
     errors = {
         phase.phase: phase.metrics["place_error_m"] for phase in record.phases if "place_error_m" in phase.metrics
@@ -78,14 +78,14 @@ def test_the_worst_placed_object_is_that_of_the_trial():
 
 @pytest.mark.parametrize("before", ["", WAIT, LEAVE, LEAVE + WAIT], ids=["at once", "waits", "leaves", "leaves, waits"])
 def test_the_hand_may_not_push_what_it_has_placed(tmp_path, before):
-    record = run_trial(pushed(tmp_path, before + PUSH))
+    record = record_without_bench(pushed(tmp_path, before + PUSH))
     assert (record.success, record.failure) == (False, Failure.OBJECT_COLLISION)
     assert record.failed_phase in ("slide", "aside")
     assert "moved the placed object by" in record.failure_detail
 
 
 def test_a_hand_that_leaves_and_waits_pushes_nothing(tmp_path):
-    record = run_trial(pushed(tmp_path, LEAVE + WAIT))
+    record = record_without_bench(pushed(tmp_path, LEAVE + WAIT))
     assert record.success
     assert record.phases[-1].metrics["workpiece_displacement_m"] == 0.0
 
@@ -125,11 +125,11 @@ def test_a_cup_leaves_an_object_turned_that_it_saw_turned():
     spec = next(one for one in trial_specs(project, seeds=[1]) if one.gripper.suction is not None)
     turned = UncertainValue(quantity="perception.yaw", distribution=Constant(value=math.radians(7.0)))
     spec = replace(spec, uncertainty=Uncertainty(values=(turned,)))
-    record = run_trial(spec)
+    record = record_without_bench(spec)
     assert record.success
     assert record.metrics["place_turn_rad"] == pytest.approx(math.radians(7.0), abs=2e-3)
     strict = replace(spec.scene.place, largest_turn_rad=math.radians(5.0))
-    record = run_trial(replace(spec, scene=replace(spec.scene, place=strict)))
+    record = record_without_bench(replace(spec, scene=replace(spec.scene, place=strict)))
     assert (record.failure, record.success) == (Failure.NOT_IN_PLACE_REGION, False)
     assert re.fullmatch(
         r"the object is turned by [67]\.\d deg from its orientation at the place, more than 5 deg",
@@ -142,13 +142,15 @@ def test_the_motion_of_the_tool_is_that_of_the_joints_at_any_step(rate_hz):
     """Where the arm is at the start of a move, and not where it should be: the limit of the cell is 2 m/s^2."""
     spec = of_cubes()
     settings = replace(spec.settings, physics=replace(spec.settings.physics, rate_hz=rate_hz))
-    record = run_trial(replace(spec, fidelity=Fidelity.DYNAMIC, settings=settings))
+    record = record_without_bench(replace(spec, fidelity=Fidelity.DYNAMIC, settings=settings))
     assert record.success
     assert record.metrics["peak_tool_acceleration_m_s2"] < 3.0
 
 
 def test_the_torques_of_a_check_are_those_of_the_arm():
-    contact, dynamic = (run_trial(replace(of_cubes(), fidelity=each)) for each in (Fidelity.CONTACT, Fidelity.DYNAMIC))
+    contact, dynamic = (
+        record_without_bench(replace(of_cubes(), fidelity=each)) for each in (Fidelity.CONTACT, Fidelity.DYNAMIC)
+    )
     for name in ("peak_joint_torque_ratio", "most_loaded_joint", "fastest_joint", "governing_joint", "joint_work_j"):
         assert contact.metrics[name] == dynamic.metrics[name], name
     checks = [phase for phase in dynamic.phases if phase.phase.endswith(".placed")]

@@ -8,8 +8,8 @@ import pytest
 
 from rgss.evidence import Failure, Fidelity
 from rgss.scenes import Approach, Box, GraspCandidates, LyingCylinder, MeshShape, corners_of
-from rgss.trials.pieces.run import Pieces
 from rgss.trials.workcell import cell_of, grasp_searches_of
+from tests.fixtures.shared_trials import record_without_bench
 from tests.trials.hands.gripper_files import gripper_of
 
 BOX = Box(size_m=(0.06, 0.05, 0.08))
@@ -57,7 +57,7 @@ def test_the_chosen_point_carries_the_object_at_every_fidelity(with_cup, name):
     spec = with_cup(shape, **changes)
     taken = cell_of(spec).scene.task.grasp
     for fidelity in Fidelity:
-        record = Pieces().record(replace(spec, fidelity=fidelity))
+        record = record_without_bench(replace(spec, fidelity=fidelity))
         assert record.success, (fidelity, record.failed_phase, record.failure_detail)
         grasp = next(phase.metrics for phase in record.phases if phase.phase == "grasp")
         assert grasp["chosen_grasp_rank"] == taken.rejected + 1
@@ -73,7 +73,7 @@ def test_a_cup_from_the_side_carries_a_light_object_and_is_bent_off_a_heavy_one(
     assert taken.suction.position_m[2] == pytest.approx(0.0, abs=1e-6)
     # 25 mm to the centre of mass bend the cup of 10 mm radius.
     assert taken.quality_1 == pytest.approx(0.4)
-    light = Pieces().record(replace(spec, fidelity=Fidelity.CONTACT))
+    light = record_without_bench(replace(spec, fidelity=Fidelity.CONTACT))
     phases = {phase.phase: phase for phase in light.phases}
     assert phases["place"].metrics["place_error_m"] < 1e-4
     assert phases["move_to_place"].metrics["slip_m"] < 1e-4
@@ -82,7 +82,7 @@ def test_a_cup_from_the_side_carries_a_light_object_and_is_bent_off_a_heavy_one(
     bent_n = 0.1 * (9.81 + lift["commanded_tool_acceleration_m_s2"]) / taken.quality_1
     assert 0.85 < lift["grip_margin_min"] / (13.5 / bent_n) < 1.01
     # 13.5 N of vacuum bear 0.55 kg at rest.
-    heavy = Pieces().record(replace(with_cup(tall, side, mass_kg=0.6), fidelity=Fidelity.CONTACT))
+    heavy = record_without_bench(replace(with_cup(tall, side, mass_kg=0.6), fidelity=Fidelity.CONTACT))
     assert heavy.failure is Failure.OBJECT_DROPPED
     assert "lifts the lip of the cup off the object" in heavy.failure_detail
 
@@ -109,7 +109,7 @@ def test_a_shape_without_a_face_for_the_lip_has_no_candidate_and_fails_at_the_fi
     spec = with_cup(Box(size_m=(0.015, 0.015, 0.015)))
     (search,) = grasp_searches_of(spec.scene, spec.gripper.geometry, friction=0.5, clearance_m=0.005, task=spec.task)
     assert search.reasons == "no flat face under the whole lip: 1"
-    record = Pieces().record(replace(spec, fidelity=Fidelity.KINEMATIC))
+    record = record_without_bench(replace(spec, fidelity=Fidelity.KINEMATIC))
     assert (record.failed_phase, record.failure) == ("move_to_grasp", Failure.INVALID_GOAL)
     assert record.failure_detail.endswith("can be carried out: no flat face under the whole lip: 1")
 
@@ -118,7 +118,7 @@ def test_a_cup_beside_a_ridge_seals_where_the_middle_of_the_object_has_none(with
     inertia = {"gyration_m2": (5e-4, 8e-4, 8e-4, 0.0, 0.0, 0.0)}
     spec = with_cup(RIDGED, GraspCandidates(approaches=(Approach.ABOVE,), yaws=8), **inertia)
     taken = cell_of(spec).scene.task.grasp
-    record = Pieces().record(replace(spec, fidelity=Fidelity.CONTACT))
+    record = record_without_bench(replace(spec, fidelity=Fidelity.CONTACT))
     assert taken.suction.normal == pytest.approx((0.0, 0.0, 1.0))
     # The ridge ends at -10 mm, the lip has a radius of 10 mm, and keeps 2 mm from the ridge.
     assert 0.002 <= taken.suction.position_m[0] <= 0.005
