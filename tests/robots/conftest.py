@@ -10,6 +10,7 @@ import pytest
 
 from rgss.studies.robot_project import write_robot_project
 from rgss.studies.robot_project.draft import drafted_robot
+from tests.fixtures.made_once import made_once
 
 URDFS = {
     "seven": "kuka_iiwa/model.urdf",
@@ -25,14 +26,25 @@ def urdf_of(name: str) -> Path:
     return Path(pybullet_data.getDataPath()) / URDFS[name]
 
 
+class Projects(dict):
+    """Folder of a project round each arm, written when it is first used; a test that changes one copies it."""
+
+    def __init__(self, tmp_path_factory: pytest.TempPathFactory) -> None:
+        super().__init__()
+        self._factory = tmp_path_factory
+
+    def __missing__(self, name: str) -> Path:
+        with made_once(self._factory, f"project of {name}") as folder:
+            if not folder.exists():
+                write_robot_project(urdf_of(name), folder)
+        self[name] = folder
+        return folder
+
+
 @pytest.fixture(scope="session")
 def projects(tmp_path_factory):
     """A project round each arm."""
-    made = {}
-    for name in URDFS:
-        made[name] = tmp_path_factory.mktemp("project") / "project"
-        write_robot_project(urdf_of(name), made[name])
-    return made
+    return Projects(tmp_path_factory)
 
 
 @pytest.fixture(params=list(URDFS))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from dataclasses import dataclass
 
 import pytest
@@ -11,6 +12,7 @@ from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project, load_project
 from rgss.trials.pieces.run import Pieces
 from rgss.trials.trial_spec import TrialSpec
+from tests.fixtures.made_once import made_once
 from tests.fixtures.shipped_project import REPOSITORY
 
 
@@ -54,8 +56,12 @@ def lite6() -> TrialSpec:
 
 
 @pytest.fixture(scope="session")
-def replicate(project) -> Replicate:
-    specs = trial_specs(project, seeds=[project.study.seed])
-    pieces = Pieces()
-    records = {spec.variant: pieces.record(spec) for spec in specs}
-    return Replicate(specs={spec.variant: spec for spec in specs}, records=records, made=pieces.made)
+def replicate(project, tmp_path_factory) -> Replicate:
+    specs = {spec.variant: spec for spec in trial_specs(project, seeds=[project.study.seed])}
+    with made_once(tmp_path_factory, "replicate.pickle") as path:
+        if not path.exists():
+            pieces = Pieces()
+            records = {variant: pieces.record(spec) for variant, spec in specs.items()}
+            path.write_bytes(pickle.dumps((records, pieces.made)))
+        records, made = pickle.loads(path.read_bytes())  # noqa: S301 - written by this run
+    return Replicate(specs=specs, records=records, made=made)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -54,6 +55,12 @@ def piece(shape, **changes):
     )
 
 
+@cache
+def every_grasp(name, fingers, friction=0.7):
+    """Grasps of a shape by a hand, of every approach, the best first."""
+    return ranked_grasps(piece(SHAPES[name]), hand(fingers), EVERY, friction=friction).grasps
+
+
 def resists(points, wrench, friction):
     """True if some forces in pyramids inside the friction cones balance a wrench: a program of our own."""
     columns = []
@@ -73,7 +80,7 @@ def resists(points, wrench, friction):
 @pytest.mark.parametrize("name", SHAPES)
 def test_every_candidate_resists_every_unit_wrench(name, fingers):
     geometry = hand(fingers)
-    found = ranked_grasps(piece(SHAPES[name]), geometry, EVERY, friction=0.7).grasps
+    found = every_grasp(name, fingers)
 
     assert found
     for grasp in (*found[:3], found[-1]):
@@ -101,9 +108,10 @@ def test_pads_touch_the_surface_and_nothing_is_inside_them(name, fingers):
     solid = weights @ np.array(corners)
     _, width, length = geometry.finger.size_m
     start = geometry.base.height_m - geometry.grasp_depth_m
-    for grasp in ranked_grasps(piece(shape), geometry, EVERY, friction=0.7).grasps[:4]:
+    for grasp in every_grasp(name, fingers)[:4]:
         in_tool = grasp.tool_in_object.inverse()
-        points = np.array([(in_tool @ Pose(position_m=tuple(point))).position_m for point in solid[::20]])
+        turned = np.array([in_tool.rotate(axis) for axis in np.eye(3).tolist()])
+        points = solid[::20] @ turned + in_tool.position_m
         for azimuth in geometry.azimuths_rad:
             radial = points[:, 0] * math.cos(azimuth) + points[:, 1] * math.sin(azimuth)
             across = -points[:, 0] * math.sin(azimuth) + points[:, 1] * math.cos(azimuth)
@@ -212,8 +220,7 @@ def _axes(pose):
 
 @pytest.mark.parametrize("name", SHAPES)
 def test_the_half_turn_of_each_candidate_of_two_fingers_is_one_of_the_same_quality(name):
-    geometry = hand(2)
-    found = ranked_grasps(piece(SHAPES[name]), geometry, EVERY, friction=0.8).grasps
+    found = every_grasp(name, 2, friction=0.8)
     assert found
     poses = np.array([_axes(one.tool_in_object) for one in found])
     for one, axes in zip(found, poses, strict=True):
