@@ -15,5 +15,6 @@ def cross_product(first: Array, second: Array) -> Array:
         first: Vectors, shape (..., 3).
         second: Vectors, shape (..., 3), broadcast with the first.
     """
-    (a, b, c), (x, y, z) = np.moveaxis(first, -1, 0), np.moveaxis(second, -1, 0)
+    a, b, c = first[..., 0], first[..., 1], first[..., 2]
+    x, y, z = second[..., 0], second[..., 1], second[..., 2]
     return np.stack([b * z - c * y, c * x - a * z, a * y - b * x], axis=-1)

@@ -107,11 +107,15 @@ def test_a_linkage_carries_a_box_in_each_fidelity(project, variant, fidelity, ca
     assert (status, record["failure_detail"], record["success"]) == (0, "", True)
 
 
-def test_a_study_of_two_linkages_ends_in_a_decision(project, capsys):
-    assert main(["check", "--project", str(project)]) == 0
-    assert main(["sweep", "--jobs", "1", "--project", str(project)]) == 0
+def test_a_study_of_two_linkages_ends_in_a_decision(project, tmp_path, capsys):
+    """By kinematic trials; `test_own_grippers` has a decision by contact for each of these hands."""
+    folder = tmp_path / "project"
+    shutil.copytree(project, folder)
+    assert main(["check", "--project", str(folder)]) == 0
+    edit(folder / "studies" / "pick_place.yaml", (r"fidelity: contact", "fidelity: kinematic"))
+    assert main(["sweep", "--jobs", "1", "--project", str(folder)]) == 0
     capsys.readouterr()
-    main(["trade", "--json", "--project", str(project)])
+    main(["trade", "--json", "--project", str(folder)])
     decision = json.loads(capsys.readouterr().out)
 
     assert decision["chosen"] in (1, 2)  # the cheaper hand

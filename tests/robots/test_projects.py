@@ -205,7 +205,7 @@ def test_an_arm_that_points_down_at_none_of_its_places(one_size, tmp_path, capsy
     bent = Link("revolute", (0.0, 0.0, 0.1), (0.35, 0.0, 0.0))
     urdf = tmp_path / "arm.urdf"
     urdf.write_text(serial_urdf((*FOUR[:3], bent)), encoding="utf-8")
-    assert main(["init", "--robot", str(urdf), str(tmp_path / "new")]) == 2
+    assert main(["init", "--robot", str(urdf), "--tool-axis", "z", str(tmp_path / "new")]) == 2
     error = " ".join(capsys.readouterr().err.split())
     assert "no layout was found in which serial grasps a cup on a table with its tool pointing down: with the " in error
     assert "the tool points down at none of 63 places within its reach" in error

@@ -16,7 +16,8 @@ from tests.fixtures.eight_states import PLANNED_PHASES
 
 pytestmark = [pytest.mark.engine, pytest.mark.slow]
 
-SEEDS = range(1, 51)
+# Among them are two with which a plan takes longer than 4 s or 6 s, and some with which it takes longer than 8 s.
+SEEDS = range(26, 46)
 LIMITS_S = (4.0, 6.0, 8.0)
 TWO_FINGERS, THREE_FINGERS = 22, 4
 
