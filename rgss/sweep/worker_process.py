@@ -16,7 +16,6 @@ from dataclasses import dataclass, replace
 from multiprocessing import connection, parent_process, resource_tracker
 from typing import Any
 
-from rgss.sweep.worker_cache import share_plot_cache
 from rgss.sweep.worker_wire import LONGEST_ANSWER, BlockingChannel
 from rgss.trials.code import ONE_THREAD, problem_here
 
@@ -83,7 +82,6 @@ def serve(
     """
     settle()
     _leave_the_tracker()
-    share_plot_cache()
     _redirect_output(output)
     _limit_memory(memory_limit_bytes)
     _limit_output()

@@ -11,6 +11,8 @@ import sys
 import threading
 from pathlib import Path
 
+import numpy as np
+
 from rgss.errors import SimulationError
 from rgss.evidence import Piece, PieceKind, PlanOutcome, TrialRecord
 from rgss.motion import PlanningClock
@@ -117,12 +119,13 @@ def allocate_without_end() -> None:
         taken.append(bytearray(64 * MIB))
 
 
-def plot_and_hang() -> None:
-    """Load the library of plots, as an engine does, and never come back."""
-    import matplotlib as mpl
+def time_and_hang() -> None:
+    """Time a motion as a piece does, with an engine that could draw it, and never come back."""
+    from rgss.motion.parametrization import RateConstraints, fastest_rates
 
-    mpl.get_configdir()
-    mpl.get_cachedir()
+    grid, ones = np.linspace(0.0, 1.0, 11), np.ones((11, 1))
+    limits = RateConstraints(first=ones, second=0.0 * ones, rows=np.array([[1.0], [-1.0]]), bounds=np.ones(2))
+    assert fastest_rates(grid, np.full(11, 4.0), [limits]) is not None
     hang()
 
 
@@ -167,7 +170,7 @@ def act(name: str) -> object:
     return {
         "who": who,
         "hang": hang,
-        "plot_and_hang": plot_and_hang,
+        "time_and_hang": time_and_hang,
         "fail": fail,
         "refuse": refuse,
         "allocate": allocate_without_end,
