@@ -78,6 +78,11 @@ class SourceTree:
         self._imports: dict[str, tuple[_Import, ...]] = {}
         self._digests: dict[str, str] = {}
 
+    @property
+    def folder(self) -> Path:
+        """The package's folder."""
+        return self._folder
+
     def closure_of(self, entries: Sequence[str]) -> SourceClosure:
         """Transitive closure of imports, at any place in a module.
 

@@ -9,7 +9,8 @@ from functools import lru_cache
 from types import MappingProxyType
 
 from rgss.engines import missing_engines, require_engines
-from rgss.trials.code.code_fingerprint import SourceClosure, own_sources
+from rgss.trials.code.closure_cache import PieceSources, cached_sources
+from rgss.trials.code.code_fingerprint import SourceClosure, SourceTree, own_sources
 
 ENGINES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -106,20 +107,34 @@ def are_of_this_kind(found: Mapping[str, str]) -> bool:
     return all(f"{_CODE}{piece}" in found for piece in ENTRIES)
 
 
-@lru_cache(maxsize=len(ENTRIES))
 def source_of(piece: str) -> SourceClosure:
     """Modules and engines on which a piece depends.
 
     Args:
         piece: ``plan``, ``timing``, ``execution``, ``bench`` or ``record``.
     """
-    return own_sources().closure_of((*ENTRIES[piece], *_EVERYWHERE))
+    return _sources().closures[piece]
 
 
 def code_of_trials() -> dict[str, str]:
     """Short digest of each module on which any piece of a trial depends, by name."""
-    modules = sorted({module for piece in ENTRIES for module in source_of(piece).modules})
-    return {module: own_sources().module_digest(module)[:12] for module in modules}
+    return {module: digest[:12] for module, digest in _sources().modules.items()}
+
+
+def sources_in(tree: SourceTree) -> PieceSources:
+    """Source code of the pieces in a source tree, found by parsing it.
+
+    Args:
+        tree: The tree of this package, or of a changed copy.
+    """
+    closures = {piece: tree.closure_of((*entries, *_EVERYWHERE)) for piece, entries in ENTRIES.items()}
+    modules = sorted({module for closure in closures.values() for module in closure.modules})
+    return PieceSources(closures=closures, modules={module: tree.module_digest(module) for module in modules})
+
+
+@lru_cache(maxsize=1)
+def _sources() -> PieceSources:
+    return cached_sources(own_sources().folder, lambda: sources_in(own_sources()))
 
 
 def _engine_names() -> tuple[str, ...]:

@@ -205,6 +205,7 @@ def module_of(file: str) -> str | None:
 DIGESTING = {
     "rgss.documents.digests",
     "rgss.trials.pieces.plain_values",
+    "rgss.trials.code.closure_cache",
     "rgss.trials.code.code_fingerprint",
     "rgss.trials.pieces.input_digests",
     "rgss.trials.pieces.scene_digests",

@@ -12,7 +12,7 @@ import pytest
 
 from rgss.trials.code.canonical_syntax import canonical_form
 from rgss.trials.code.code_fingerprint import SourceTree, own_sources
-from rgss.trials.code.piece_versions import ENTRIES, source_of
+from rgss.trials.code.piece_versions import ENTRIES, source_of, sources_in
 
 # Something of every kind of syntax that Python 3.10 has.
 EVERYTHING = '''
@@ -68,7 +68,11 @@ def test_every_python_finds_one_form():
 
 @pytest.mark.parametrize("flags", [[], ["-OO"], ["-X", "utf8"]])
 def test_every_way_to_start_python_finds_the_same_digests(flags):
-    script = f"from rgss.trials.code.piece_versions import source_of\nfor p in {[*ENTRIES]}: print(source_of(p).digest)"
+    script = (
+        "from rgss.trials.code.code_fingerprint import own_sources\n"
+        "from rgss.trials.code.piece_versions import sources_in\n"
+        "for closure in sources_in(own_sources()).closures.values(): print(closure.digest)"
+    )
     done = subprocess.run([sys.executable, *flags, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.split() == [source_of(piece).digest for piece in ENTRIES]
 
@@ -208,7 +212,5 @@ def test_a_change_of_the_code_reaches_the_pieces_that_run_it(tmp_path, file, old
     text = (copy / file).read_text(encoding="utf-8")
     assert old in text
     (copy / file).write_text(text.replace(old, new, 1), encoding="utf-8")
-    changed = SourceTree(copy)
-    everywhere = ("rgss.trials.code.kernel_environment",)
-    found = {p for p in ENTRIES if changed.closure_of((*ENTRIES[p], *everywhere)).digest != source_of(p).digest}
-    assert found == pieces
+    changed = sources_in(SourceTree(copy)).closures
+    assert {piece for piece in ENTRIES if changed[piece].digest != source_of(piece).digest} == pieces
