@@ -1,4 +1,4 @@
-"""Workers of any kind, and what becomes of the troubled tasks of `doubles/worker_doubles.py`."""
+"""Workers of any kind, and what becomes of the troubled tasks of `doubles/task_doubles.py`."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def carried_out():
 
 @pytest.fixture(scope="session")
 def troubles_of_tasks() -> dict[str, TaskError]:
-    """What becomes of the troubled tasks of `worker_doubles.act`, whoever carries them out within 5 s."""
+    """What becomes of the troubled tasks of `task_doubles.act`, whoever carries them out within 5 s."""
     return {
         "die": TaskError(
             kind=RunFailureKind.CRASHED,

@@ -23,11 +23,11 @@ DOUBLES = Path(__file__).parent / "doubles"
 
 
 @pytest.fixture
-def liars(monkeypatch):
+def wrong_results(monkeypatch):
     monkeypatch.syspath_prepend(DOUBLES)
-    import liars
+    import wrong_results
 
-    return liars
+    return wrong_results
 
 
 @pytest.fixture
@@ -37,12 +37,12 @@ def specs_of(shipped):
 
 
 @pytest.mark.parametrize("jobs", [0, 2])
-def test_wrong_pieces_are_failures_of_their_trials_alone(liars, specs_of, tmp_path, jobs):
-    wrong = [*liars.WRONG_PIECES, *(liars.LATE + number for number in liars.WRONG_PIECES)]
+def test_wrong_pieces_are_failures_of_their_trials_alone(wrong_results, specs_of, tmp_path, jobs):
+    wrong = [*wrong_results.WRONG_PIECES, *(wrong_results.LATE + number for number in wrong_results.WRONG_PIECES)]
     specs = specs_of([0, *wrong, 99])
     told = []
     with EvidenceStore.open(tmp_path / "evidence.sqlite") as store:
-        result = sweep(specs, store, jobs=jobs, maker=liars.wrong, on_finished=told.append)
+        result = sweep(specs, store, jobs=jobs, maker=wrong_results.wrong, on_finished=told.append)
 
         assert sorted(trial.record.seed for trial in told) == [0, 99]
         lost = {seed: each.failure for each in result.lost for _, seed in each.trials}
@@ -51,7 +51,7 @@ def test_wrong_pieces_are_failures_of_their_trials_alone(liars, specs_of, tmp_pa
         assert {failure.kind for failure in lost.values()} <= {RunFailureKind.WRONG_ANSWER, RunFailureKind.RAISED}
         assert all(failure.attempts == 2 for failure in lost.values())
         assert {seed: failure.what for seed, failure in lost.items()} == {
-            seed: "execution" if seed >= liars.LATE else "plan" for seed in wrong
+            seed: "execution" if seed >= wrong_results.LATE else "plan" for seed in wrong
         }
         assert store.failures(failure.key for failure in lost.values()) == {
             failure.key: failure for failure in lost.values()
@@ -65,21 +65,23 @@ def test_wrong_pieces_are_failures_of_their_trials_alone(liars, specs_of, tmp_pa
         assert details[11].startswith("it is malformed: the piece has 17825792 bytes")
         # The next sweep tries again.
         again = []
-        assert sweep(specs, store, jobs=0, maker=liars.worker_doubles.quick, on_finished=again.append).lost == ()
+        assert (
+            sweep(specs, store, jobs=0, maker=wrong_results.worker_doubles.quick, on_finished=again.append).lost == ()
+        )
         assert len(again) == len(specs)
     assert verify(tmp_path / "evidence.sqlite", label="it").damages == ()
 
 
-def test_wrong_records_are_failures_of_their_trials_alone(liars, specs_of, tmp_path):
-    specs = specs_of([0, *liars.WRONG_RECORDS, liars.TEXTS_FOR_MEMBERS, 99])
+def test_wrong_records_are_failures_of_their_trials_alone(wrong_results, specs_of, tmp_path):
+    specs = specs_of([0, *wrong_results.WRONG_RECORDS, wrong_results.TEXTS_FOR_MEMBERS, 99])
     told = []
     with EvidenceStore.open(tmp_path / "evidence.sqlite") as store:
-        result = sweep(specs, store, jobs=0, share=False, maker=liars.wrong, on_finished=told.append)
+        result = sweep(specs, store, jobs=0, share=False, maker=wrong_results.wrong, on_finished=told.append)
 
-        assert sorted(trial.record.seed for trial in told) == [0, liars.TEXTS_FOR_MEMBERS, 99]
+        assert sorted(trial.record.seed for trial in told) == [0, wrong_results.TEXTS_FOR_MEMBERS, 99]
         assert all(trial.record.failed_phase in tuple(Phase) for trial in told)
         lost = {seed: each.failure for each in result.lost for _, seed in each.trials}
-        assert sorted(lost) == sorted(liars.WRONG_RECORDS)
+        assert sorted(lost) == sorted(wrong_results.WRONG_RECORDS)
         assert {failure.kind for failure in lost.values()} == {RunFailureKind.WRONG_ANSWER}
         details = {seed: failure.detail for seed, failure in lost.items()}
         assert details[2] == "it is the record of another trial"
@@ -91,11 +93,11 @@ def test_wrong_records_are_failures_of_their_trials_alone(liars, specs_of, tmp_p
     assert verify(tmp_path / "evidence.sqlite", label="it").damages == ()
 
 
-def test_a_whole_trial_that_fails_is_named_as_such(liars, specs_of, tmp_path):
+def test_a_whole_trial_that_fails_is_named_as_such(wrong_results, specs_of, tmp_path):
     def refused(task, needed):
         if task.spec.seed == 2:
             raise SimulationError("no world", hint="make one")
-        return liars.worker_doubles.quick(task, needed)
+        return wrong_results.worker_doubles.quick(task, needed)
 
     specs, told = specs_of([1, 2]), []
     with EvidenceStore.open(tmp_path / "evidence.sqlite") as store:
@@ -107,7 +109,7 @@ def test_a_whole_trial_that_fails_is_named_as_such(liars, specs_of, tmp_path):
     assert [trial.record.seed for trial in told] == [1]
 
 
-def test_pieces_that_do_not_fit_each_other_cost_their_trial_alone(liars, specs_of, tmp_path, monkeypatch):
+def test_pieces_that_do_not_fit_each_other_cost_their_trial_alone(wrong_results, specs_of, tmp_path, monkeypatch):
     specs = specs_of([1, 2, 3])
     record_of = sweep.__globals__["record_of"]
 
@@ -119,14 +121,14 @@ def test_pieces_that_do_not_fit_each_other_cost_their_trial_alone(liars, specs_o
     monkeypatch.setitem(sweep.__globals__, "record_of", breaking)
     told = []
     with EvidenceStore.open(tmp_path / "evidence.sqlite") as store:
-        result = sweep(specs, store, jobs=0, maker=liars.worker_doubles.quick, on_finished=told.append)
+        result = sweep(specs, store, jobs=0, maker=wrong_results.worker_doubles.quick, on_finished=told.append)
     assert [trial.record.seed for trial in told] == [1]
     assert [each.trials for each in result.lost] == [((1, 2),), ((1, 3),)]
     assert result.lost[0].failure.detail == "its pieces make no record: KeyError: 'lift'"
     assert {each.failure.what for each in result.lost} == {"trial"}
 
 
-def test_a_detail_is_cut_and_steers_nothing(liars, specs_of, tmp_path):
+def test_a_detail_is_cut_and_steers_nothing(wrong_results, specs_of, tmp_path):
     def refused(task, needed):
         raise RuntimeError("\x1b[2J\u202e\u2066 [bold red]\n\trgss: all is well\n" + "x" * 10_000)
 
@@ -140,14 +142,16 @@ def test_a_detail_is_cut_and_steers_nothing(liars, specs_of, tmp_path):
         assert store.failures([lost.failure.key])[lost.failure.key] == lost.failure
 
 
-def test_every_right_answer_is_one(liars, specs_of):
+def test_every_right_answer_is_one(wrong_results, specs_of):
     (trial,) = trials_of(specs_of([1]))
     pieces = {}
     for task in tasks_of(trial.spec, trial.digests):
-        pieces[task.digest] = liars.worker_doubles.quick(task, {digest: pieces[digest] for digest in task.needs})
+        pieces[task.digest] = wrong_results.worker_doubles.quick(
+            task, {digest: pieces[digest] for digest in task.needs}
+        )
         assert answer_problem(task, pieces[task.digest]) == ""
     whole = TrialTask(digest=trial.key, spec=trial.spec)
-    assert answer_problem(whole, liars.worker_doubles.quick(whole, {})) == ""
+    assert answer_problem(whole, wrong_results.worker_doubles.quick(whole, {})) == ""
 
 
 @pytest.mark.parametrize(

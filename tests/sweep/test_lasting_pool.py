@@ -17,9 +17,9 @@ LIMITS = {"time_limit_s": PATIENCE_S, "memory_limit_bytes": 0}
 @pytest.fixture
 def doubles(monkeypatch):
     monkeypatch.syspath_prepend(DOUBLES)
-    import worker_doubles
+    import task_doubles
 
-    return worker_doubles
+    return task_doubles
 
 
 def is_there(pid: int) -> bool:

@@ -21,12 +21,12 @@ import sys
 import tempfile
 tempfile.tempdir = sys.argv[4]
 sys.path.insert(0, sys.argv[1])
-import worker_doubles
+import task_doubles
 from pathlib import Path
 from rgss.sweep.workers import WorkerPool
 
 if __name__ == "__main__":
-    with WorkerPool(worker_doubles.act, size=1) as pool:
+    with WorkerPool(task_doubles.act, size=1) as pool:
         while not pool.free:
             pool.prepare_for(1)
             pool.wait(0.1)

@@ -26,9 +26,9 @@ GIB = 1024**3
 @pytest.fixture
 def doubles(monkeypatch):
     monkeypatch.syspath_prepend(DOUBLES)
-    import worker_doubles
+    import task_doubles
 
-    return worker_doubles
+    return task_doubles
 
 
 class Clock:

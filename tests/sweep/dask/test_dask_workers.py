@@ -103,6 +103,7 @@ def test_a_task_that_costs_one_dask_worker_after_another_is_given_up(local, doub
 
 @pytest.mark.verifies("SYS-026")
 def test_a_dask_worker_that_is_killed_costs_nothing_but_time(local, doubles, shipped, tmp_path):
+    import task_doubles
     import worker_doubles
 
     project = shipped.with_fidelity("kinematic").with_replicates(5)
@@ -118,7 +119,7 @@ def test_a_dask_worker_that_is_killed_costs_nothing_but_time(local, doubles, shi
         )
         again = sweep(specs, there, jobs=0, on_finished=lambda _: None, workers_for=lambda _: pytest.fail("asked"))
 
-        assert not worker_doubles.is_first_time("robbed")
+        assert not task_doubles.is_first_time("robbed")
         assert result.lost == ()
         assert again.made == {}
         assert len(there) == 15

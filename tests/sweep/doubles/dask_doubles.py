@@ -6,11 +6,13 @@ import os
 import signal
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import worker_doubles
+import task_doubles
 
-from rgss.evidence import Piece, TrialRecord
-from rgss.trials.pieces.pieces import Task
+if TYPE_CHECKING:
+    from rgss.evidence import Piece, TrialRecord
+    from rgss.trials.pieces.pieces import Task
 
 LONGEST_WAIT_S = 300.0
 """So that a broken meeting ends a test instead of keeping the whole run."""
@@ -24,12 +26,12 @@ def act(name: str, mine: str = "") -> object:
         return rob()
     if name == "parent":
         return os.getppid()
-    return worker_doubles.act(name)
+    return task_doubles.act(name)
 
 
 def meet(mine: str) -> int:
     """Leave a mark and wait until there is another; returns the process."""
-    folder = Path(os.environ[worker_doubles.FOLDER]) / "meeting"
+    folder = Path(os.environ[task_doubles.FOLDER]) / "meeting"
     folder.mkdir(exist_ok=True)
     (folder / mine).touch()
     end = time.monotonic() + LONGEST_WAIT_S
@@ -43,11 +45,13 @@ def meet(mine: str) -> int:
 def rob() -> None:
     """Kill the Dask worker that this engine process belongs to."""
     os.kill(os.getppid(), signal.SIGKILL)
-    worker_doubles.hang()
+    task_doubles.hang()
 
 
 def robbed(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
     """Quick pieces, but the first one to be made costs a Dask worker."""
-    if worker_doubles.is_first_time("robbed"):
+    if task_doubles.is_first_time("robbed"):
         rob()
+    import worker_doubles
+
     return worker_doubles.quick(task, needed)

@@ -1,4 +1,4 @@
-"""What workers are given to do in tests instead of simulations: quick pieces, and every way to fail.
+"""What workers make in tests instead of simulations: quick pieces, and pieces that cost a worker.
 
 Workers import these functions by their name, so this folder must be on their path.
 """
@@ -7,13 +7,10 @@ from __future__ import annotations
 
 import os
 import signal
-import sys
-import threading
 from pathlib import Path
 
-import numpy as np
+from task_doubles import FOLDER, allocate_without_end, die_of_segmentation, fail, hang, is_first_time, refuse
 
-from rgss.errors import SimulationError
 from rgss.evidence import Piece, PieceKind, PlanOutcome, TrialRecord
 from rgss.motion import PlanningClock
 from rgss.trials.payload_bench.bench import PayloadResult
@@ -27,11 +24,6 @@ from rgss.trials.pieces.timing_json import timing_to_json
 from rgss.trials.planning import PlannedMove, TaskPlan
 from rgss.trials.timing import TaskTiming
 from tests.fixtures.eight_states import Phase
-
-FOLDER = "WORKER_DOUBLES_FOLDER"
-"""Names the folder in which workers leave their marks."""
-
-MIB = 1024 * 1024
 
 
 def quick(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
@@ -73,15 +65,6 @@ def quick(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
     return Piece(digest=task.digest, kind=task.kind, text=text)
 
 
-def is_first_time(name: str) -> bool:
-    """Tell whether this is asked for the first time, by whatever process."""
-    try:
-        (Path(os.environ[FOLDER]) / name).touch(exist_ok=False)
-    except FileExistsError:
-        return False
-    return True
-
-
 def troubled(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
     """Every seed has its own failure with its plan, and seed 7 with its execution."""
     kind = "trial" if isinstance(task, TrialTask) else task.kind.value
@@ -98,47 +81,6 @@ def troubled(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
     return quick(task, needed)
 
 
-def die_of_segmentation() -> None:
-    """Say something and end like a program that reads where it must not."""
-    sys.stderr.write("free(): invalid next size\n")
-    sys.stderr.flush()
-    os.kill(os.getpid(), signal.SIGSEGV)
-
-
-def hang() -> None:
-    """Leave a mark, where marks are left, and never come back."""
-    if FOLDER in os.environ:
-        (Path(os.environ[FOLDER]) / f"hanging-{os.getpid()}").touch()
-    threading.Event().wait()
-
-
-def allocate_without_end() -> None:
-    """Take all memory that there is."""
-    taken = []
-    while True:
-        taken.append(bytearray(64 * MIB))
-
-
-def time_and_hang() -> None:
-    """Time a motion as a piece does, with an engine that could draw it, and never come back."""
-    from rgss.motion.parametrization import RateConstraints, fastest_rates
-
-    grid, ones = np.linspace(0.0, 1.0, 11), np.ones((11, 1))
-    limits = RateConstraints(first=ones, second=0.0 * ones, rows=np.array([[1.0], [-1.0]]), bounds=np.ones(2))
-    assert fastest_rates(grid, np.full(11, 4.0), [limits]) is not None
-    hang()
-
-
-def refuse() -> None:
-    """Raise an error of ours, which another attempt would raise again."""
-    raise SimulationError("the mass of the workpiece must be positive, got 0", hint="give it some")
-
-
-def fail() -> None:
-    """Raise an error of somebody else's."""
-    raise ZeroDivisionError("division\nby zero")
-
-
 def changed_result(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
     """Another bench than `quick` gives."""
     made = quick(task, needed)
@@ -151,32 +93,3 @@ def noted(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
     """A real piece whose making leaves a mark."""
     (Path(os.environ[FOLDER]) / f"{task.kind.value}-{task.digest}").touch(exist_ok=False)
     return make_piece(task, needed)
-
-
-def who() -> int:
-    """The process that answers."""
-    return os.getpid()
-
-
-def memory_limit() -> int:
-    """The limit under which a worker stands."""
-    import resource
-
-    return resource.getrlimit(resource.RLIMIT_DATA)[0]
-
-
-def act(name: str) -> object:
-    """Do what a name says; the name is one of this module's functions."""
-    return {
-        "who": who,
-        "hang": hang,
-        "time_and_hang": time_and_hang,
-        "fail": fail,
-        "refuse": refuse,
-        "allocate": allocate_without_end,
-        "die": die_of_segmentation,
-        "memory_limit": memory_limit,
-        "exit": lambda: os._exit(7),
-        "threads": lambda: os.environ["OMP_NUM_THREADS"],
-        "interrupted": lambda: signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()),
-    }[name]()
