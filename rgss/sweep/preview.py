@@ -119,9 +119,10 @@ def dry_run(specs: Sequence[TrialSpec], store: EvidenceStore | None, *, share: b
     stored: set[str] = set()
     if share and store is not None:
         stored = store.has_pieces(digest for counts in uses.values() for digest in counts)
+    present = versions() if missing and store is not None else {}
     groups: dict[tuple[tuple[Cause, ...], tuple[PieceKind, ...]], list[tuple[int, int]]] = {}
     for trial in missing:
-        causes = (Cause(reason=Reason.NEW),) if store is None else _causes(trial, store, study)
+        causes = (Cause(reason=Reason.NEW),) if store is None else _causes(trial, store, study, present)
         due = tuple(kind for kind, digest in trial.pieces.items() if digest not in stored)
         groups.setdefault((causes, due), []).append((trial.spec.variant, trial.spec.seed))
     return DryRun(
@@ -139,7 +140,7 @@ def _count(uses: Counter[str], stored: set[str], *, share: bool) -> PieceCount:
     return PieceCount(make=make, stored=len(uses.keys() & stored), uses=uses.total())
 
 
-def _causes(trial: Trial, store: EvidenceStore, study: str) -> tuple[Cause, ...]:
+def _causes(trial: Trial, store: EvidenceStore, study: str, present: Mapping[str, str]) -> tuple[Cause, ...]:
     failures = store.failures([trial.key, *trial.pieces.values()])
     if failures:
         return tuple(
@@ -150,7 +151,7 @@ def _causes(trial: Trial, store: EvidenceStore, study: str) -> tuple[Cause, ...]
     before = [stored for stored in of_number if _is_of(study, trial, stored, store)]
     if not before:
         return (Cause(reason=Reason.NEW),)
-    candidates = [_differences(trial, stored, store) for stored in before]
+    candidates = [_differences(trial, stored, store, present) for stored in before]
     # Of several earlier studies the one that differs least shows what the user has just changed.
     return min(candidates, key=lambda causes: (Cause(reason=Reason.UNKNOWN) in causes, len(causes)))
 
@@ -164,8 +165,10 @@ def _is_of(study: str, trial: Trial, stored: StoredTrial, store: EvidenceStore) 
     return then is None or then["scene"]["id"] == trial.spec.scene.id
 
 
-def _differences(trial: Trial, stored: StoredTrial, store: EvidenceStore) -> tuple[Cause, ...]:
-    past, present = stored.provenance.versions, versions()
+def _differences(
+    trial: Trial, stored: StoredTrial, store: EvidenceStore, present: Mapping[str, str]
+) -> tuple[Cause, ...]:
+    past = stored.provenance.versions
     engines = _changed(Reason.ENGINE, _engines(past), _engines(present))
     then, now = _inputs_of(stored, store), dict(named_inputs(trial.spec).values)
     if then is None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from rgss.sweep.input_changes import Change, changes_between, input_changes
+from rgss.sweep.input_changes import ABSENT, Change, changes_between, input_changes, values_by_name
 
 
 @pytest.mark.parametrize(
@@ -47,6 +49,7 @@ from rgss.sweep.input_changes import Change, changes_between, input_changes
             [{"id": "arm", "joints": [{"name": "b", "s": 1}, {"name": "a", "s": 2}]}],
             [("[arm].joints[a].s", "1", "2"), ("order of [arm].joints", "a, b", "b, a")],
         ),
+        ([{"id": "p", "a": 1}, {"id": "p", "b": 2}], [{"id": "p", "a": 3}, {"id": "p", "b": 2}], [("[p].a", "1", "3")]),
         (1, 2, [("", "1", "2")]),
     ],
 )
@@ -75,3 +78,25 @@ def test_changes_come_in_the_order_of_what_was_and_then_of_what_is_new():
         Change(name="a", then="1", now="2"),
         Change(name="c", then="–", now="1"),
     )
+
+
+LEAVES = st.sampled_from([None, 0, 1, 1.0, True, "", "x", -0.0, float("nan")])
+TREES = st.recursive(
+    LEAVES,
+    lambda parts: (
+        st.lists(parts, max_size=3)
+        | st.dictionaries(st.sampled_from(["", "a", "b", "id"]), parts, max_size=3)
+        | st.lists(st.fixed_dictionaries({"id": st.sampled_from(["p", "q"]), "s": parts}), max_size=3)
+    ),
+    max_leaves=12,
+)
+
+
+@given(TREES, TREES)
+def test_no_difference_is_passed_over_with_what_is_the_same(then, now):
+    """Whatever is named on one side alone, or with another text, differs; nothing else does."""
+    before, after = values_by_name(then), values_by_name(now)
+    names = [name for name in {**before, **after} if before.get(name) != after.get(name)]
+
+    found = [change for change in changes_between(then, now) if not change.name.startswith("order of ")]
+    assert found == [Change(name=name, then=before.get(name, ABSENT), now=after.get(name, ABSENT)) for name in names]

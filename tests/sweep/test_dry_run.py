@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -26,12 +27,13 @@ SPACE, SCENE, STUDY = "designs/grasping_system.yaml", "scenes/restaurant.yaml", 
 CATALOGUE, GRIPPER, ROBOT = "designs/catalogue.yaml", "scenes/grippers/kg-2.yaml", "scenes/robots/ur10.yaml"
 
 
-@pytest.fixture
-def quick(monkeypatch):
-    monkeypatch.syspath_prepend(DOUBLES)
-    import worker_doubles
+@pytest.fixture(scope="module")
+def quick():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(DOUBLES)
+        import worker_doubles
 
-    return worker_doubles.quick
+        yield worker_doubles.quick
 
 
 @pytest.fixture
@@ -40,11 +42,21 @@ def store(tmp_path):
         yield opened
 
 
+@pytest.fixture(scope="module")
+def swept_file(shipped, quick, tmp_path_factory):
+    """The evidence of a study of one replicate, which is only copied."""
+    file = tmp_path_factory.mktemp("swept") / "evidence.sqlite"
+    with EvidenceStore.open(file) as store:
+        sweep(trial_specs(shipped, seeds=[1]), store, jobs=0, on_finished=lambda _: None, maker=quick)
+    return file
+
+
 @pytest.fixture
-def swept(shipped, store, quick):
-    """The evidence of a study of one replicate."""
-    sweep(trial_specs(shipped, seeds=[1]), store, jobs=0, on_finished=lambda _: None, maker=quick)
-    return store
+def swept(swept_file, tmp_path):
+    """A copy of the evidence of a study of one replicate."""
+    assert [*swept_file.parent.iterdir()] == [swept_file]
+    with EvidenceStore.open(shutil.copy(swept_file, tmp_path / "swept.sqlite")) as store:
+        yield store
 
 
 def made(found):
