@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from rgss.assessment.measuring import VariantMeasures
@@ -24,7 +24,9 @@ from rgss.studies import Project, trial_specs
 from rgss.trials.pieces import TrialSpec
 
 
-def replicates_of(measures: MeasureSet, variant: VariantMeasures) -> dict[str, tuple[float | None, ...]]:
+def replicates_of(
+    measures: MeasureSet, variant: VariantMeasures, *, only: Collection[str] | None = None
+) -> dict[str, tuple[float | None, ...]]:
     """Value of every measure that is observed in trials, in each trial of a variant.
 
     Their mean is the estimate: a measure that is estimated over successful trials is unknown in the
@@ -33,6 +35,7 @@ def replicates_of(measures: MeasureSet, variant: VariantMeasures) -> dict[str, t
     Args:
         measures: The measures.
         variant: The variant with its records, in the order of their seeds.
+        only: Ids of the measures that are wanted; all by default.
 
     Returns:
         Values in the measure's unit, by measure; None if a trial gives none.
@@ -41,10 +44,13 @@ def replicates_of(measures: MeasureSet, variant: VariantMeasures) -> dict[str, t
         DefinitionError: A measure is not defined for the design.
     """
     design = design_values(measures, fixed=sources(variant.variant), variant=variant.variant.id)
-    trials = [trial_values(measures, design=design, trial=record.metrics) for record in variant.records]
+    needed = None if only is None else frozenset(only).union(*(measures.used[measure] for measure in only))
+    trials = [trial_values(measures, design=design, trial=record.metrics, only=needed) for record in variant.records]
     successes = [record.metrics.get("success") == 1 for record in variant.records]
     return {
-        measure.id: _row(measure, trials, successes) for measure in measures.measures if measure.estimate is not None
+        measure.id: _row(measure, trials, successes)
+        for measure in measures.measures
+        if measure.estimate is not None and (only is None or measure.id in only)
     }
 
 

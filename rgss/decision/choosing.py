@@ -176,7 +176,7 @@ def _known_alternative(
 def _alternative(
     project: Project, variant: VariantMeasures, columns: Mapping[str, tuple[str, Statistic]]
 ) -> Alternative:
-    samples = replicates_of(project.measures, variant)
+    samples = replicates_of(project.measures, variant, only={measure for measure, _ in columns.values()})
     rows = {}
     for column, (measure, statistic) in columns.items():
         if measure in samples:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 
 from rgss.errors import DefinitionError
 from rgss.measures.definitions import InputSymbol, Measure, MeasureSet
@@ -205,7 +205,11 @@ def design_values(measure_set: MeasureSet, *, fixed: Mapping[str, float | str], 
 
 
 def trial_values(
-    measure_set: MeasureSet, *, design: Mapping[str, float], trial: Mapping[str, Observed]
+    measure_set: MeasureSet,
+    *,
+    design: Mapping[str, float],
+    trial: Mapping[str, Observed],
+    only: Set[str] | None = None,
 ) -> dict[str, Value]:
     """Value of every symbol in one trial.
 
@@ -213,6 +217,7 @@ def trial_values(
         measure_set: The measures.
         design: Result of `design_values` for the trial's variant.
         trial: The trial's metrics, in SI.
+        only: Symbols that are wanted, with those on which they depend; all by default.
 
     Returns:
         The values in SI by symbol: numbers and rows, None if unknown.
@@ -222,9 +227,10 @@ def trial_values(
     """
     values: dict[str, Value] = dict(design)
     for metric, symbol in measure_set.trial_inputs:
-        values[symbol.id] = _observed(symbol, trial.get(metric))
+        if only is None or symbol.id in only:
+            values[symbol.id] = _observed(symbol, trial.get(metric))
     for measure in measure_set.evaluation_order:
-        if measure.from_trials:
+        if measure.estimate is not None and (only is None or measure.id in only):
             values[measure.id] = measure.expression.evaluate(values)
     return values
 

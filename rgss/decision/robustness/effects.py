@@ -89,7 +89,7 @@ def _replicate_columns(project: Project, measured: Sequence[VariantMeasures]) ->
     names = [measure.id for measure in _analysed(project) if measure.from_trials]
     columns: dict[str, NDArray[np.float64]] = {}
     for place, entry in enumerate(measured):
-        row = replicates_of(project.measures, entry)
+        row = replicates_of(project.measures, entry, only=names)
         for name in names:
             if name not in columns:
                 columns[name] = np.full((len(measured), len(row[name])), np.nan)

@@ -81,15 +81,18 @@ class Remeasuring:
         measures = measures_with(self.project.measures, number, value)
         quantities, samples = self.table.quantities.copy(), dict(self.table.samples)
         rows = self.users(number)
+        affected = self.affected(number)
+        wanted = {self.measure_of(column) for column in affected}
         observed: list[Mapping[str, tuple[float | None, ...]]] | None = None
-        for column in self.affected(number):
+        known: dict[int, dict[str, float]] = {}
+        for column in affected:
             measure = self.measure_of(column)
             place = self.table.measures.index(column)
             if not measures.measure(measure).from_trials:
-                quantities[rows, place] = self._by_design(measures, measure, rows, number, value)
+                quantities[rows, place] = self._by_design(measures, measure, rows, number, value, known)
                 continue
             if observed is None:
-                observed = [replicates_of(measures, self._changed(row, number, value)) for row in rows]
+                observed = [replicates_of(measures, self._changed(row, number, value), only=wanted) for row in rows]
             old = self.table.samples[column]
             values = old.values.copy()
             fresh = _padded([one[measure] for one in observed], values.shape[1])
@@ -109,17 +112,24 @@ class Remeasuring:
         return replace(entry, variant=variant_with(entry.variant, number, value))
 
     def _by_design(
-        self, measures: MeasureSet, measure: str, rows: NDArray[np.intp], number: ModelNumber, value: float
+        self,
+        measures: MeasureSet,
+        measure: str,
+        rows: NDArray[np.intp],
+        number: ModelNumber,
+        value: float,
+        known: dict[int, dict[str, float]],
     ) -> Column:
-        """Quantities that follow from the design alone, computed once for equal designs."""
+        """Quantities that follow from the design alone, computed once for equal designs; `known` are those of rows."""
         alike = self._alike(tuple(measures.sources(measure)))[rows]
         _, firsts, kinds = np.unique(alike, return_index=True, return_inverse=True)
         found = np.empty(len(firsts))
         for kind, row in enumerate(rows[firsts]):
-            fixed = self.fixed[row]
-            changed = {**fixed, number.source: value} if number.component else fixed
-            values = design_values(measures, fixed=changed, variant=self.measured[row].variant.id)
-            found[kind] = values[measure] / measures.measure(measure).si_per_unit
+            if row not in known:
+                fixed = self.fixed[row]
+                changed = {**fixed, number.source: value} if number.component else fixed
+                known[row] = design_values(measures, fixed=changed, variant=self.measured[row].variant.id)
+            found[kind] = known[row][measure] / measures.measure(measure).si_per_unit
         return np.asarray(found[kinds], dtype=np.float64)
 
     def _alike(self, stands_on: tuple[str, ...]) -> NDArray[np.intp]:
@@ -131,7 +141,7 @@ class Remeasuring:
         return self.kinds[stands_on]
 
     def _replicates(self, measure: str, rows: NDArray[np.intp]) -> list[tuple[float | None, ...]]:
-        return [replicates_of(self.project.measures, self.measured[row])[measure] for row in rows]
+        return [replicates_of(self.project.measures, self.measured[row], only=(measure,))[measure] for row in rows]
 
 
 def _padded(rows: Sequence[Sequence[float | None]], width: int) -> Column:
