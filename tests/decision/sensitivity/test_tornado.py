@@ -13,7 +13,7 @@ from rgss.decision.choosing import choose, trade_problem
 from rgss.decision.robustness import robustness
 from rgss.decision.sensitivity import RangeBasis, analyse_sensitivity
 from rgss.decision.what_if import measured_in, suppose
-from rgss.errors import DocumentError
+from rgss.errors import DocumentError, TradeoffError
 from rgss.reports.decision.sensitivity_sentences import range_sentence
 from rgss.tradeoff import ExponentialValue, Weighting
 from rgss.tradeoff.programs import enumerate_alternatives
@@ -25,6 +25,14 @@ CHOICE = (
     "  - {measure: t_e_simulated, weight: 0.3, worst: {requirement: SYS-005}, best: 5 s}",
     "  - {measure: S, weight: 0.2, worst: 0.8, best: 1.0}",
 )
+
+
+UNREAD = ("winning_regions", "smaa2", "cost_box", "study_effects", "requirement_prices", "_reversals", "_stretched")
+"""Parts of the robustness that the sensitivity does not read, and that take most of its time."""
+
+
+def not_computed(*_, **__):
+    raise TradeoffError("this part is not computed")
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +56,9 @@ def analysed(shipped, measured, read_trade_off_of):
         problem = trade_problem(project, measured)
         decision = choose(project, measured, problem=problem)
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(robustness, "ITERATIONS", 100)
+            for part in UNREAD:
+                patch.setattr(robustness, part, not_computed)
+            patch.setattr(robustness, "_posterior", lambda *_: None)
             found = robustness.analyse_robustness(project, measured, decision, problem=problem)
         return project, decision, analyse_sensitivity(project, measured, decision, found, problem=problem)
 
