@@ -11,14 +11,13 @@ from rgss.assessment.measuring import measure_variants, record_of, require_compl
 from rgss.assessment.recorded_verdicts import VerdictRecord, read_record, write_record
 from rgss.assessment.recording import record_after_sweep, record_verdicts
 from rgss.errors import EvidenceError
-from rgss.evidence import EvidenceStore, Provenance
+from rgss.evidence import EvidenceStore, Provenance, inputs_digest
 from rgss.measures import StaleCause, Verdict
 from rgss.studies.expansion import trial_specs
 from rgss.studies.input_names import CODE, named_inputs
 from rgss.studies.project import load_project
 from rgss.sweep.trial_keys import key_of
 from rgss.trials.code.piece_versions import versions
-from tests.fixtures.stored_inputs import put_inputs
 
 REQUIREMENT, MEASURE, MODEL = StaleCause.REQUIREMENT, StaleCause.MEASURE, StaleCause.MODEL
 CODE_CHANGED, ENGINES = StaleCause.CODE, StaleCause.ENGINES
@@ -36,14 +35,17 @@ def evidence(shipped, record_of, tmp_path_factory):
 
 
 def fill(store, project, record_for, *, key=key_of, found=None, code=None):
+    now = versions()
+    inputs, trials = {}, []
     for spec in trial_specs(project):
-        inputs = dict(named_inputs(spec).values)
+        values = dict(named_inputs(spec).values)
         if code is not None:
-            inputs[CODE] = code
-        provenance = Provenance(
-            inputs={}, versions=found if found is not None else versions(), inputs_digest=put_inputs(store, inputs)
-        )
-        store.put(key(spec), record_for(spec), provenance)
+            values[CODE] = code
+        digest = inputs_digest(values)
+        inputs[digest] = values
+        provenance = Provenance(inputs={}, versions=found if found is not None else now, inputs_digest=digest)
+        trials.append((key(spec), record_for(spec), provenance))
+    store.put_many(trials=trials, inputs=inputs.values())
 
 
 def elsewhere(spec):

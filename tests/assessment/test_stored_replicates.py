@@ -9,10 +9,11 @@ import pytest
 
 from rgss.assessment import common_seeds, measure_variants, require_complete, sequential_seeds, specs_read
 from rgss.errors import EvidenceError
-from rgss.evidence import EvidenceStore, Provenance
+from rgss.evidence import EvidenceStore
 from rgss.measures.anytime_evidence import anytime_proportion_limits
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.trial_keys import key_of
+from tests.fixtures.stored_trials import put_trials
 
 IDS = (1, 2, 28, 72)
 
@@ -43,9 +44,7 @@ def put(project, store, record_of, seeds, *, shuffled=0):
         for spec in trial_specs(project, variants=[project.designs.variant(variant)], seeds=sorted(own))
     ]
     random.Random(shuffled).shuffle(rows)  # noqa: S311 - an order, no secret
-    for spec in rows:
-        record = record_of(spec, planning_s=0.1 * spec.seed, success=spec.seed % 3 > 0)
-        store.put(key_of(spec), record, Provenance(inputs={}, versions={}))
+    put_trials(store, rows, lambda spec: record_of(spec, planning_s=0.1 * spec.seed, success=spec.seed % 3 > 0))
 
 
 def plainly_read(store, first, fewest, cap):

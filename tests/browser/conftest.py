@@ -27,7 +27,6 @@ from rgss.evidence import (
     PhaseRecord,
     PlanningRecord,
     PlanOutcome,
-    Provenance,
     TrialRecord,
 )
 from rgss.reports.replay.packing import packed_replay
@@ -37,13 +36,13 @@ from rgss.reports.trace.report import trace_report
 from rgss.reports.trials import CaptionedPicture, write_video
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.sweep.trial_keys import key_of
 from rgss.trace.model.model import build_trace_model
 from rgss.trials.metrics import METRICS
 from tests.fixtures import made_replay
 from tests.fixtures.eight_states import PLANNED_PHASES, Phase
 from tests.fixtures.processes import PATIENCE_S
 from tests.fixtures.shipped_project import copy_project
+from tests.fixtures.stored_trials import put_trials
 
 REPOSITORY = Path(__file__).parents[2]
 PIXEL = bytes.fromhex(
@@ -125,8 +124,7 @@ def made_study(folder: Path) -> Study:
     """The study of a project with a made record for each of its trials."""
     project = load_project(folder)
     with EvidenceStore.open(project.evidence) as store:
-        for spec in trial_specs(project):
-            store.put(key_of(spec), made_record(spec), Provenance(inputs={}, versions={}))
+        put_trials(store, trial_specs(project), made_record)
         measured = measure_variants(project, store)
         made = decide_study(project, measured, evidence="evidence.sqlite")
         document = report_document(project, measured, made, store)

@@ -18,15 +18,14 @@ from rgss.evidence import (
     PhaseRecord,
     PlanningRecord,
     PlanOutcome,
-    Provenance,
     TrialRecord,
 )
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.sweep.trial_keys import key_of
 from rgss.trials.metrics import METRICS
 from tests.fixtures.eight_states import PLANNED_PHASES, Phase
 from tests.fixtures.shipped_project import copy_project
+from tests.fixtures.stored_trials import put_trials
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,8 +86,7 @@ def with_evidence(tmp_path_factory) -> Path:
     folder = copy_project(tmp_path_factory.mktemp("with-evidence"))
     project = load_project(folder)
     with EvidenceStore.open(project.evidence) as store:
-        for spec in trial_specs(project):
-            store.put(key_of(spec), made_record(spec), Provenance(inputs={}, versions={}))
+        put_trials(store, trial_specs(project), made_record)
     return folder
 
 

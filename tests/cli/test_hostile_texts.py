@@ -10,12 +10,12 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from rgss import load_study
-from rgss.evidence import EvidenceStore, Provenance
+from rgss.evidence import EvidenceStore
 from rgss.invisible_characters import invisible_places, visible
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.studies.scaffolding import write_scaffold
-from rgss.sweep.trial_keys import key_of
+from tests.fixtures.stored_trials import put_trials
 
 from .conftest import made_record
 
@@ -69,8 +69,7 @@ def hostile(tmp_path_factory):
     (folder / STUDY).write_text(text + SECTION, encoding="utf-8")
     project = load_project(folder).with_fidelity("kinematic")
     with EvidenceStore.open(project.evidence) as store:
-        for spec in trial_specs(project, variants=project.designs.expand(), seeds=(1, 2)):
-            store.put(key_of(spec), made_record(spec), Provenance(inputs={}, versions={}))
+        put_trials(store, trial_specs(project, variants=project.designs.expand(), seeds=(1, 2)), made_record)
     return folder
 
 

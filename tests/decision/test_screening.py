@@ -18,16 +18,16 @@ from rgss.decision.screening import (
 )
 from rgss.decision.screening_result import ScreeningOutcome
 from rgss.errors import DefinitionError
-from rgss.evidence import EvidenceStore, Failure, Fidelity, Provenance
+from rgss.evidence import EvidenceStore, Failure, Fidelity
 from rgss.measures import Verdict, judge
 from rgss.reports.decision import screening_lines, screening_to_json
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.studies.promotion import Promotion, Screening
-from rgss.sweep.trial_keys import key_of
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.pieces.input_digests import digests_of
 from rgss.trials.pieces.run import Pieces
+from tests.fixtures.stored_trials import put_trials
 
 STUDY = "studies/pick_place.yaml"
 BOTH = "fidelity: [kinematic, contact]"
@@ -52,8 +52,7 @@ def kept(tmp_path):
     def keep(specs, record_for):
         store = EvidenceStore.open(tmp_path / f"{len(stores)}.sqlite")
         stores.append(store)
-        for spec in specs:
-            store.put(key_of(spec), record_for(spec), Provenance(inputs={}, versions={}))
+        put_trials(store, specs, record_for)
         return store
 
     yield keep

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from rgss.evidence import EvidenceStore, Provenance
+from rgss.evidence import EvidenceStore
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.sweep.trial_keys import key_of
 from tests.cli.conftest import made_record
+from tests.fixtures.stored_trials import put_trials
 
 
 def test_a_new_project_is_sound(rgss, tmp_path):
@@ -37,8 +37,7 @@ def test_its_page_has_a_place_for_the_decision(rgss, tmp_path):
     rgss("init", folder)
     project = load_project(folder).with_fidelity("kinematic")
     with EvidenceStore.open(project.evidence) as store:
-        for spec in trial_specs(project, variants=project.designs.expand(), seeds=(1, 2)):
-            store.put(key_of(spec), made_record(spec), Provenance(inputs={}, versions={}))
+        put_trials(store, trial_specs(project, variants=project.designs.expand(), seeds=(1, 2)), made_record)
     page = folder / "README.md"
     told = rgss("trade", "--fidelity", "kinematic", "--section", "--into", page, "--project", folder)
 

@@ -8,11 +8,12 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from rgss.evidence import EvidenceStore, Provenance
+from rgss.evidence import EvidenceStore
 from rgss.guard.runs import guard_of, watched_trials
 from rgss.studies.project import load_project
 from rgss.sweep.trial_keys import key_of
 from tests.cli.conftest import made_record
+from tests.fixtures.stored_trials import put_trials
 
 STUDY = "studies/pick_place.yaml"
 BASELINE = "studies/pick_place.baseline.json"
@@ -36,8 +37,7 @@ def guarded(folder):
     project = load_project(folder)
     with EvidenceStore.open(project.evidence) as store:
         for trials in watched_trials(project, guard_of(project)):
-            for spec in trials.specs(trials.run.cap):
-                store.put(key_of(spec), made_record(spec), Provenance(inputs={}, versions={}))
+            put_trials(store, trials.specs(trials.run.cap), made_record)
     return folder
 
 

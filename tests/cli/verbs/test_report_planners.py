@@ -8,11 +8,11 @@ from argparse import Namespace
 import pytest
 
 from rgss.cli.verbs.report import _planners
-from rgss.evidence import EvidenceStore, Provenance
+from rgss.evidence import EvidenceStore
 from rgss.studies import load_project, trial_specs
-from rgss.sweep import key_of
 from tests.cli.conftest import made_record
 from tests.fixtures.shipped_project import copy_project
+from tests.fixtures.stored_trials import put_trials
 
 STUDY = "studies/pick_place.yaml"
 
@@ -30,8 +30,7 @@ def quick(tmp_path_factory):
     (folder / STUDY).write_text(text, encoding="utf-8")
     project = load_project(folder)
     with EvidenceStore.open(project.evidence) as store:
-        for spec in trial_specs(project):
-            store.put(key_of(spec), made_record(spec), Provenance(inputs={}, versions={}))
+        put_trials(store, trial_specs(project), made_record)
     return folder
 
 

@@ -14,7 +14,7 @@ from rgss.decision.choosing import choose
 from rgss.decision.study_decision import decide_study
 from rgss.decision.what_if import model_settings, suppose
 from rgss.errors import DefinitionError
-from rgss.evidence import Failure, Fidelity, Provenance
+from rgss.evidence import Failure, Fidelity
 from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
 from rgss.reports.decision.assumption_rows import assumption_sentences
 from rgss.reports.decision.text.conflicts import conflict_lines
@@ -22,6 +22,7 @@ from rgss.reports.decision.words import ids_text
 from rgss.studies import load_project, trial_specs
 from rgss.studies.assumptions_section import StudyAssumption
 from rgss.sweep.trial_keys import key_of
+from tests.fixtures.stored_trials import put_trials
 
 
 def asked(project, *pairs):
@@ -53,8 +54,7 @@ def evidence(shipped, filled, record_of):
 
 
 def put(project, store, record):
-    for spec in trial_specs(project):
-        store.put(key_of(spec), record(spec), Provenance(inputs={}, versions={}))
+    put_trials(store, trial_specs(project), record)
 
 
 def outcome(project, measured, store, about):
