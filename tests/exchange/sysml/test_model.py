@@ -192,7 +192,7 @@ def test_the_same_model_gives_the_same_text(written, shipped):
     assert sysml_text(shipped.requirements, shipped.measures, title=shipped.study.id) == written
 
 
-def test_texts_that_try_to_break_out_of_where_they_stand_stay_texts(shipped):
+def test_texts_that_try_to_break_out_of_where_they_stand_stay_texts(read, shipped):
     need = dataclasses.replace(shipped.requirements.stakeholder[0], text=HOSTILE, owner=HOSTILE, parent=None)
     block = Block(
         id="BLK-1", name=HOSTILE, level=BlockLevel.SYSTEM, parent=None, relation=BlockRelation.PART, text=HOSTILE
@@ -205,7 +205,7 @@ def test_texts_that_try_to_break_out_of_where_they_stand_stay_texts(shipped):
     )
     measures = dataclasses.replace(shipped.measures, measures=())
 
-    hostile = longeron.loads(sysml_text(requirements, measures, title=HOSTILE))
+    hostile = read(sysml_text(requirements, measures, title=HOSTILE))
 
     elements = list(hostile.iter_tree())
     assert [each.name for each in elements if getattr(each, "short_name", None) == "BLK-1"] == [HOSTILE]
