@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from rgss.reports.diagrams.canvas import Canvas, Point
 from rgss.reports.diagrams.crossings import edges_are_clear
@@ -100,8 +101,8 @@ def draw_graph(
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
     """
-    contents = {node.id: content_of(node, graph.node_width, rightwards=graph.rightwards) for node in graph.nodes}
-    graph, placed = _free_labels(graph, contents)
+    contents = _contents(graph)
+    graph, placed = _free_labels(graph)
     canvas = Canvas(ORIGIN)
     if graph.lanes:
         draw_lanes(canvas, graph.lanes, placed.lanes)
@@ -133,13 +134,19 @@ def draw_graph(
     )
 
 
-def _free_labels(graph: Graph, contents: Mapping[str, Content]) -> tuple[Graph, Layout]:
+def _contents(graph: Graph) -> dict[str, Content]:
+    return {node.id: content_of(node, graph.node_width, rightwards=graph.rightwards) for node in graph.nodes}
+
+
+@lru_cache(maxsize=256)
+def _free_labels(graph: Graph) -> tuple[Graph, Layout]:
     """The tightest layout whose labels nothing crosses, near their edges if they can be; else the widest.
 
     One in which edges run through no node is preferred. At each spacing the labels are tried as they
     are, then broken into short lines.
     """
     narrow = _with_narrow_labels(graph)
+    attempts = _Attempts(_contents(graph))
     readable: tuple[Graph, Layout] | None = None
     far = _SPACINGS if graph.lanes else _SPACINGS[:2]
     for farthest, spacings in ((NEAR, _SPACINGS[:2]), (FAR, far), (FARTHEST, _SPACINGS)):
@@ -147,14 +154,14 @@ def _free_labels(graph: Graph, contents: Mapping[str, Content]) -> tuple[Graph, 
             # Short lines also find a place in the layout for the long ones, whose edges may be clearer.
             ways = ((graph, graph), (narrow, narrow), *([(graph, narrow)] if graph.lanes else []))
             for laid_out, tried in dict.fromkeys(ways):
-                placed, labels_free, edges_clear = _laid_out(tried, contents, spacing, farthest, laid_out=laid_out)
+                placed, labels_free, edges_clear = attempts.placed(tried, laid_out, spacing, farthest)
                 if labels_free and edges_clear:
                     return tried, placed
                 readable = readable or ((tried, placed) if labels_free else None)
     if graph.lanes:
         # Curves between ranks that lanes push apart may run through nodes.
         for spacing in _SPACINGS:
-            placed, labels_free, edges_clear = _laid_out(narrow, contents, spacing, FAR, orthogonal=True)
+            placed, labels_free, edges_clear = attempts.placed(narrow, narrow, spacing, FAR, orthogonal=True)
             if labels_free and edges_clear:
                 return narrow, placed
     return readable or (tried, placed)
@@ -168,51 +175,68 @@ def _with_narrow_labels(graph: Graph) -> Graph:
     return replace(graph, edges=tuple(edges))
 
 
-def _laid_out(
-    graph: Graph,
-    contents: Mapping[str, Content],
-    spacing: float,
-    farthest: float,
-    *,
-    orthogonal: bool = False,
-    laid_out: Graph | None = None,
-) -> tuple[Layout, bool, bool]:
-    """A layout, whether every label and title of it is free, and whether its edges run through no node.
+class _Attempts:
+    """Placements of the labels of a diagram in its layouts, each of which Graphviz makes once."""
 
-    Args:
-        graph: The diagram.
-        contents: The content of each node.
-        spacing: Multiple of the usual distances between nodes.
-        farthest: Largest distance of a label from its edge, in pixels.
-        orthogonal: Edges are upright and level lines.
-        laid_out: The diagram with other lines of labels, for which room is kept; itself if None.
-    """
-    sizes = {name: (content.width, content.height) for name, content in contents.items()}
-    placed = layout(laid_out or graph, sizes, spacing=spacing, orthogonal=orthogonal)
-    curves = tuple(
-        with_stubs(curve, contents[edge.source].stub, contents[edge.target].stub, rightwards=graph.rightwards)
-        for edge, curve in zip(graph.edges, placed.curves, strict=True)
-    )
-    widths = {cluster.id: text_width(cluster.title, FONT, bold=True) for cluster in graph.clusters}
-    titles, titles_free = place_titles(placed.frames, widths, 2 * FONT, curves)
-    labels, all_free = place_labels(
-        curves,
-        placed.labels,
-        [label_size(edge) for edge in graph.edges],
-        [
-            *(Box.about(placed.nodes[node.id], sizes[node.id]) for node in graph.nodes),
-            *titles.values(),
-            *lane_headers(graph.lanes, placed.lanes),
-        ],
-        [*frame_lines(placed.frames.values()), *lane_borders(placed.lanes)],
-        farthest=farthest,
-        # A label far from its edge, in a dense diagram, is better than one that a line crosses.
-        lanes=() if orthogonal or farthest >= FARTHEST else tuple(placed.lanes.values()),
-    )
-    middles = {name: (title.left + title.right) / 2 for name, title in titles.items()}
-    lanes = widened(placed.lanes, _ends(curves, labels, graph)) if placed.lanes else placed.lanes
-    placed = replace(placed, labels=labels, curves=curves, titles=middles, lanes=lanes)
-    return placed, all_free and titles_free, edges_are_clear(graph, curves, placed.nodes, sizes)
+    def __init__(self, contents: Mapping[str, Content]) -> None:
+        self._contents = contents
+        self._sizes = {name: (content.width, content.height) for name, content in contents.items()}
+        self._layouts: dict[tuple[Graph, float, bool], Layout] = {}
+
+    def placed(
+        self, graph: Graph, laid_out: Graph, spacing: float, farthest: float, *, orthogonal: bool = False
+    ) -> tuple[Layout, bool, bool]:
+        """A layout, whether every label and title of it is free, and whether its edges run through no node.
+
+        Args:
+            graph: The diagram.
+            laid_out: The same diagram with the lines of labels for which room is kept.
+            spacing: Multiple of the usual distances between nodes.
+            farthest: Largest distance of a label from its edge, in pixels.
+            orthogonal: Edges are upright and level lines.
+        """
+        placed, sizes = self._layout(laid_out, spacing, orthogonal=orthogonal), self._sizes
+        titles, titles_free = place_titles(
+            placed.frames,
+            {cluster.id: text_width(cluster.title, FONT, bold=True) for cluster in graph.clusters},
+            2 * FONT,
+            placed.curves,
+        )
+        labels, all_free = place_labels(
+            placed.curves,
+            placed.labels,
+            [label_size(edge) for edge in graph.edges],
+            [
+                *(Box.about(placed.nodes[node.id], sizes[node.id]) for node in graph.nodes),
+                *titles.values(),
+                *lane_headers(graph.lanes, placed.lanes),
+            ],
+            [*frame_lines(placed.frames.values()), *lane_borders(placed.lanes)],
+            farthest=farthest,
+            # A label far from its edge, in a dense diagram, is better than one that a line crosses.
+            lanes=() if orthogonal or farthest >= FARTHEST else tuple(placed.lanes.values()),
+        )
+        middles = {name: (title.left + title.right) / 2 for name, title in titles.items()}
+        lanes = widened(placed.lanes, _ends(placed.curves, labels, graph)) if placed.lanes else placed.lanes
+        is_clear = edges_are_clear(graph, placed.curves, placed.nodes, sizes)
+        return replace(placed, labels=labels, titles=middles, lanes=lanes), all_free and titles_free, is_clear
+
+    def _layout(self, graph: Graph, spacing: float, *, orthogonal: bool) -> Layout:
+        """The layout by Graphviz, with edges that reach the symbols within the nodes."""
+        key = (graph, spacing, orthogonal)
+        if key not in self._layouts:
+            placed = layout(graph, self._sizes, spacing=spacing, orthogonal=orthogonal)
+            curves = tuple(
+                with_stubs(
+                    curve,
+                    self._contents[edge.source].stub,
+                    self._contents[edge.target].stub,
+                    rightwards=graph.rightwards,
+                )
+                for edge, curve in zip(graph.edges, placed.curves, strict=True)
+            )
+            self._layouts[key] = replace(placed, curves=curves)
+        return self._layouts[key]
 
 
 def _ends(

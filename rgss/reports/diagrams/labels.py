@@ -9,13 +9,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import islice, pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rgss.reports.diagrams.canvas import Point
 
 Segment = tuple[Point, Point]
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 _STEPS = 16
 """Number of straight segments that approximate a Bézier curve."""
@@ -24,6 +27,9 @@ _BERNSTEIN = tuple(
     for t in (step / _STEPS for step in range(1, _STEPS + 1))
 )
 _CLEARANCE = 2.0
+_AT_ONCE = 48
+"""Number of places that are tried together."""
+_ROUNDED = 1.0 + 1e-9
 _PLACES = 24
 """Number of positions along an edge that are tried."""
 _DISTANCES = (4.0, 10.0, 18.0, 30.0, 50.0, 80.0)
@@ -57,19 +63,6 @@ class Box:
         x, y = point
         return math.hypot(max(self.left - x, 0.0, x - self.right), max(self.top - y, 0.0, y - self.bottom))
 
-    def is_crossed_by(self, segment: Segment) -> bool:
-        """True if a part of a segment is within the rectangle."""
-        (x, y), (u, v) = segment
-        if max(x, u) <= self.left or min(x, u) >= self.right or max(y, v) <= self.top or min(y, v) >= self.bottom:
-            return False
-        # The corners are not all on one side of the line through the segment.
-        sides = [
-            (u - x) * (corner_y - y) - (v - y) * (corner_x - x)
-            for corner_x in (self.left, self.right)
-            for corner_y in (self.top, self.bottom)
-        ]
-        return min(sides) < 0 < max(sides)
-
 
 def flattened(curve: Sequence[Point]) -> list[Point]:
     """Polyline that approximates Bézier curves."""
@@ -81,18 +74,63 @@ def flattened(curve: Sequence[Point]) -> list[Point]:
 
 
 class Strokes:
-    """Segments that labels must not be crossed by; those that are far away are sorted out together."""
+    """Segments that no label may be crossed by."""
 
     def __init__(self, segments: Iterable[Segment]) -> None:
         """Note the extents of the segments."""
-        self._segments = list(segments)
-        ends = np.array(self._segments, dtype=float).reshape(-1, 2, 2)
-        self._lowest, self._highest = ends.min(axis=1), ends.max(axis=1)
+        self._ends = np.array(list(segments), dtype=float).reshape(-1, 2, 2)
+        self._boxes = np.hstack([self._ends.min(axis=1), self._ends.max(axis=1)])
 
-    def cross(self, box: Box) -> bool:
-        """True if any of them is partly within a rectangle."""
-        near = (self._highest > (box.left, box.top)) & (self._lowest < (box.right, box.bottom))
-        return any(box.is_crossed_by(self._segments[place]) for place in np.flatnonzero(near.all(axis=1)).tolist())
+    def cross(self, boxes: Array) -> Mask:
+        """Whether any of them is partly within each rectangle, shape (k,).
+
+        Args:
+            boxes: Left, top, right and bottom of each rectangle, shape (k, 4).
+        """
+        box, segment = np.nonzero(_overlaps(boxes, self._boxes))
+        (x, y), (u, v) = self._ends[segment, 0].T, self._ends[segment, 1].T
+        # The corners are not all on one side of the line through the segment.
+        sides = np.array(
+            [
+                (u - x) * (boxes[box, down] - y) - (v - y) * (boxes[box, across] - x)
+                for across in (0, 2)
+                for down in (1, 3)
+            ]
+        )
+        found = np.zeros(len(boxes), dtype=np.bool_)
+        found[box[(sides.min(axis=0) < 0) & (sides.max(axis=0) > 0)]] = True
+        return found
+
+
+class Room:
+    """Room for labels in a diagram: off its boxes, and where no segment crosses them."""
+
+    def __init__(self, strokes: Strokes, boxes: Iterable[Box]) -> None:
+        """Note what labels must keep off."""
+        self._strokes = strokes
+        self._boxes = np.empty((0, 4))
+        for box in boxes:
+            self.take(box)
+
+    def take(self, box: Box) -> None:
+        """Keep further labels off a box."""
+        if box.right > box.left and box.bottom > box.top:
+            self._boxes = np.vstack([self._boxes, (box.left, box.top, box.right, box.bottom)])
+
+    def free(self, centres: Iterable[Point], size: tuple[float, float]) -> Iterator[Point]:
+        """Those centres of a label that leave it free, in their order.
+
+        Args:
+            centres: The centres.
+            size: Width and height of the label.
+        """
+        left = iter(centres)
+        while some := list(islice(left, _AT_ONCE)):
+            middles, half = np.array(some), np.array([(size[0] + _CLEARANCE) / 2, (size[1] + _CLEARANCE) / 2])
+            boxes = np.hstack([middles - half, middles + half])
+            is_free = (boxes[:, :2].min(axis=1) >= 0.0) & ~_overlaps(boxes, self._boxes).any(axis=1)
+            free = np.flatnonzero(is_free)
+            yield from (some[place] for place in free[~self._strokes.cross(boxes[free])].tolist())
 
 
 def place_labels(
@@ -121,32 +159,27 @@ def place_labels(
         The centres, and True if every label is free. A label without a free place keeps its centre.
     """
     ways = [flattened(curve) for curve in curves]
-    strokes = Strokes([segment for way in ways for segment in pairwise(way)] + list(lines))
-    placed: dict[int, Box] = {}
+    room = Room(Strokes([segment for way in ways for segment in pairwise(way)] + list(lines)), nodes)
+    beside = _Sides(ways, lanes)
     centres: dict[int, Point] = {}
-    crossed = []
-    for index, centre in enumerate(wanted):
+
+    def place(index: int, candidates: Iterable[Point]) -> bool:
+        free = room.free(candidates, sizes[index])
+        centre = next((each for each in free if beside.is_of(_roomy(each, sizes[index]), index)), None)
         if centre is None:
-            continue
-        box = _roomy(centre, sizes[index])
-        if _is_free(box, strokes, nodes, placed.values()) and _is_beside(box, index, ways, lanes):
-            placed[index], centres[index] = box, centre
-        else:
-            crossed.append(index)
+            return False
+        centres[index] = centre
+        room.take(_roomy(centre, sizes[index]))
+        return True
+
+    crossed = [index for index, centre in enumerate(wanted) if centre is not None and not place(index, [centre])]
     all_free = True
     for index in crossed:
-        free = (
-            place
-            for place in _candidates(ways[index], sizes[index], farthest)
-            if _is_free(_roomy(place, sizes[index]), strokes, nodes, placed.values())
-            and _is_beside(_roomy(place, sizes[index]), index, ways, lanes)
-        )
-        found = next(free, None)
-        all_free &= found is not None
-        first = wanted[index]
-        centre = found if found is not None else first
-        if centre is not None:
-            placed[index], centres[index] = _roomy(centre, sizes[index]), centre
+        centre = wanted[index]
+        if not place(index, _candidates(ways[index], sizes[index], farthest)) and centre is not None:
+            all_free = False
+            centres[index] = centre
+            room.take(_roomy(centre, sizes[index]))
     return tuple(centres.get(index) for index in range(len(wanted))), all_free
 
 
@@ -196,10 +229,9 @@ def place_titles(
             for share in sorted((step / _PLACES - 0.5 for step in range(_PLACES + 1)), key=abs)
         )
         boxes = list(places)
-        free = (box for box in boxes if not strokes.cross(box))
-        found = next(free, None)
-        all_free &= found is not None
-        placed[name] = boxes[0] if found is None else found
+        crossed = strokes.cross(np.array([(box.left, box.top, box.right, box.bottom) for box in boxes]))
+        all_free &= not crossed.all()
+        placed[name] = boxes[0] if crossed.all() else boxes[int(np.argmin(crossed))]
     return placed, all_free
 
 
@@ -212,28 +244,36 @@ def frame_lines(frames: Iterable[Box]) -> list[Segment]:
     return lines
 
 
+def _overlaps(boxes: Array, others: Array) -> Mask:
+    """Whether rectangles share an area with others, or with the rectangles about segments; shape (k, n)."""
+    left, top, right, bottom = boxes.T[:, :, None]
+    return np.asarray((right > others[:, 0]) & (left < others[:, 2]) & (bottom > others[:, 1]) & (top < others[:, 3]))
+
+
 def _roomy(centre: Point, size: tuple[float, float]) -> Box:
     return Box.about(centre, (size[0] + _CLEARANCE, size[1] + _CLEARANCE))
 
 
-def _is_free(box: Box, strokes: Strokes, nodes: Sequence[Box], others: Iterable[Box]) -> bool:
-    if box.left < 0 or box.top < 0 or any(box.overlaps(node) for node in nodes):
-        return False
-    if any(box.overlaps(other) for other in others):
-        return False
-    return not strokes.cross(box)
+class _Sides:
+    """Which edge a label is beside, in diagrams with lanes."""
 
+    def __init__(self, ways: Sequence[Sequence[Point]], lanes: Sequence[Box]) -> None:
+        self._ways, self._lanes = ways, lanes
+        self._points = np.array([point for way in ways for point in way]).reshape(-1, 2)
+        self._edges = np.repeat(np.arange(len(ways)), [len(way) for way in ways])
 
-def _is_beside(box: Box, index: int, ways: Sequence[Sequence[Point]], lanes: Sequence[Box]) -> bool:
-    """Whether a label belongs to its edge: no other edge is nearer, and the edge beside it is in the same lane."""
-    if not lanes:
-        return True
-    apart, (beside, _) = min((box.distance(point), point) for point in ways[index])
-    middle = (box.left + box.right) / 2
-    if any((lane.left <= middle <= lane.right) != (lane.left <= beside <= lane.right) for lane in lanes):
-        return False
-    others = (point for place, way in enumerate(ways) if place != index for point in way)
-    return all(box.distance(point) >= apart for point in others)
+    def is_of(self, box: Box, index: int) -> bool:
+        """Whether a label belongs to its edge: no other edge is nearer, and the edge beside it is in the same lane."""
+        if not self._lanes:
+            return True
+        apart, (beside, _) = min((box.distance(point), point) for point in self._ways[index])
+        middle = (box.left + box.right) / 2
+        if any((lane.left <= middle <= lane.right) != (lane.left <= beside <= lane.right) for lane in self._lanes):
+            return False
+        # Of most points one coordinate alone is as far away.
+        off = np.maximum(self._points - (box.right, box.bottom), (box.left, box.top) - self._points).max(axis=1)
+        near = self._points[(off <= apart * _ROUNDED) & (self._edges != index)].tolist()
+        return all(box.distance((x, y)) >= apart for x, y in near)
 
 
 def _candidates(way: Sequence[Point], size: tuple[float, float], farthest: float) -> Iterator[Point]:

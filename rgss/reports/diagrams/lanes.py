@@ -7,6 +7,8 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from rgss.reports.diagrams.canvas import Canvas, Point
 from rgss.reports.diagrams.graph import Cluster, Graph
 from rgss.reports.diagrams.labels import Box, Segment, flattened
@@ -105,10 +107,8 @@ def _border(left: float, right: float, upright: Sequence[tuple[float, float]]) -
     reach = (right - left) / 2 + _MARGIN - 4
     places = sorted((middle + reach * step / 8 for step in range(-8, 9)), key=lambda x: abs(x - middle))
 
-    def room(x: float) -> float:
-        return min([12.0, *(abs(x - end) for piece in upright for end in piece)])
-
-    return max(places, key=room)
+    room = np.abs(np.array(places)[:, None] - np.array(upright).reshape(-1)).min(axis=1, initial=12.0)
+    return places[int(np.argmax(room))]
 
 
 def _bounds(text: str) -> tuple[float, ...]:

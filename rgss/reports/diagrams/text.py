@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
+from functools import lru_cache
 
 _SLACK = 1.02
 """Margin for the differences between substitute fonts."""
@@ -28,6 +29,7 @@ _BOLD = (
 )  # fmt: skip
 
 
+@lru_cache(maxsize=8192)
 def text_width(text: str, size: float, *, bold: bool = False) -> float:
     """Width of a line, in the unit of the font size.
 
