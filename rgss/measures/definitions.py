@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Annotated, Any
 
@@ -207,6 +207,10 @@ class MeasureSet:
         directly or not.
         metric_ranges: Ranges of metrics of trials, in SI; a metric that is absent may have any value.
         trial_inputs: The inputs from trials, each with its metric, in the order of the file.
+        trial_ranges: The range of each of them, by its symbol, in SI.
+        design_inputs: The other inputs, in the order of the file.
+        trial_measures: The measures that vary from trial to trial, in topological order.
+        design_measures: The other measures, in topological order.
         of_design: Ids of the measures whose inputs from trials are all declared as ``of_design``.
     """
 
@@ -219,15 +223,32 @@ class MeasureSet:
     used: Mapping[str, frozenset[str]]
     metric_ranges: Mapping[str, Range] = field(default_factory=dict)
     trial_inputs: tuple[tuple[str, InputSymbol], ...] = field(init=False, repr=False, compare=False)
+    trial_ranges: Mapping[str, Range] = field(init=False, repr=False, compare=False)
+    design_inputs: tuple[InputSymbol, ...] = field(init=False, repr=False, compare=False)
+    trial_measures: tuple[Measure, ...] = field(init=False, repr=False, compare=False)
+    design_measures: tuple[Measure, ...] = field(init=False, repr=False, compare=False)
     of_design: frozenset[str] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        """Sort the inputs once: measures are evaluated for each trial of each design."""
+        """Sort inputs and measures once: measures are evaluated for each trial of each design."""
         inputs = tuple((symbol.metric, symbol) for symbol in self.inputs if symbol.from_trial)
         varying = {symbol.id for _, symbol in inputs if not symbol.of_design}
-        object.__setattr__(self, "trial_inputs", inputs)
-        fixed = frozenset(measure.id for measure in self.measures if varying.isdisjoint(self.used[measure.id]))
-        object.__setattr__(self, "of_design", fixed)
+        order = self.evaluation_order
+        derived = {
+            "trial_inputs": inputs,
+            "trial_ranges": {
+                symbol.id: replace(self.metric_ranges.get(metric, Range()), length=symbol.length)
+                for metric, symbol in inputs
+            },
+            "design_inputs": tuple(symbol for symbol in self.inputs if not symbol.from_trial),
+            "trial_measures": tuple(measure for measure in order if measure.from_trials),
+            "design_measures": tuple(measure for measure in order if not measure.from_trials),
+            "of_design": frozenset(
+                measure.id for measure in self.measures if varying.isdisjoint(self.used[measure.id])
+            ),
+        }
+        for name, value in derived.items():
+            object.__setattr__(self, name, value)
 
     def measure(self, id: str) -> Measure:  # noqa: A002 - the domain's word
         """Measure by id.

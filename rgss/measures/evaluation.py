@@ -177,7 +177,7 @@ def design_values(measure_set: MeasureSet, *, fixed: Mapping[str, float | str], 
         DefinitionError: As for `evaluate`.
     """
     values = {constant.id: constant.value for constant in measure_set.constants}
-    of_design = [symbol for symbol in measure_set.inputs if not symbol.from_trial]
+    of_design = measure_set.design_inputs
     missing = [symbol.source for symbol in of_design if symbol.source not in fixed]
     if missing:
         raise DefinitionError(
@@ -191,9 +191,7 @@ def design_values(measure_set: MeasureSet, *, fixed: Mapping[str, float | str], 
                 f"{symbol.source} of variant {variant} is {value!r}; the measures' input {symbol.id!r} needs a number"
             )
         values[symbol.id] = float(value)
-    for measure in measure_set.evaluation_order:
-        if measure.from_trials:
-            continue
+    for measure in measure_set.design_measures:
         result = measure.expression.evaluate(values)
         if not isinstance(result, float):
             raise DefinitionError(
@@ -227,17 +225,17 @@ def trial_values(
     """
     values: dict[str, Value] = dict(design)
     for metric, symbol in measure_set.trial_inputs:
-        if only is None or symbol.id in only:
-            values[symbol.id] = _observed(symbol, trial.get(metric))
-    for measure in measure_set.evaluation_order:
-        if measure.estimate is not None and (only is None or measure.id in only):
+        if only is not None and symbol.id not in only:
+            continue
+        observed = trial.get(metric)
+        values[symbol.id] = None if observed is None else _observed(symbol, observed)
+    for measure in measure_set.trial_measures:
+        if only is None or measure.id in only:
             values[measure.id] = measure.expression.evaluate(values)
     return values
 
 
 def _observed(symbol: InputSymbol, metric: object) -> Value:
-    if metric is None:
-        return None
     if isinstance(metric, (list, tuple)):
         if symbol.length != len(metric):
             declared = "one number" if symbol.length is None else str(symbol.length)

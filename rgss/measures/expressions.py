@@ -153,6 +153,8 @@ OPERATORS: Mapping[str, Callable[[float, float], float]] = MappingProxyType(
 
 
 def _combine(compute: Callable[[float, float], float], left: Value, right: Value) -> Value:
+    if isinstance(left, float) and isinstance(right, float):
+        return defined(compute, left, right)
     if isinstance(left, tuple) or isinstance(right, tuple):
         if left is None or right is None:
             return None

@@ -36,12 +36,9 @@ def symbol_ranges(measure_set: MeasureSet, design: Mapping[str, float]) -> dict[
         design: Values of the symbols that depend only on the design, in SI.
     """
     ranges = {name: Range.of_number(value) for name, value in design.items()}
-    for symbol in measure_set.inputs:
-        if symbol.from_trial:
-            ranges[symbol.id] = replace(measure_set.metric_ranges.get(symbol.metric, Range()), length=symbol.length)
-    for measure in measure_set.evaluation_order:
-        if measure.from_trials:
-            ranges[measure.id] = range_of(measure.expression.root, ranges)
+    ranges.update(measure_set.trial_ranges)
+    for measure in measure_set.trial_measures:
+        ranges[measure.id] = range_of(measure.expression.root, ranges)
     return ranges
 
 

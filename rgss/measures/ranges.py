@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,7 +27,7 @@ class Range:
 
     def negated(self) -> Range:
         """Range of the negated values."""
-        return replace(self, low=-self.high, high=-self.low)
+        return Range(low=-self.high, high=-self.low, length=self.length)
 
     def plus(self, other: Range) -> Range:
         """Range of the sums with values of another range."""
@@ -43,18 +43,18 @@ class Range:
         if self.low < 0.0 < self.high:
             return Range(length=self.length)
         low = -math.inf if self.high == 0.0 else 1.0 / self.high
-        return replace(self, low=low, high=math.inf if self.low == 0.0 else 1.0 / self.low)
+        return Range(low=low, high=math.inf if self.low == 0.0 else 1.0 / self.low, length=self.length)
 
     def power(self, exponent: float) -> Range:
         """Range of the powers that are defined, with a whole or half number as exponent."""
         if exponent < 0.0:
             return self.power(-exponent).inverse()
         if self.low >= 0.0 or exponent % 2.0 == 1.0:
-            return replace(self, low=_power(self.low, exponent), high=_power(self.high, exponent))
+            return Range(low=_power(self.low, exponent), high=_power(self.high, exponent), length=self.length)
         if exponent % 2.0 == 0.0:
             near, far = max(0.0, -self.high), max(-self.low, self.high)
-            return replace(self, low=_power(near, exponent), high=_power(far, exponent))
-        return replace(self, low=0.0, high=_power(max(0.0, self.high), exponent))
+            return Range(low=_power(near, exponent), high=_power(far, exponent), length=self.length)
+        return Range(low=0.0, high=_power(max(0.0, self.high), exponent), length=self.length)
 
     def root(self) -> Range:
         """Range of the square roots that are defined."""
@@ -62,11 +62,11 @@ class Range:
 
     def absolute(self) -> Range:
         """Range of the absolute values."""
-        return replace(self, low=max(0.0, self.low, -self.high), high=max(-self.low, self.high))
+        return Range(low=max(0.0, self.low, -self.high), high=max(-self.low, self.high), length=self.length)
 
     def entry(self) -> Range:
         """Range of one entry, of the mean and of the extremes of a row."""
-        return replace(self, length=None)
+        return Range(low=self.low, high=self.high)
 
     def count(self) -> Range:
         """Range of the number of known entries of a row."""
