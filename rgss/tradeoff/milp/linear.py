@@ -1,4 +1,4 @@
-"""Small linear programs, solved by HiGHS through SciPy."""
+"""Small linear programs, solved by HiGHS."""
 
 from __future__ import annotations
 
@@ -55,8 +55,70 @@ def solve_linear(
     if result.status == _INFEASIBLE:
         return None
     if result.status != _OPTIMAL:
-        raise TradeoffError(
-            f"a linear program over weights ended without an optimum: {' '.join(str(result.message).split())}",
-            hint="only a proven optimum is accepted; look for values that are not between 0 and 1",
-        )
+        raise _unproven(str(result.message))
     return np.asarray(result.x, dtype=np.float64)
+
+
+def variable_ranges(rows: Array, limits: Array, equation_rows: Array, equals: Array) -> tuple[Array, Array] | None:
+    """The least and the greatest value of each variable, shapes (v,) each; bounds only follow from the conditions.
+
+    All are optima of one program with different costs, each of which begins at the last optimum: by HiGHS directly,
+    since through SciPy each would take ten times as long.
+
+    Args:
+        rows: Inequalities a x <= c, shape (k, v).
+        limits: Their right-hand sides.
+        equation_rows: Equations, shape (q, v).
+        equals: Their right-hand sides.
+
+    Returns:
+        The values; None if infeasible.
+
+    Raises:
+        TradeoffError: The solver proved neither optimality nor infeasibility, or a variable has no least or greatest
+            value.
+    """
+    import highspy
+
+    solver = highspy.Highs()
+    for name, value in (
+        ("output_flag", False),
+        ("threads", 1),
+        ("presolve", "off"),
+        ("primal_feasibility_tolerance", SOLVER_TOLERANCE),
+        ("dual_feasibility_tolerance", SOLVER_TOLERANCE),
+    ):
+        solver.setOptionValue(name, value)
+    matrix = np.vstack([rows, equation_rows])
+    count, size = matrix.shape
+    program = highspy.HighsLp()
+    program.num_col_, program.num_row_ = size, count
+    program.col_cost_ = np.zeros(size)
+    program.col_lower_, program.col_upper_ = np.full(size, -np.inf), np.full(size, np.inf)
+    program.row_lower_ = np.concatenate([np.full(len(limits), -np.inf), equals])
+    program.row_upper_ = np.concatenate([limits, equals])
+    program.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
+    program.a_matrix_.start_ = np.arange(count + 1) * size
+    program.a_matrix_.index_ = np.tile(np.arange(size), count)
+    program.a_matrix_.value_ = matrix.ravel()
+    solver.passModel(program)
+    ends = np.empty((2, size))
+    for place in range(size):
+        for end, sign in enumerate((1.0, -1.0)):
+            solver.changeColCost(place, sign)
+            solver.run()
+            status = solver.getModelStatus()
+            if status == highspy.HighsModelStatus.kInfeasible:
+                return None
+            if status != highspy.HighsModelStatus.kOptimal:
+                raise _unproven(solver.modelStatusToString(status))
+            ends[end, place] = solver.getSolution().col_value[place]
+        solver.changeColCost(place, 0.0)
+    return ends[0], ends[1]
+
+
+def _unproven(end: str) -> TradeoffError:
+    return TradeoffError(
+        f"a linear program over weights ended without an optimum: {' '.join(end.split())}",
+        hint="only a proven optimum is accepted; look for values that are not between 0 and 1",
+    )

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from rgss.errors import TradeoffError
 from rgss.nonnegative_least_squares import nonnegative_least_squares
-from rgss.tradeoff.milp import SOLVER_TOLERANCE, solve_linear
+from rgss.tradeoff.milp import SOLVER_TOLERANCE, solve_linear, variable_ranges
 from rgss.tradeoff.weights.weight_set import Array, WeightSet
 
 THINNEST = 1e-9
@@ -99,23 +99,10 @@ class Polytope:
     def extent(self) -> tuple[Array, Array]:
         """The least and the largest value of each weight, shapes (m,) each; the polytope is not empty."""
         equation_rows, equals = self.weights.equations()
-        low, high = np.zeros(self.weights.size), np.zeros(self.weights.size)
-        for place in range(self.weights.size):
-            for sign, ends in ((1.0, low), (-1.0, high)):
-                cost = np.zeros(self.weights.size)
-                cost[place] = sign
-                answer = solve_linear(
-                    cost,
-                    self.rows,
-                    self.limits + THINNEST,
-                    equation_rows,
-                    equals,
-                    [(None, None)] * self.weights.size,
-                )
-                if answer is None:
-                    raise TradeoffError("a region of weights is empty where it was not", hint="report this problem")
-                ends[place] = answer[place]
-        return _cleaned(low), _cleaned(high)
+        found = variable_ranges(self.rows, self.limits + THINNEST, equation_rows, equals)
+        if found is None:
+            raise TradeoffError("a region of weights is empty where it was not", hint="report this problem")
+        return _cleaned(found[0]), _cleaned(found[1])
 
     def vertices(self, inside: Array) -> Array | None:
         """The corners, shape (v, m).
