@@ -17,6 +17,7 @@ from rgss.measures import (
     Value,
     design_values,
     evaluate,
+    needed_symbols,
     ratio_values,
     trial_values,
 )
@@ -44,7 +45,7 @@ def replicates_of(
         DefinitionError: A measure is not defined for the design.
     """
     design = design_values(measures, fixed=sources(variant.variant), variant=variant.variant.id)
-    needed = None if only is None else frozenset(only).union(*(measures.used[measure] for measure in only))
+    needed = None if only is None else needed_symbols(measures, only)
     trials = [trial_values(measures, design=design, trial=record.metrics, only=needed) for record in variant.records]
     successes = [record.metrics.get("success") == 1 for record in variant.records]
     return {

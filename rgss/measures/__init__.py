@@ -14,7 +14,14 @@ from rgss.measures.document import MeasuresDocument
 from rgss.measures.equation_gaps import ModelGap, model_gaps
 from rgss.measures.estimates import Estimate, proportion_estimate
 from rgss.measures.estimators import Estimator, Population, Summary
-from rgss.measures.evaluation import COMPLETE, design_values, evaluate, replicate_ranges, trial_values
+from rgss.measures.evaluation import (
+    COMPLETE,
+    design_values,
+    evaluate,
+    needed_symbols,
+    replicate_ranges,
+    trial_values,
+)
 from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
 from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.loading import load_measures

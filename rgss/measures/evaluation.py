@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Collection, Mapping, Sequence
 
 from rgss.errors import DefinitionError
 from rgss.measures.definitions import InputSymbol, Measure, MeasureSet
@@ -28,6 +28,7 @@ def evaluate(
     trials: Sequence[Mapping[str, Observed]],
     variant: int,
     over_looks: bool = False,
+    only: Collection[str] | None = None,
 ) -> dict[str, Estimate]:
     """Estimate every measure of one variant.
 
@@ -43,6 +44,7 @@ def evaluate(
         variant: The variant's id, for messages.
         over_looks: Whether the number of trials may depend on their results, as in replication until decided; the
             intervals then hold at any number of trials.
+        only: The ids of the measures; None for all.
 
     Returns:
         The estimate of each measure by its id, in the order of the file, in the measure's unit.
@@ -53,13 +55,16 @@ def evaluate(
         its measure; trials differ in a value declared as ``of_design``.
     """
     design = design_values(measure_set, fixed=fixed, variant=variant)
-    rows = [trial_values(measure_set, design=design, trial=trial) for trial in trials]
+    needed = None if only is None else needed_symbols(measure_set, only)
+    rows = [trial_values(measure_set, design=design, trial=trial, only=needed) for trial in trials]
     successes = [trial.get("success") == 1 for trial in trials]
     # An interval of fewer trials has declared bounds alone.
     ranges = symbol_ranges(measure_set, design) if len(rows) > 1 else {}
     possible = possible_ranges(measure_set, ranges) if ranges else {}
     estimates: dict[str, Estimate] = {}
     for measure in measure_set.measures:
+        if only is not None and measure.id not in only:
+            continue
         rule = measure.estimate
         if rule is None:
             estimates[measure.id] = Estimate.exact(design[measure.id] / measure.si_per_unit, measure.unit)
@@ -202,12 +207,17 @@ def design_values(measure_set: MeasureSet, *, fixed: Mapping[str, float | str], 
     return values
 
 
+def needed_symbols(measure_set: MeasureSet, measures: Collection[str]) -> frozenset[str]:
+    """Ids of measures, with all measures and symbols on which they depend, directly or not."""
+    return frozenset(measures).union(*(measure_set.used[each] for each in measures))
+
+
 def trial_values(
     measure_set: MeasureSet,
     *,
     design: Mapping[str, float],
     trial: Mapping[str, Observed],
-    only: Set[str] | None = None,
+    only: Collection[str] | None = None,
 ) -> dict[str, Value]:
     """Value of every symbol in one trial.
 

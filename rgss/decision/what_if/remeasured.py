@@ -48,13 +48,17 @@ def _estimates(project: Project, entry: VariantMeasures, affected: frozenset[str
     measures = project.measures
     fixed = sources(entry.variant)
     if any(measures.measure(name).from_trials for name in affected):
-        return evaluate(
-            measures,
-            fixed=fixed,
-            trials=[record.metrics for record in entry.records],
-            variant=entry.variant.id,
-            over_looks=project.study.is_sequential,
-        )
+        return {
+            **entry.estimates,
+            **evaluate(
+                measures,
+                fixed=fixed,
+                trials=[record.metrics for record in entry.records],
+                variant=entry.variant.id,
+                over_looks=project.study.is_sequential,
+                only=affected,
+            ),
+        }
     # Measures that follow from the design alone need no interval; the others are unchanged.
     values = design_values(measures, fixed=fixed, variant=entry.variant.id)
     changed = {

@@ -139,27 +139,41 @@ def _variance_ratios(
 ) -> list[Array]:
     """Draws of each part's variance over that of noise, from their posterior."""
     state = np.zeros(len(parts))
-    height = _log_density(state, places, noise, parts)
+    known = np.column_stack([places, np.ones(len(places))])
+    scaled = [share * part for share, part in zip(np.exp(state), parts, strict=True)]
+    height = _log_density(state, known, noise, scaled)
     kept = []
     for sweep in range(_SWEEPS):
         for part in range(len(parts)):
             moved = state.copy()
             moved[part] += _STEP * generator.standard_normal()
-            at_moved = _log_density(moved, places, noise, parts)
+            with_moved = [*scaled]
+            with_moved[part] = np.exp(moved)[part] * parts[part]
+            at_moved = _log_density(moved, known, noise, with_moved)
             if math.log(generator.random()) < at_moved - height:
-                state, height = moved, at_moved
+                state, height, scaled = moved, at_moved, with_moved
         if sweep >= _UNUSED_SWEEPS:
             kept.append(np.exp(state))
     return kept
 
 
-def _log_density(logs: Array, places: Array, noise: Array, parts: Sequence[Array]) -> float:
-    """Log posterior density of the logarithms of the ratios, the population's mean integrated out."""
+def _log_density(logs: Array, known: Array, noise: Array, scaled: Sequence[Array]) -> float:
+    """Log posterior density of the logarithms of the ratios, the population's mean integrated out.
+
+    Args:
+        logs: The logarithms, shape (p,).
+        known: The estimates beside ones, shape (n, 2).
+        noise: The covariance of the noise, shape (n, n).
+        scaled: The covariance of each part at these ratios, shape (n, n).
+    """
     if np.abs(logs).max() > 25.0:
         return -math.inf
-    total = noise + sum((share * part for share, part in zip(np.exp(logs), parts, strict=True)), np.zeros_like(noise))
+    total = np.zeros_like(noise)
+    for part in scaled:
+        total += part
+    total += noise
     lower = np.linalg.cholesky(total)
-    half = np.linalg.solve(lower, np.column_stack([places, np.ones(len(places))]))
+    half = np.linalg.solve(lower, known)
     precision = float(half[:, 1] @ half[:, 1])
     deviance = float(half[:, 0] @ half[:, 0]) - float(half[:, 0] @ half[:, 1]) ** 2 / precision
     fit = -0.5 * deviance - float(np.log(np.diag(lower)).sum()) - 0.5 * math.log(precision)
