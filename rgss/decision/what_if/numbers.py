@@ -61,12 +61,14 @@ def model_numbers(project: Project) -> tuple[ModelNumber, ...]:
         for component in project.designs.catalogue.components
         for name, sourced in {COST: component.cost, **component.properties}.items()
     ]
+    # A number from a source is assumed where an assumption is about taking it.
+    concerned = {each: one.rationale for one in project.measures.assumptions for each in one.concerns}
     constants = [
         ModelNumber(
             id=f"{MEASURES}.{constant.id}",
             value=constant.value,
             unit=si_unit(constant.unit),
-            rationale="" if constant.source else constant.definition,
+            rationale=concerned.get(constant.id, "") if constant.source else constant.definition,
             component="",
             role="",
             name=constant.id,
