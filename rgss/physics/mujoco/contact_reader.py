@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,18 +34,17 @@ class PointContacts(Contacts):
         return tuple(one for *_, one in self.struck)
 
 
-@dataclass(frozen=True, slots=True)
-class _Point:
+class _Point(NamedTuple):
     """One contact of the workpiece, or of the robot with the scene.
 
     Attributes:
-        index: Its index among the engine's contacts.
+        number: Its index among the engine's contacts.
         partner: The other shape: of the workpiece's partner, or of the scene.
         sign: 1 if the engine's normal points into the workpiece, or into the robot's link; -1 otherwise.
         row: Its first row among the constraint forces; negative if it is not part of the constraint problem.
     """
 
-    index: int
+    number: int
     partner: int
     sign: float
     row: int
@@ -89,6 +87,8 @@ class MujocoContactReader:
         if standing is not None and not robot_bodies and all(one.partner in self._body_of for one in points):
             return standing
         forces, other_n = [0.0] * self._fingers, 0.0
+        # Lists of the whole step: to read single numbers of the engine's arrays takes longer.
+        efforts, frames = (self._data.efc_force.tolist(), self._data.contact.frame.tolist()) if points else ([], [])
         pressed: list[tuple[float, Vector3]] = []
         workpiece_bodies: dict[str, None] = {}
         pressing_links: dict[str, None] = {}
@@ -98,16 +98,16 @@ class MujocoContactReader:
             if body is not None:
                 workpiece_bodies[body] = None
                 continue
-            normal_n = self._normal_n(point)
+            normal_n = efforts[point.row] if point.row >= 0 else _NO_FORCE
             finger = self._finger_of.get(point.partner)
             if finger is None:
                 other_n += normal_n
                 link = self._link_of[point.partner]
                 pressing_links[link] = None
-                struck.append(self._robot_contact(link, None, replace(point, sign=-point.sign)))
+                struck.append(self._robot_contact(link, None, point._replace(sign=-point.sign)))
             elif normal_n > _NO_FORCE:
                 forces[finger] += normal_n
-                pressed.append((1.0, self._friction_n(point)))
+                pressed.append((1.0, _friction_n(point, efforts, frames[point.number])))
         return PointContacts(
             tuple(forces),
             other_n,
@@ -130,6 +130,7 @@ class MujocoContactReader:
             transform_workpiece_to_world: Pose at the start of the step, at which the engine detected the contacts.
         """
         inverse = transform_workpiece_to_world.inverse()
+        efforts, frames = self._data.efc_force.tolist(), self._data.contact.frame.tolist()
         found = []
         for point in self._sorted()[1]:
             finger = self._finger_of.get(point.partner)
@@ -137,9 +138,9 @@ class MujocoContactReader:
             if finger is None or normal_n <= _NO_FORCE:
                 continue
             normal = _triple(point.sign * self._frame(point)[0])
-            gap_m = float(self._data.contact.dist[point.index])
+            gap_m = float(self._data.contact.dist[point.number])
             # The engine's point lies between the surfaces.
-            middle = self._data.contact.pos[point.index]
+            middle = self._data.contact.pos[point.number]
             at = _triple(middle + np.array(normal) * gap_m / 2)
             found.append(
                 FingerContact(
@@ -148,7 +149,7 @@ class MujocoContactReader:
                     inverse.rotate(normal),
                     gap_m,
                     normal_n,
-                    inverse.rotate(self._friction_n(point)),
+                    inverse.rotate(_friction_n(point, efforts, frames[point.number])),
                 )
             )
         return tuple(sorted(found, key=lambda contact: (contact.finger, contact.position_m[2])))
@@ -174,22 +175,23 @@ class MujocoContactReader:
     def _robot_contact(self, link: str, body: str | None, point: _Point) -> RobotContact:
         """Contact with the normal force on the link."""
         force = self._normal_n(point) * point.sign * self._frame(point)[0]
-        return RobotContact(link, body, _triple(self._data.contact.pos[point.index]), _triple(force))
+        return RobotContact(link, body, _triple(self._data.contact.pos[point.number]), _triple(force))
 
     def _normal_n(self, point: _Point) -> float:
         # With elliptic cones the first row of a contact is its normal force, the next two are its friction.
         return float(self._data.efc_force[point.row]) if point.row >= 0 else _NO_FORCE
 
-    def _friction_n(self, point: _Point) -> Vector3:
-        """Friction force on the workpiece, in the world."""
-        first, second = self._data.efc_force[point.row + 1 : point.row + 3].tolist()
-        frame = self._frame(point)
-        return _triple(point.sign * (first * frame[1] + second * frame[2]))
-
     def _frame(self, point: _Point) -> NDArray[np.float64]:
         """Normal and two tangents of a contact as rows (3, 3), in the world."""
-        frame: NDArray[np.float64] = self._data.contact.frame[point.index].reshape(3, 3)
+        frame: NDArray[np.float64] = self._data.contact.frame[point.number].reshape(3, 3)
         return frame
+
+
+def _friction_n(point: _Point, efforts: Sequence[float], frame: Sequence[float]) -> Vector3:
+    """Friction force on the workpiece, in the world, from the forces of all constraints and the frame by rows."""
+    first, second = efforts[point.row + 1], efforts[point.row + 2]
+    x, y, z = (point.sign * (first * frame[3 + axis] + second * frame[6 + axis]) for axis in range(3))
+    return x, y, z
 
 
 def _triple(vector: NDArray[np.float64]) -> Vector3:

@@ -175,7 +175,7 @@ class MujocoWorld:
         self._followers.accelerate(self._wanted)
         engine.mj_mulM(model, data, self._needed, self._wanted)
         torques = self._followers.driven_efforts(self._needed + data.qfrc_bias)
-        self._torques = np.clip(torques, -self._limits, self._limits)
+        self._torques = np.minimum(np.maximum(torques, -self._limits), self._limits)
         data.ctrl[self._motors] = self._torques
         if self._linkage is not None:
             self._linkage.before_step()
