@@ -60,6 +60,10 @@ class DesignSpace:
 
     def excluded(self) -> tuple[ExcludedCombination, ...]:
         """Combinations excluded by a rule, by id."""
+        return self._excluded
+
+    @cached_property
+    def _excluded(self) -> tuple[ExcludedCombination, ...]:
         found = []
         for number, levels, parameters in self.combinations():
             rules = self.rules_against(parameters)

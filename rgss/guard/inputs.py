@@ -6,6 +6,7 @@ import ast
 import importlib.util
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
+from functools import lru_cache
 from pathlib import Path
 
 from rgss.evidence import Provenance
@@ -87,9 +88,14 @@ def constants_of(modules: Iterable[str]) -> dict[str, str]:
         spec = importlib.util.find_spec(module)
         if spec is None or spec.origin is None or not spec.origin.endswith(".py"):
             continue
-        tree = ast.parse(Path(spec.origin).read_bytes())
-        found |= {f"{module}.{name}": text for name, text in _numbers(tree.body, "")}
+        found |= {f"{module}.{name}": text for name, text in _constants_in(Path(spec.origin).read_bytes())}
     return found
+
+
+@lru_cache(maxsize=512)
+def _constants_in(source: bytes) -> tuple[tuple[str, str], ...]:
+    """Named numeric constants of a module; cached, since a baseline and its comparison look at the same modules."""
+    return tuple(_numbers(ast.parse(source).body, ""))
 
 
 def _numbers(statements: Iterable[ast.stmt], prefix: str) -> Iterator[tuple[str, str]]:

@@ -11,7 +11,7 @@ import pytest
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.guard import compare_with_baseline, make_baseline
 from rgss.studies.study import read_study
-from rgss.sweep.trial_keys import key_of
+from rgss.sweep.trial_keys import keys_of
 from tests.fixtures.shipped_project import STUDY
 
 SECTION = """
@@ -79,7 +79,7 @@ def runner(record_of):
     ):
         def run(specs):
             rows = []
-            for spec in specs:
+            for spec, key in zip(specs, keys_of(specs), strict=True):
                 chance = random.Random(f"{spec.planner} {spec.seed}")  # noqa: S311 - a sample, no secret
                 if lost(spec):
                     continue
@@ -90,7 +90,7 @@ def runner(record_of):
                 if more_of_phases:
                     phases = tuple(replace(one, metrics={**one.metrics, **more}) for one in record.phases)
                     record = replace(record, phases=phases)
-                rows.append((key_of(spec), record, Provenance(inputs={}, versions={})))
+                rows.append((key, record, Provenance(inputs={}, versions={})))
             store.put_many(trials=rows)
 
         return run
@@ -98,16 +98,24 @@ def runner(record_of):
     return make
 
 
+@pytest.fixture(scope="session")
+def baselines():
+    """The baselines of sections, each made once from trials that are as they were."""
+    return {}
+
+
 @pytest.fixture
-def compared(project_of, stores, runner):
+def compared(project_of, stores, runner, baselines):
     """The report of a project whose trials changed since its baseline."""
 
     def compare(
         section=SECTION, baseline_of=lambda baseline: baseline, on_look=None, before=SECTION, accepted="", **changes
     ):
         project = project_of(before)
-        first = stores()
-        baseline = make_baseline(project, first, runner(first), before=None, reason=REASON)
+        if before not in baselines:
+            first = stores()
+            baselines[before] = make_baseline(project, first, runner(first), before=None, reason=REASON)
+        baseline = baselines[before]
         if section != before:
             project = project_of(section)
         now = stores()
