@@ -27,6 +27,8 @@ pytestmark = pytest.mark.engine
 
 HELD_SWEEP = Path(__file__).parent / "doubles" / "held_sweep.py"
 SHORT = ["--jobs", "2", "--fidelity", "kinematic"]
+MANY = 1000
+"""So many tasks that no worker is held."""
 
 
 @dataclass(frozen=True)
@@ -65,11 +67,11 @@ def held_sweep(tmp_path):
     """Starts a sweep whose workers stop after a number of tasks."""
     started = []
 
-    def begin(*arguments, tasks):
+    def begin(*arguments, tasks, pieces="quick"):
         marks = tmp_path / f"marks-{len(started)}"
         marks.mkdir()
         os.mkfifo(marks / "gate")
-        process = start(str(HELD_SWEEP), str(marks), str(tasks), *arguments)
+        process = start(str(HELD_SWEEP), str(marks), str(tasks), pieces, *arguments)
         started.append(process)
         return HeldSweep(process=process, marks=marks)
 
@@ -98,7 +100,7 @@ def test_an_interrupted_sweep_stops_at_once_and_goes_on_later(folder, held_sweep
     kept = stored(evidence)
     assert kept < 6
     assert stored(evidence, "pieces") == 4
-    output, errors = rgss(*arguments).communicate(timeout=PATIENCE_S)
+    output, errors = held_sweep(*arguments, tasks=MANY).process.communicate(timeout=PATIENCE_S)
     assert errors == ""
     assert output.startswith(f"6 trials: {6 - kept} run, {kept} from evidence; ")
     assert stored(evidence) == 6
@@ -109,7 +111,7 @@ def test_an_interrupted_sweep_stops_at_once_and_goes_on_later(folder, held_sweep
 def test_a_sweep_that_is_killed_leaves_no_process_and_goes_on_to_the_same_end(folder, held_sweep):
     arguments = ["sweep", "--project", str(folder), "--only", "1,2,10", *SHORT, "--replicates", "2"]
     evidence = folder / ".rgss" / "evidence.sqlite"
-    sweeping = held_sweep(*arguments, tasks=3)
+    sweeping = held_sweep(*arguments, tasks=3, pieces="real")
     sweeping.wait_until_held(2)
     wait_for(lambda: stored(evidence, "pieces") == 3, sweeping.process)
     workers = workers_of(sweeping.process.pid)
