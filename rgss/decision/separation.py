@@ -60,8 +60,14 @@ def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: 
     problem = trade_problem(project, pair)
     if not isinstance(problem.program, AdditiveValue):
         return True
-    if _may_miss_alone(project, measured, chosen, former):
-        return False
+    # The posterior of two variants is drawn in a fraction of the time of that of all.
+    return _is_ahead(project, pair, problem, chosen, former) and not _may_miss_alone(project, measured, chosen, former)
+
+
+def _is_ahead(
+    project: Project, pair: Sequence[VariantMeasures], problem: TradeProblem, chosen: int, former: int
+) -> bool:
+    """True if the choice is better than the former one by their common seeds."""
     table = tabulated(problem.alternatives)
     margin = project.study.trade_off.practical_margin
     replicates = np.array([len(entry.records) for entry in pair])
