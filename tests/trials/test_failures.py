@@ -6,7 +6,6 @@ import math
 import re
 from dataclasses import dataclass, replace
 
-import numpy as np
 import pytest
 
 from rgss.evidence import Failure, PhaseOutcome, PlanOutcome, TrialRecord
@@ -346,25 +345,6 @@ def test_what_runs_is_itself_checked(planned):
     assert (record.failure, record.failed_phase) == (Failure.TRAJECTORY_IN_COLLISION, Phase.MOVE_TO_PLACE)
     assert record.planning[3].outcome is PlanOutcome.SOLVED
     agrees_with_its_phases(record)
-
-
-def test_what_a_coarse_check_steps_over_is_found_by_the_clearance(planned):
-    """At 3 rad a handful of configurations are checked; the samples of the clearance are milliseconds apart."""
-    approach = planned.timing.trajectories[Phase.MOVE_TO_PLACE_APPROACH]
-    on_the_way = planned.cell.arm.tool_position(approach.positions(np.array([0.3 * approach.duration_s])))[0]
-    spec = with_body(planned.spec, (0.02, 0.02, 0.02), tuple(map(float, on_the_way)))
-    coarse = replace(spec.settings.planning, resolution_rad=3.0, verification_resolution_rad=3.0)
-    timing = planned.timed_in(replace(spec, settings=replace(spec.settings, planning=coarse)))
-
-    phase = Phase.MOVE_TO_PLACE_APPROACH
-    failure, detail = timing.failures[phase]
-    assert failure is Failure.TRAJECTORY_IN_COLLISION
-    assert re.fullmatch(
-        r"the timed motion overlaps an obstacle by [\d.]+ mm between configurations that were checked, 3 rad apart",
-        detail,
-    )
-    assert phase not in timing.trajectories
-    assert phase not in timing.qualities
 
 
 def test_a_motion_that_keeps_no_limits_is_named(planned, monkeypatch):
