@@ -49,6 +49,9 @@ SHIPPED = shipped()
 # Names of uncertain quantities and of planners are looked up after the structure is read, so not these two sections.
 NOMINAL_STUDY = SHIPPED["studies/nominal_world.yaml"]
 SMALL_STUDY = {**NOMINAL_STUDY, "assumptions": []}
+# Only the first entry of a list is spoilt, and each metric is compared with a hundred names.
+GUARDED = SHIPPED["studies/pick_place.yaml"]["regression"]
+SMALL_GUARD = {**GUARDED, "runs": GUARDED["runs"][:2], "metrics": GUARDED["metrics"][:2]}
 
 
 def beginning_of(name):
@@ -142,7 +145,7 @@ def test_every_document_of_a_new_project_fits_its_schema(tmp_path):
         ("robot", SHIPPED["scenes/robots/ur10.yaml"]),
         ("gripper", SHIPPED["scenes/grippers/kg-2.yaml"]),
         ("study", {**NOMINAL_STUDY, "regression": None}),
-        ("study", {**SMALL_STUDY, **RICH_STUDY, "regression": SHIPPED["studies/pick_place.yaml"].get("regression")}),
+        ("study", {**SMALL_STUDY, **RICH_STUDY, "regression": SMALL_GUARD}),
     ],
 )
 def test_a_schema_refuses_what_the_loader_refuses_and_nothing_else(name, data):
