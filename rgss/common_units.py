@@ -13,7 +13,7 @@ from decimal import Decimal
 from functools import lru_cache
 from types import MappingProxyType
 
-_LENGTH, _MASS, _TIME, _MONEY, _ANGLE = "length", "mass", "time", "currency", "angle"
+_LENGTH, _MASS, _TIME, _CURRENT, _MONEY, _ANGLE = "length", "mass", "time", "current", "currency", "angle"
 _FORCE = {_LENGTH: 1, _MASS: 1, _TIME: -2}
 _ENERGY = {_LENGTH: 2, _MASS: 1, _TIME: -2}
 _PRESSURE = {_LENGTH: -1, _MASS: 1, _TIME: -2}
@@ -48,12 +48,16 @@ _ATOMS: Mapping[str, tuple[str, Mapping[str, int]]] = MappingProxyType(
         "Pa": ("1", _PRESSURE),
         "kPa": ("1000", _PRESSURE),
         "MPa": ("1000000", _PRESSURE),
+        "A": ("1", {_CURRENT: 1}),
+        "mA": ("0.001", {_CURRENT: 1}),
+        "V": ("1", {**_ENERGY, _TIME: -3, _CURRENT: -1}),
+        "mV": ("0.001", {**_ENERGY, _TIME: -3, _CURRENT: -1}),
         "rad": ("1", {_ANGLE: 1}),
         "deg": ("0.01745329251994329576923690768", {_ANGLE: 1}),
         "USD": ("1", {_MONEY: 1}),
     }
 )
-"""Each unit in the root units metre, kilogram, second, US dollar and radian."""
+"""Each unit in the root units metre, kilogram, second, ampere, US dollar and radian."""
 
 _LONGEST_TEXT = 60
 _FACTOR = re.compile(r"(?P<between>[*/·]?)(?P<name>1|%|[A-Za-z]+)(?:(?:\*\*|\^)(?P<power>-?[1-9]))?")
