@@ -15,7 +15,7 @@ from rgss.errors import EvidenceError, TradeoffError
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.reports.decision.until_decided import until_decided_summary
 from rgss.studies.expansion import trial_specs
-from rgss.sweep.trial_keys import key_of
+from rgss.sweep.trial_keys import key_of, keys_of
 from rgss.tradeoff.sequential import Reason, SequentialRule
 
 NONE = Provenance(inputs={}, versions={})
@@ -35,12 +35,12 @@ def runner(store, record_of):
 
     def run(specs):
         rows = []
-        for spec in specs:
+        for spec, key in zip(specs, keys_of(specs), strict=True):
             asked.append((spec.variant, spec.seed))
             chance = random.Random(f"{spec.planner} {spec.seed}")  # noqa: S311 - a sample, no secret
             success = spec.planner != "STRIDE"
             record = record_of(spec, success=success, planning_s=0.5 + chance.random())
-            rows.append((key_of(spec), record, Provenance(inputs={}, versions={})))
+            rows.append((key, record, NONE))
         store.put_many(trials=rows)
 
     run.asked = asked
@@ -136,14 +136,13 @@ def test_a_sweep_that_is_interrupted_goes_on_to_the_same_end(shipped, tmp_path, 
         def interrupted(specs):
             # In another order, and ended after so many trials of a look that has more.
             nonlocal left
-            for spec in reversed(specs):
-                key = key_of(spec)
-                if other.get(key) is not None:
-                    continue
-                if left == 0:
-                    raise InterruptError
-                left -= 1
-                other.put(key, records[key], Provenance(inputs={}, versions={}))
+            keys = keys_of(specs[::-1])
+            there = other.has(keys)
+            missing = [key for key in keys if key not in there]
+            made, left = missing[:left], left - min(left, len(missing))
+            other.put_many(trials=[(key, records[key], NONE) for key in made])
+            if len(made) < len(missing):
+                raise InterruptError
 
         for allowed in (100, 45, 2):
             left = allowed
