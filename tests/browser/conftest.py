@@ -351,3 +351,21 @@ def reader(browser) -> Iterator[Reader]:
     """A reader with the browser; no page stays open, since one that moves takes a third of a processor."""
     yield Reader(browser)
     browser.get("about:blank")
+
+
+@pytest.fixture
+def searcher(browser, page) -> Reader:
+    """A reader with the report open, where nothing was done but to search: tests that only search need no other.
+
+    The report takes a second to open, and stays as the last such test left it.
+    """
+    reader = Reader(browser)
+    if browser.current_url != page.as_uri() or not reader.script("return window.isForSearches === true"):
+        reader.open(page)
+        reader.script("window.isForSearches = true")
+    reader.script(
+        "for (const field of document.querySelectorAll('#find, #verdict-table input')) {"
+        " field.value = ''; field.dispatchEvent(new Event('input', {bubbles: true})); }"
+        "document.activeElement.blur(); scrollTo(0, 0);"
+    )
+    return reader

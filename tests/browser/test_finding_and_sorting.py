@@ -51,45 +51,40 @@ def verdicts_of_chosen(study) -> dict[str, str]:
 
 
 @pytest.mark.parametrize("verdict", ["met", "inconclusive"])
-def test_the_search_finds_a_verdict_and_no_other(reader, page, study, verdict):
-    reader.open(page)
+def test_the_search_finds_a_verdict_and_no_other(searcher, study, verdict):
     wanted = {name for name, one in verdicts_of_chosen(study).items() if one == verdict}
-    found = find(reader, verdict)
+    found = find(searcher, verdict)
 
     assert wanted
     assert {title.split(":")[0] for title in found["Requirements"]} <= wanted
     assert len(found["Requirements"]) == min(8, len(wanted))
-    assert reader.complaints() == []
-    assert reader.requests() == []
+    assert searcher.complaints() == []
+    assert searcher.requests() == []
 
 
-def test_the_search_finds_names_the_beginnings_of_words_and_what_is_misspelled(reader, page):
-    reader.open(page)
-
-    assert any(title.startswith("t_e:") for title in find(reader, "t_e")["Measures"])
-    assert any("gripper" in title for title in find(reader, "gripp")["Parameters"])
-    assert any("gripper" in title for title in find(reader, "gripepr")["Parameters"])
-    assert "Provenance" in find(reader, "provenance")["Sections"]
-    assert any("planning" in title for title in find(reader, "planning limit")["Failures"])
-    assert find(reader, "31")["Variants"] == ["Variant 31"]
-    assert find(reader, "zzzzqq") == {}
-    assert reader.text("#found-count") == "Nothing found"
+def test_the_search_finds_names_the_beginnings_of_words_and_what_is_misspelled(searcher):
+    assert any(title.startswith("t_e:") for title in find(searcher, "t_e")["Measures"])
+    assert any("gripper" in title for title in find(searcher, "gripp")["Parameters"])
+    assert any("gripper" in title for title in find(searcher, "gripepr")["Parameters"])
+    assert "Provenance" in find(searcher, "provenance")["Sections"]
+    assert any("planning" in title for title in find(searcher, "planning limit")["Failures"])
+    assert find(searcher, "31")["Variants"] == ["Variant 31"]
+    assert find(searcher, "zzzzqq") == {}
+    assert searcher.text("#found-count") == "Nothing found"
 
 
 @pytest.mark.parametrize("words", ["Variant 30", "variant 7", "28"])
-def test_a_variant_named_by_its_title_or_number_comes_first(reader, page, words):
-    reader.open(page)
-    found = find(reader, words)
-    assert kinds(reader)[0] == "Variants"
+def test_a_variant_named_by_its_title_or_number_comes_first(searcher, words):
+    found = find(searcher, words)
+    assert kinds(searcher)[0] == "Variants"
     assert found["Variants"] == [f"Variant {words.split()[-1]}"]
 
 
-def test_a_number_does_not_find_the_decimals_of_another(reader, page):
-    reader.open(page)
+def test_a_number_does_not_find_the_decimals_of_another(searcher):
     texts = "return Array.from(document.querySelectorAll('#found li'), (one) => one.textContent)"
     for words in ("28", "25"):
-        find(reader, words)
-        shown = [one for one in reader.script(texts) if not one.startswith("Variant ") and "and " not in one[:4]]
+        find(searcher, words)
+        shown = [one for one in searcher.script(texts) if not one.startswith("Variant ") and "and " not in one[:4]]
         assert all(re.search(rf"(?<![\d.]){words}(?![\d.]*\d)", one) or one.endswith("…") for one in shown)
 
 
@@ -97,19 +92,17 @@ def test_a_number_does_not_find_the_decimals_of_another(reader, page):
     ("words", "kind", "title"),
     [("SYS-024", "Requirements", "SYS-024: "), ("t_e", "Measures", "t_e: "), ("provenance", "Sections", "Provenance")],
 )
-def test_an_id_or_a_title_comes_before_what_mentions_it(reader, page, words, kind, title):
-    reader.open(page)
-    found = find(reader, words)
-    assert kinds(reader)[0] == kind
+def test_an_id_or_a_title_comes_before_what_mentions_it(searcher, words, kind, title):
+    found = find(searcher, words)
+    assert kinds(searcher)[0] == kind
     assert found[kind][0].startswith(title)
     assert len(found) > 1
 
 
-def test_a_verdict_finds_the_requirements_first(reader, page):
-    reader.open(page)
+def test_a_verdict_finds_the_requirements_first(searcher):
     for verdict in ("met", "inconclusive"):
-        find(reader, verdict)
-        assert kinds(reader)[0] == "Requirements"
+        find(searcher, verdict)
+        assert kinds(searcher)[0] == "Requirements"
 
 
 def test_the_search_finds_parts_of_a_name_without_spaces(reader, study, tmp_path):
@@ -122,11 +115,10 @@ def test_the_search_finds_parts_of_a_name_without_spaces(reader, study, tmp_path
     assert any("gripper" in title for title in find(reader, "rippe")["Parameters"])
 
 
-def test_cells_of_a_found_row_do_not_run_together(reader, page):
-    reader.open(page)
-    found = find(reader, "S")
+def test_cells_of_a_found_row_do_not_run_together(searcher):
+    found = find(searcher, "S")
     assert "S: Task success score" in found["Rows of tables"]
-    entries = reader.script(
+    entries = searcher.script(
         "const group = Array.from(document.querySelectorAll('#found > div'))"
         ".find((one) => one.querySelector('h3').textContent === 'Rows of tables');"
         "return Array.from(group.querySelectorAll('li'), (one) => {"
@@ -141,7 +133,9 @@ def test_cells_of_a_found_row_do_not_run_together(reader, page):
         assert whole.startswith(text.strip().rstrip("…"))
     assert not any(
         "As a page" in text
-        for text in reader.script("return Array.from(document.querySelectorAll('#found li'), (one) => one.textContent)")
+        for text in searcher.script(
+            "return Array.from(document.querySelectorAll('#found li'), (one) => one.textContent)"
+        )
     )
 
 
@@ -168,21 +162,22 @@ def test_what_is_found_is_unfolded(reader, page):
     reader.until("return document.getElementById('sought-row').closest('details').open")
 
 
-def test_a_table_finds_verdicts_alone_and_of_a_requirement(reader, page, study):
-    reader.open(page)
+def test_a_table_finds_verdicts_alone_and_of_a_requirement(searcher, study):
     requirement = next(one for one in study.document["requirements"] if isinstance(one["verdict"], list))
     ids = study.document["variants"]["id"]
-    field = reader.driver.find_element(By.CSS_SELECTOR, "#verdict-table input")
+    field = searcher.driver.find_element(By.CSS_SELECTOR, "#verdict-table input")
     for verdict in set(requirement["verdict"]):
         wanted = [name for name, one in zip(ids, requirement["verdict"], strict=True) if one == verdict]
         field.clear()
         field.send_keys(f"{requirement['id']}={verdict}")
-        reader.until("return document.querySelectorAll('#verdict-table tbody tr').length === arguments[0]", len(wanted))
-        assert sorted(int(row[0]) for row in reader.rows("#verdict-table")) == wanted
+        searcher.until(
+            "return document.querySelectorAll('#verdict-table tbody tr').length === arguments[0]", len(wanted)
+        )
+        assert sorted(int(row[0]) for row in searcher.rows("#verdict-table")) == wanted
     planner = next(one for one in study.document["parameters"] if one["name"] == "planner")
     field.clear()
     field.send_keys("planner=stride")
-    reader.until(
+    searcher.until(
         "return document.querySelectorAll('#verdict-table tbody tr').length === arguments[0]",
         planner["values"].count("STRIDE"),
     )
@@ -199,16 +194,15 @@ def filtered(reader, words: str) -> tuple[list[int], str]:
     return sorted(int(row[0]) for row in reader.rows("#verdict-table")), reader.text("#verdict-table output")
 
 
-def test_a_table_takes_the_filters_of_the_command_line(reader, page, study):
-    reader.open(page)
+def test_a_table_takes_the_filters_of_the_command_line(searcher, study):
     space = load_project(study.folder).designs
     terms = ["gripper=three", "fingers=two", "Fingers=TWO", "gripper.fingers=3", "planner=rrt", "d8=RRT", "d8!=RRT"]
     terms += ["component.gripper=three", "design.d8=trrt", "planner=rrt,fingers=two", "gripper_mass=light"]
     for term in terms:
         wanted = [one.id for one in picked(space, [term])]
         assert 0 < len(wanted) < 72
-        assert filtered(reader, term)[0] == wanted, term
-    assert filtered(reader, "gripper=three planner=rrt")[0] == [
+        assert filtered(searcher, term)[0] == wanted, term
+    assert filtered(searcher, "gripper=three planner=rrt")[0] == [
         one.id for one in picked(space, ["gripper=three", "planner=rrt"])
     ]
 
@@ -220,19 +214,17 @@ def estimates(study, name: str) -> dict[int, float | None]:
     return dict(zip(ids, values if isinstance(values, list) else [values] * len(ids), strict=True))
 
 
-def test_a_table_takes_comparisons_of_parameters_as_the_command_line_does(reader, page, study):
-    reader.open(page)
+def test_a_table_takes_comparisons_of_parameters_as_the_command_line_does(searcher, study):
     space = load_project(study.folder).designs
     speeds = sorted({one.parameters["d7"] for one in space.expand()})
     terms = [f"d7 <= {speeds[0]:g} m/s", f"d7>{speeds[0]:g} m/s", f"robot.tool_speed < {speeds[-1]:g} m/s", "d1>=3"]
     for term in terms:
         wanted = [one.id for one in picked(space, [term])]
         assert 0 < len(wanted) < 72
-        assert filtered(reader, term)[0] == wanted, term
+        assert filtered(searcher, term)[0] == wanted, term
 
 
-def test_a_table_takes_comparisons_of_estimates(reader, page, study):
-    reader.open(page)
+def test_a_table_takes_comparisons_of_estimates(searcher, study):
     times, costs = estimates(study, "t_p"), estimates(study, "C_total")
     limit = statistics.median(one for one in times.values() if one is not None)
     below = [one for one, time in times.items() if time is not None and time < limit - 1e-6]
@@ -240,24 +232,23 @@ def test_a_table_takes_comparisons_of_estimates(reader, page, study):
     assert 0 < len(below) < 72
     assert 0 < len(cheap) < 72
     for term in (f"t_p<{limit}", f"T_p < {limit} s", f"total_planning_time<{limit}"):
-        assert filtered(reader, term)[0] == below, term
+        assert filtered(searcher, term)[0] == below, term
     for term in ("C_total<40000", "SYS-004 < 40,000 USD"):
-        assert filtered(reader, term)[0] == cheap, term
-    assert filtered(reader, f"t_p<{limit} c_total<40000")[0] == sorted({*below} & {*cheap})
+        assert filtered(searcher, term)[0] == cheap, term
+    assert filtered(searcher, f"t_p<{limit} c_total<40000")[0] == sorted({*below} & {*cheap})
     share = sum(one is not None and one >= 0.9 for one in estimates(study, "S").values())
-    assert len(filtered(reader, "S >= 90 %")[0]) == share
-    assert find(reader, "C_total < 40,000")["Variants"] == [f"Variant {one}" for one in cheap[:8]]
+    assert len(filtered(searcher, "S >= 90 %")[0]) == share
+    assert find(searcher, "C_total < 40,000")["Variants"] == [f"Variant {one}" for one in cheap[:8]]
 
 
-def test_the_page_says_that_find_takes_comparisons_and_its_examples_are_some(reader, page):
-    reader.open(page)
-    assert "comparisons of their parameters and estimates, such as " in reader.text("#find-note")
-    examples = reader.script(
+def test_the_page_says_that_find_takes_comparisons_and_its_examples_are_some(searcher):
+    assert "comparisons of their parameters and estimates, such as " in searcher.text("#find-note")
+    examples = searcher.script(
         "return Array.from(document.querySelectorAll('#find-note code'), (one) => one.textContent)"
     )
     assert len(examples) == 2
     for example in examples:
-        assert re.fullmatch(r"\d+ rows?", filtered(reader, example)[1])
+        assert re.fullmatch(r"\d+ rows?", filtered(searcher, example)[1])
 
 
 @pytest.mark.parametrize(
@@ -273,11 +264,10 @@ def test_the_page_says_that_find_takes_comparisons_and_its_examples_are_some(rea
         ("qqqqqq=1", "0 rows; nothing is named qqqqqq"),
     ],
 )
-def test_an_unknown_filter_of_a_table_gets_a_suggestion(reader, page, words, said):
-    reader.open(page)
-    assert filtered(reader, words) == ([], said)
-    find(reader, words)
-    assert re.fullmatch(rf"(Nothing|\d+) found{re.escape(said.removeprefix('0 rows'))}", reader.text("#found-count"))
+def test_an_unknown_filter_of_a_table_gets_a_suggestion(searcher, words, said):
+    assert filtered(searcher, words) == ([], said)
+    find(searcher, words)
+    assert re.fullmatch(rf"(Nothing|\d+) found{re.escape(said.removeprefix('0 rows'))}", searcher.text("#found-count"))
 
 
 def test_a_column_sorts_up_down_and_not_at_all(reader, page, study):
