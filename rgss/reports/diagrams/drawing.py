@@ -23,7 +23,7 @@ from rgss.reports.diagrams.labels import (
     with_stubs,
 )
 from rgss.reports.diagrams.lanes import draw_lanes, lane_borders, lane_headers, widened
-from rgss.reports.diagrams.layout import Layout, label_size, layout
+from rgss.reports.diagrams.layout import Layout, label_size, layout, require_graphviz
 from rgss.reports.diagrams.nodes import Content, content_of, draw_node
 from rgss.reports.diagrams.ports import draw_frame_port
 from rgss.reports.diagrams.style import FONT, SMALL
@@ -101,6 +101,8 @@ def draw_graph(
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
     """
+    # A layout that was made before would be drawn without the package, unlike the others of a page.
+    require_graphviz()
     contents = _contents(graph)
     graph, placed = _free_labels(graph)
     canvas = Canvas(ORIGIN)
