@@ -8,7 +8,6 @@ import gc
 import importlib
 import keyword
 import os
-import signal
 import sys
 from collections.abc import Sequence
 from contextlib import AbstractContextManager, nullcontext
@@ -18,6 +17,7 @@ from types import ModuleType
 from rgss.cli.command_parser import BAD_INPUT, CommandParser
 from rgss.cli.options import with_sweep_options
 from rgss.cli.safe_output import safe_output
+from rgss.cli.termination import ignore_interrupts, interrupt_at_termination
 from rgss.errors import DocumentError, DriverError, MotionError, RgssError, SimulationError, StorageError
 from rgss.findings import printable
 
@@ -65,6 +65,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # Start-up creates some hundred thousand long-lived objects; frequent garbage collections over them take a
     # tenth of a short command's time.
     gc.set_threshold(_OBJECTS_BETWEEN_COLLECTIONS)
+    if arguments is None:
+        interrupt_at_termination()
     with safe_output():
         return _run(arguments)
 
@@ -96,8 +98,8 @@ def _run(arguments: Sequence[str] | None) -> int:
         return BAD_INPUT
     except KeyboardInterrupt:
         if arguments is None:
-            # A second Ctrl-C cuts off neither message nor end; another program that calls this keeps its handler.
-            signal.signal(signal.SIGINT, signal.SIG_IGN)
+            # Another program that calls this keeps its handlers.
+            ignore_interrupts()
         stores = getattr(options, "stores_trials", False) or getattr(options, "run", False)
         _print_error("rgss: interrupted; finished trials are stored" if stores else "rgss: interrupted")
         _report_interrupted_import(options)

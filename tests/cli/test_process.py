@@ -89,6 +89,32 @@ def test_a_second_interrupt_cuts_off_nothing():
     assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", "rgss: interrupted\n")
 
 
+REQUEST = (
+    "import os, signal, sys; from rgss.cli import main as module; "
+    "again = lambda: [os.kill(os.getpid(), signal.Signals[name]) for name in sys.argv[1].split()]; "
+    "own = module._print_error; module._print_error = lambda text: (again(), own(text)); "
+    "module.command_line = lambda: (again(), signal.pause()); sys.exit(module.main())"
+)
+
+
+@pytest.mark.parametrize("names", ["SIGTERM", "SIGHUP", "SIGTERM SIGHUP", "SIGHUP SIGINT SIGTERM"])
+def test_a_request_to_terminate_ends_a_verb_as_an_interrupt_does(names):
+    """Of a scheduler, of a service manager, which may send two at once, and of a terminal that is closed."""
+    ended = subprocess.run([sys.executable, "-c", REQUEST, names], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", "rgss: interrupted\n")
+
+
+def test_a_verb_under_nohup_outlives_its_terminal():
+    script = (
+        "import os, signal, sys; from rgss.cli import main as module; "
+        "signal.signal(signal.SIGHUP, signal.SIG_IGN); own = module.command_line; "
+        "module.command_line = lambda: (os.kill(os.getpid(), signal.SIGHUP), own())[1]; "
+        "sys.exit(module.main())"
+    )
+    ended = subprocess.run([sys.executable, "-c", script, "--version"], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stderr) == (0, "")
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [

@@ -9,6 +9,8 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from typing import TextIO, cast
 
+from rgss.cli.termination import TerminationRequest
+
 _LESS = ("less", "-FRX")
 """Options of ``less``: exit if the page fits the screen, show colours, do not clear the screen."""
 
@@ -55,7 +57,23 @@ class Pager:
         # The reader may quit before the end of the page.
         with suppress(BrokenPipeError, ValueError, OSError):
             self._process.stdin.close()
-        while self._process.poll() is None:
-            # While the pager has the terminal, an interrupt is meant for it.
-            with suppress(KeyboardInterrupt):
-                self._process.wait()
+        try:
+            while self._process.poll() is None:
+                _wait(self._process)
+        except TerminationRequest:
+            self._process.terminate()
+            raise
+
+
+def _wait(process: subprocess.Popen[str]) -> None:
+    """Wait until a pager exits or an interrupt comes, which is meant for it while it has the terminal.
+
+    Raises:
+        TerminationRequest: This process is to terminate.
+    """
+    try:
+        process.wait()
+    except TerminationRequest:
+        raise
+    except KeyboardInterrupt:
+        return

@@ -6,6 +6,7 @@ import fcntl
 import os
 import pty
 import re
+import signal
 import struct
 import subprocess
 import sys
@@ -22,6 +23,7 @@ from rgss.cli.output import print_lines, print_table
 from rgss.cli.terminal import TerminalPage
 from rgss.cli.terminal.pager import Pager
 from rgss.cli.terminal.styles import STYLES
+from rgss.cli.termination import TerminationRequest
 from rgss.measures import Verdict
 from rgss.reports.plain_text import aligned_table
 from rgss.studies import load_project
@@ -176,6 +178,18 @@ def test_a_long_page_goes_through_the_pager(tmp_path):
 def test_a_pager_that_is_left_early_ends_the_command():
     status, said = on_terminal("trace", RGSS_PAGER="head -n 1")
     assert (status, said.count("\n")) == (0, 1)
+
+
+def test_a_request_to_terminate_ends_the_pager_too(monkeypatch):
+    """An interrupt is meant for the pager, which has the terminal; a request is meant for this process."""
+    pager = Pager(("tail", "-f", "/dev/null"))
+    pager.start()
+    process, signals = pager._process, [KeyboardInterrupt, TerminationRequest]
+    with monkeypatch.context() as patched:
+        patched.setattr(process, "wait", lambda: (_ for _ in ()).throw(signals.pop(0)))
+        with pytest.raises(TerminationRequest):
+            pager.end()
+    assert (signals, process.wait()) == ([], -signal.SIGTERM)
 
 
 @pytest.mark.parametrize("asked", ["", "cat", "no-such-pager-here", "'"])
