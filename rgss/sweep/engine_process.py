@@ -22,6 +22,7 @@ from typing import IO, Any, TypeVar, cast
 
 from rgss.engines import require_engines
 from rgss.errors import RgssError, SimulationError
+from rgss.sweep.scratch_folder import ScratchFolder, remove_scratch, use_scratch
 from rgss.trials.code import is_in_force, numeric_environment
 
 Result = TypeVar("Result")
@@ -31,7 +32,7 @@ _BEGIN = """
 import sys
 sys.path[:] = [entry for entry in sys.path if entry]
 from rgss.sweep.engine_process import answer_calls
-answer_calls({descriptor})
+answer_calls({descriptor}, {scratch!r})
 """
 
 
@@ -97,9 +98,10 @@ class _Child:
     def __init__(self) -> None:
         self.pipe, there = Pipe()
         self._output = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the process
-        with there:
+        scratch = ScratchFolder()
+        with there, scratch.removed_on_error():
             self._process = subprocess.Popen(  # noqa: S603 - our own command
-                [sys.executable, "-c", _BEGIN.format(descriptor=there.fileno())],
+                [sys.executable, "-c", _BEGIN.format(descriptor=there.fileno(), scratch=scratch.path)],
                 env=numeric_environment(os.environ),
                 pass_fds=[there.fileno()],
                 stdin=subprocess.DEVNULL,
@@ -108,7 +110,8 @@ class _Child:
                 # Ctrl-C reaches a whole group, and only this process answers it.
                 start_new_session=True,
             )
-        self._finalizer = weakref.finalize(self, _discard, self._process, self.pipe, self._output, os.getpid())
+        arguments = (self._process, self.pipe, self._output, scratch, os.getpid())
+        self._finalizer = weakref.finalize(self, _discard, *arguments)
 
     def end(self) -> str:
         """End it; returns how it had ended."""
@@ -138,9 +141,12 @@ def _kill(process: subprocess.Popen[bytes], pipe: Connection) -> None:
     process.wait()
 
 
-def _discard(process: subprocess.Popen[bytes], pipe: Connection, output: IO[bytes], owner: int) -> None:
+def _discard(
+    process: subprocess.Popen[bytes], pipe: Connection, output: IO[bytes], scratch: ScratchFolder, owner: int
+) -> None:
     if os.getpid() == owner:
         _kill(process, pipe)
+        scratch.remove()
     else:
         # In a fork of the owner, which still uses it.
         pipe.close()
@@ -158,16 +164,25 @@ def _engine_process_of(process: int) -> EngineProcess:  # noqa: ARG001 - the key
     return EngineProcess()
 
 
-def answer_calls(descriptor: int) -> None:
+def answer_calls(descriptor: int, scratch: str) -> None:
     """Carry out calls until the other end of the pipe is closed; runs in the process.
 
     Args:
         descriptor: The pipe's.
+        scratch: Folder of temporary files, which is removed in the end; empty for the usual one.
     """
     from rgss.sweep.worker_process import settle
 
     settle()
-    pipe = Connection(descriptor)
+    use_scratch(scratch)
+    try:
+        _answer(Connection(descriptor))
+    finally:
+        remove_scratch(scratch)
+
+
+def _answer(pipe: Connection) -> None:
+    """Carry out calls until the other end of the pipe is closed."""
     while True:
         try:
             function, arguments = pipe.recv()

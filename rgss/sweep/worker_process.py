@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from multiprocessing import connection, parent_process, resource_tracker
 from typing import Any
 
+from rgss.sweep.scratch_folder import remove_scratch, use_scratch
 from rgss.sweep.worker_wire import LONGEST_ANSWER, BlockingChannel
 from rgss.trials.code import ONE_THREAD, problem_here
 
@@ -70,7 +71,11 @@ def settle() -> None:
 
 
 def serve(
-    function: bytes, requests: connection.Connection, memory_limit_bytes: int, output: connection.Connection
+    function: bytes,
+    requests: connection.Connection,
+    memory_limit_bytes: int,
+    output: connection.Connection,
+    scratch: str = "",
 ) -> None:
     """Run tasks until the parent closes the pipe.
 
@@ -79,13 +84,15 @@ def serve(
         requests: Pipe of numbered arguments and responses.
         memory_limit_bytes: Greatest size of the process's data; 0 for no limit.
         output: File for the engines' output, read for the cause of a crash.
+        scratch: Folder of temporary files, which is removed if the parent is killed; empty for the usual one.
     """
     settle()
     _leave_the_tracker()
     _redirect_output(output)
     _limit_memory(memory_limit_bytes)
     _limit_output()
-    _end_with_parent()
+    use_scratch(scratch)
+    _end_with_parent(scratch)
     channel = BlockingChannel(requests)
     problem = problem_here()
     if problem:
@@ -216,8 +223,12 @@ def _keep_freed_memory() -> None:
         mallopt(_M_TRIM_THRESHOLD, 512 * _MIB)
 
 
-def _end_with_parent() -> None:
-    """End this process when its parent does, even when that is killed, and even in the middle of a task."""
+def _end_with_parent(scratch: str) -> None:
+    """End this process when its parent does, even when that is killed, and even in the middle of a task.
+
+    Args:
+        scratch: Folder of temporary files, which the parent cannot remove any more.
+    """
     parent = parent_process()
     if parent is None:
         return
@@ -225,6 +236,7 @@ def _end_with_parent() -> None:
 
     def watch() -> None:
         connection.wait([sentinel])
+        remove_scratch(scratch)
         os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()

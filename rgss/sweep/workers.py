@@ -27,6 +27,7 @@ from typing import Any
 from rgss.errors import SimulationError
 from rgss.evidence import RunFailureKind
 from rgss.evidence.records import detail_line
+from rgss.sweep.scratch_folder import ScratchFolder
 from rgss.sweep.task_end import Ended, ended_by, failed_task, is_answer, process_ending
 from rgss.sweep.worker_output import WorkerOutput
 from rgss.sweep.worker_process import Ready, serve
@@ -83,6 +84,7 @@ class WorkerPool:
         self._numbers = itertools.count()
         self._clock = clock
         self._failed_starts = 0
+        self._scratch: ScratchFolder | None = None
 
     def __enter__(self) -> WorkerPool:
         return self
@@ -156,6 +158,9 @@ class WorkerPool:
             worker.process.kill()
         for worker in list(self._workers):
             self._dismiss(worker)
+        if self._scratch is not None:
+            self._scratch.remove()
+            self._scratch = None
 
     def _start(self) -> None:
         output = WorkerOutput()
@@ -164,9 +169,9 @@ class WorkerPool:
         except OSError:
             output.close()
             raise
-        process = self._context.Process(
-            target=serve, args=(self._function, there, self._memory_limit_bytes, output.end), daemon=True
-        )
+        self._scratch = self._scratch or ScratchFolder()
+        arguments = (self._function, there, self._memory_limit_bytes, output.end, self._scratch.path)
+        process = self._context.Process(target=serve, args=arguments, daemon=True)
         with _interrupts_held_back(), numeric_environment_of_children():
             try:
                 process.start()
@@ -279,10 +284,11 @@ def _not_started(how: str) -> SimulationError:
 def _interrupts_held_back() -> Iterator[None]:
     """Start processes that never see Ctrl-C; in this one it takes effect at the end of the block.
 
-    Ctrl-C reaches the whole process group, and only the parent answers it. What is blocked here
-    stays blocked in the processes that are started here, from their first instruction on.
+    Ctrl-C reaches the whole process group, as do the loss of the terminal and the request of a service manager to
+    terminate, and only the parent answers them. What is blocked here stays blocked in the processes that are started
+    here, from their first instruction on.
     """
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
     try:
         yield
     finally:

@@ -93,6 +93,33 @@ def test_it_ends_with_the_process_that_started_it_even_if_that_is_killed():
         wait_until(lambda: not is_running(child))
 
 
+def test_its_temporary_files_end_with_it(process):
+    """An interrupt kills it where it is, as while the engine reads a robot from a file."""
+    held = "import os, tempfile; folder = tempfile.mkdtemp(); os.kill(os.getpid(), 9)"
+    before = process.call(eval, ("__import__('tempfile').gettempdir()",))
+    with pytest.raises(SimulationError):
+        process.call(exec, (held,))
+    assert not Path(before).exists()
+
+
+def test_its_temporary_files_end_when_its_parent_is_killed(tmp_path):
+    environment = {**os.environ, "TMPDIR": str(tmp_path)}
+    with subprocess.Popen(
+        [sys.executable, "-c", SCRIPT],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        cwd=REPOSITORY,
+        env=environment,
+    ) as script:
+        child = int(script.stdout.readline())
+        assert len([*tmp_path.iterdir()]) == 1
+        os.kill(script.pid, signal.SIGKILL)
+        script.wait()
+        wait_until(lambda: not is_running(child))
+    assert [*tmp_path.iterdir()] == []
+
+
 FORKED = """
 import json, multiprocessing, os
 from rgss.sweep import engine_process

@@ -60,8 +60,9 @@ def start(tmp_path):
     return run
 
 
-def test_a_pool_that_is_killed_leaves_nothing(start):
-    process = start("hang")
+@pytest.mark.parametrize("task", ["hang", "hang_with_a_file"])
+def test_a_pool_that_is_killed_leaves_nothing(start, task):
+    process = start(task)
     worker = int(process.stdout.readline())
     watched = os.pidfd_open(worker)
     process.send_signal(signal.SIGKILL)
@@ -70,6 +71,17 @@ def test_a_pool_that_is_killed_leaves_nothing(start):
     # The worker ends by itself when its parent has; this waits for exactly that.
     assert select.select([watched], [], [], PATIENCE_S)[0]
     os.close(watched)
+    assert [*start.temporary.iterdir()] == []
+
+
+def test_a_pool_that_is_interrupted_leaves_nothing(start):
+    """Its workers are killed where they are, with their files open."""
+    process = start("hang_with_a_file", preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+    assert process.stdout.readline().strip().isdecimal()
+    assert [*start.temporary.rglob("robot.urdf")]
+    process.send_signal(signal.SIGINT)
+    process.communicate()
+
     assert [*start.temporary.iterdir()] == []
 
 

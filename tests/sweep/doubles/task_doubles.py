@@ -62,6 +62,15 @@ def time_and_hang() -> None:
     hang()
 
 
+def hang_with_a_file() -> None:
+    """Never come back while a file is in a temporary folder, as the physics engine's is while it reads it."""
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "robot.urdf").touch()
+        hang()
+
+
 def refuse() -> None:
     """Raise an error of ours, which another attempt would raise again."""
     raise SimulationError("the mass of the workpiece must be positive, got 0", hint="give it some")
@@ -89,6 +98,7 @@ def act(name: str) -> object:
     return {
         "who": who,
         "hang": hang,
+        "hang_with_a_file": hang_with_a_file,
         "time_and_hang": time_and_hang,
         "fail": fail,
         "refuse": refuse,
@@ -97,5 +107,7 @@ def act(name: str) -> object:
         "memory_limit": memory_limit,
         "exit": lambda: os._exit(7),
         "threads": lambda: os.environ["OMP_NUM_THREADS"],
-        "interrupted": lambda: signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()),
+        "interrupted": lambda: (
+            {signal.SIGINT, signal.SIGTERM, signal.SIGHUP} <= signal.pthread_sigmask(signal.SIG_BLOCK, ())
+        ),
     }[name]()
