@@ -149,19 +149,17 @@ class Confirmation:
     def differing_decisions(self) -> tuple[int, ...]:
         """Indices of the settings under which the study's first design is not as good as any.
 
-        It is as good if the setting's first design is tied with it in the study, or better than it by no more than the
-        practical margin under the setting.
+        It is as good if it is the first there, tied with that, or worse than it by no more than the practical margin. A
+        design that ties with it in the study alone replaces it under the setting only if it is no better there: the
+        study's first may even be infeasible under it.
         """
-        best = {self.results[0].first, *self.results[0].ties}
-        return tuple(
-            index
-            for index, result in enumerate(self.results)
-            if result.first not in best and not self._is_within_margin(result)
-        )
+        return tuple(index for index, result in enumerate(self.results) if not self._is_as_good(result))
 
-    def _is_within_margin(self, result: SettingResult) -> bool:
+    def _is_as_good(self, result: SettingResult) -> bool:
         """True if the study's first design loses no more than the practical margin under a setting."""
         values, first = dict(result.ranking), self.results[0].first
+        if first == result.first or (first in values and first in result.ties):
+            return True
         best = None if result.first is None else values[result.first]
         own = None if first is None else values.get(first)
         return best is not None and own is not None and best - own <= self.practical_margin

@@ -3,6 +3,8 @@
 import dataclasses
 import json
 
+import pytest
+
 from rgss.evidence import Failure
 from rgss.measures import Verdict
 from rgss.reports.confirmation import confirmation_lines, confirmation_to_json, confirmation_to_markdown
@@ -51,12 +53,26 @@ def test_no_design_under_any_setting(confirmation):
     ]
 
 
-def test_a_tie_that_another_setting_breaks_is_no_other_decision(confirmation):
-    found = confirmation(rankings=[(28, 31), (31, 28)], ties=[(28, 31), (31,)])
+def test_a_tie_that_another_setting_breaks_by_little_is_no_other_decision(confirmation):
+    found = confirmation(rankings=[(28, 31), (31, 28)], ties=[(28, 31), (31,)], step=0.009)
     assert found.holds
     assert first_lines(found, 1) == [
         "The decision does not depend on the step: variant 28 (or 31, equally good) is first under both settings."
     ]
+
+
+@pytest.mark.parametrize("under_step", [(31,), (31, 28)])
+def test_a_tied_design_does_not_hide_that_the_first_is_infeasible_or_worse(confirmation, under_step):
+    found = confirmation(rankings=[(28, 31), under_step], ties=[(28, 31), (31,)])
+    assert not found.holds
+    assert first_lines(found, 1)[0] == (
+        "The decision depends on the step: variant 28 is first under PyBullet 240 Hz, 20 iterations; variant 31 is "
+        "first under PyBullet 1000 Hz, 20 iterations."
+    )
+
+
+def test_a_design_that_is_equally_good_under_a_setting_is_no_other_decision(confirmation):
+    assert confirmation(rankings=[(28, 31), (31, 28)], ties=[(28,), (31, 28)]).holds
 
 
 def test_another_first_design_that_is_hardly_better_is_no_other_decision(confirmation):
