@@ -27,6 +27,7 @@ EARLIER_SCHEMAS = (_WITHOUT_VALUES, _WITHOUT_PHASE_RECORD, _WITHOUT_DESIGNS)
 """The earlier schemas that are read."""
 
 LARGEST_FILE_BYTES = 32 * 1024 * 1024
+_LONGEST_NUMBER = 12
 
 Values = Mapping[str, Mapping[str, Mapping[str, tuple[float | None, ...]]]]
 """By metric, phase and variant, the values in the order of the seeds."""
@@ -225,7 +226,7 @@ def _check(baseline: Baseline, label: str, again: str) -> None:
         EvidenceError: One has not.
     """
     for name, run in baseline.runs.items():
-        wrong = [variant for variant in run.fingerprints if not variant.isdigit()]
+        wrong = [variant for variant in run.fingerprints if not _is_number(variant)]
         if wrong:
             raise EvidenceError(f"the baseline {label}: run {name} has the variant {wrong[0][:20]!r}", hint=again)
         rows = {f"the fingerprints of {variant}": row for variant, row in run.fingerprints.items()}
@@ -241,6 +242,31 @@ def _check(baseline: Baseline, label: str, again: str) -> None:
             raise EvidenceError(
                 f"the baseline {label}: run {name} has {len(run.seeds)} seeds, but not for {short[0]}", hint=again
             )
+    if baseline.decision is not None:
+        problem = _decision_problem(baseline.decision, baseline.runs)
+        if problem:
+            raise EvidenceError(f"the baseline {label}: {problem}", hint=again)
+
+
+def _decision_problem(decision: DecisionState, runs: Mapping[str, BaselineRun]) -> str:
+    """Part of a decision that is missing, as after a merge of two files, and would not be compared; empty if none."""
+    run = runs.get(decision.run)
+    if run is None:
+        return f"the decision is that of run {decision.run}, which it lacks"
+    for what, rows in (("verdicts", decision.verdicts), ("measures", decision.measures)):
+        for variant in sorted(run.fingerprints.keys() ^ rows.keys(), key=_order):
+            if variant in rows:
+                return f"the decision has {what} of variant {variant}, which run {decision.run} does not try"
+            return f"the decision lacks the {what} of variant {variant}"
+        names = {name for row in rows.values() for name in row}
+        for variant, row in rows.items():
+            if names != row.keys():
+                return f"the decision lacks {min(names - row.keys())} among the {what} of variant {variant}"
+    return ""
+
+
+def _is_number(variant: str) -> bool:
+    return variant.isascii() and variant.isdecimal() and len(variant) < _LONGEST_NUMBER
 
 
 def _plain(value: Any) -> Any:
@@ -263,4 +289,4 @@ def _text(value: Any, indent: str) -> str:
 
 def _order(key: str) -> tuple[int, str]:
     """Variants by their number, other names by themselves."""
-    return (int(key), "") if key.isascii() and key.isdigit() and len(key) < 12 else (-1, key)
+    return (int(key), "") if _is_number(key) else (-1, key)

@@ -172,6 +172,34 @@ def test_a_variant_that_is_no_number(refusal):
     assert refusal(change).startswith("the baseline b.json: run planning has the variant 'nine'")
 
 
+@pytest.mark.parametrize(
+    ("change", "problem"),
+    [
+        (lambda decision: decision["verdicts"].clear(), "lacks the verdicts of variant 9"),
+        (lambda decision: decision["verdicts"].pop("10"), "lacks the verdicts of variant 10"),
+        (lambda decision: decision["verdicts"]["9"].clear(), "lacks SYS-1 among the verdicts of variant 9"),
+        (lambda decision: decision["measures"].pop("9"), "lacks the measures of variant 9"),
+        (
+            lambda decision: decision["verdicts"].update({"11": {}}),
+            "has verdicts of variant 11, which run planning does not try",
+        ),
+        (lambda decision: decision.update(run="lost"), "is that of run lost, which it lacks"),
+    ],
+)
+def test_a_decision_of_which_a_part_is_missing(refusal, change, problem):
+    """As after a merge of two files: what is missing would not be compared."""
+    said = refusal(lambda document: change(document["decision"]))
+    assert said.startswith(f"the baseline b.json: the decision {problem} (make it")
+
+
+def test_a_variant_whose_number_is_no_number_of_ascii(refusal):
+    def change(document):
+        prints = document["runs"]["planning"]["fingerprints"]
+        prints["²"] = prints.pop("9")
+
+    assert refusal(change).startswith("the baseline b.json: run planning has the variant '²'")
+
+
 def test_a_value_that_is_a_text(refusal):
     def change(document):
         document["runs"]["planning"]["values"]["time_s"]["lift"]["9"][0] = "1"
