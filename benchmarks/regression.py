@@ -17,6 +17,8 @@ Run it from the repository's folder:
   that the guard prints, for several numbers of seeds.
 - ``python benchmarks/regression.py synthetic [RUNS]``: the same with made-up quantities, normal,
   skewed and mostly zero, of which there are as many as one likes.
+- ``python benchmarks/regression.py rare [RUNS]``: how often a made-up quantity is called the same of which a few
+  seeds got worse by many margins and the others stayed.
 """
 
 from __future__ import annotations
@@ -63,6 +65,8 @@ def main() -> int:
     if command == "decision":
         store, *counts = arguments
         return decision(Path(store), *map(int, counts))
+    if command == "rare":
+        return rare(int(arguments[0]) if arguments else 200)
     return synthetic(int(arguments[0]) if arguments else 400)
 
 
@@ -111,9 +115,7 @@ def null(path: Path, runs: int) -> int:
         def candidates(look: int, _: Collection[str] | None) -> list[Candidate]:
             count = run.seeds_at(look)
             return [
-                _candidate(
-                    key, guards[key], _part(row, old[:count]), _shifted(_part(row, new[:count]), guards[key], shift)
-                )
+                _candidate(key, guards[key], _part(row, old), _shifted(_part(row, new[:count]), guards[key], shift))
                 for key, row in found.items()
             ]
 
@@ -199,13 +201,46 @@ def synthetic(runs: int) -> int:
         def candidates(look: int, _: Collection[str] | None) -> list[Candidate]:
             seeds = range(first if look == 1 else cap)
             return [
-                _candidate(key, guard, _part(old, seeds), _shifted(_part(new, seeds), guard, shift))
+                _candidate(key, guard, old, _shifted(_part(new, seeds), guard, shift))
                 for key, (old, new) in rows.items()
             ]
 
         return settle(candidates, looks=looks, error_rate=0.05)
 
     return _told(drawn, runs)
+
+
+def rare(runs: int) -> int:
+    """Change a few seeds by much; 1 if after 64 seeds the metric is called the same more often than is allowed."""
+    generator = np.random.default_rng(7)
+    guard = Guard(unit="s", higher_is_better=False, margin=1.0, is_success=False)
+    rates = [0.0]
+    for share, margins in ((0.05, 24.0), (0.1, 15.0), (0.2, 8.0)):
+        for first, cap in ((8, 16), (8, 64)):
+            outcomes: Counter[str] = Counter()
+            for _ in range(runs):
+                old = generator.gamma(2.0, 1.0, cap)
+                new = old + np.where(generator.random(cap) < share, margins, 1e-6)
+                whole = _candidate(("time_s", "lift"), guard, {1: _row(old)}, {1: _row(new)})
+
+                def candidates(
+                    look: int,
+                    _: Collection[str] | None,
+                    one: Candidate = whole,
+                    sizes: tuple[int, int] = (first, cap),
+                ) -> list[Candidate]:
+                    return [replace(one, seeds=tuple(range(sizes[look - 1])))]
+
+                settled = settle(candidates, looks=2, error_rate=0.05)
+                outcomes[settled.comparisons[whole.subject].outcome.value] += 1
+            rates += [outcomes["same"] / runs] if cap == 64 else []
+            shares = ", ".join(f"{name} {count / runs:.1%}" for name, count in sorted(outcomes.items()))
+            sys.stdout.write(f"{share:.0%} of the seeds worse by {margins:g} margins, {first} and {cap}: {shares}\n")
+    return int(max(rates) > 0.05 + 2.0 * (0.05 * 0.95 / runs) ** 0.5)
+
+
+def _row(values: NDArray[np.float64]) -> dict[int, float | None]:
+    return dict(enumerate(values.tolist()))
 
 
 def power(runs: int = 1000) -> int:
@@ -295,7 +330,7 @@ def _candidate(
         guard=guard,
         baseline=old,
         current=new,
-        seeds=tuple(range(len(next(iter(old.values()))))),
+        seeds=tuple(range(len(next(iter(new.values()))))),
         identical=False,
     )
 

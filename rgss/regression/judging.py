@@ -12,6 +12,7 @@ from rgss.regression.comparing import WHOLE_TRIAL, Candidate, Comparison, Guard,
 from rgss.regression.error_rates import holm_adjusted
 from rgss.regression.mcnemar import discordance_p_value, worsening_below
 from rgss.regression.paired import PairedMean
+from rgss.regression.unseen_changes import unseen_p_value
 
 PRIMARY_SHARE = 0.5
 """Share of the error rate that tests of the success of whole trials begin with; all others share the rest."""
@@ -91,7 +92,11 @@ def _p_values(one: Candidate, pairs: Pairs, mean_of: PairedMean | None) -> PValu
         return PValues(
             worse=mean_of.above(margin),
             better=mean_of.below(-margin),
-            same=max(mean_of.below(margin), mean_of.above(-margin)),
+            same=max(
+                mean_of.below(margin),
+                mean_of.above(-margin),
+                unseen_p_value(one.baseline, margin, len(pairs.worsening)),
+            ),
         )
     seeds, mean = len(pairs.worsening), float(np.mean(pairs.worsening))
     worse, better = sum(each > 0 for each in pairs.net), sum(each < 0 for each in pairs.net)

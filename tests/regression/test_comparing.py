@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -97,6 +98,35 @@ def test_what_no_trial_tells_any_more_is_missing(candidate):
 def test_what_some_trials_tell_no_more_is_counted(candidate):
     (found,) = judge([candidate([*TIMES, None], [*TIMES[:4], None, None, 1.0])], level=0.05, look=1)
     assert (found.outcome, found.pairs, found.lost) == (Outcome.SAME, 4, 2)
+
+
+@pytest.mark.parametrize(("seeds", "expected"), [(8, Outcome.INCONCLUSIVE), (30, Outcome.SAME)])
+def test_a_mean_is_not_the_same_while_seeds_that_move_by_much_may_be_unseen(candidate, seeds, expected):
+    """Every seventh seed may move by seven margins, which eight seeds leave out in three of ten cases."""
+    old = [0.0, 7.0] * (seeds // 2)
+    assert outcome_of(candidate(old, [value + 1e-6 for value in old])) == [expected]
+
+
+def test_seeds_of_the_baseline_that_are_not_compared_tell_by_how_much_a_seed_may_move(candidate):
+    old = [1.0] * 8 + [8.0]
+    one = candidate(old, [value + 1e-6 for value in old])
+    assert outcome_of(replace(one, seeds=tuple(range(8)))) == [Outcome.INCONCLUSIVE]
+    assert outcome_of(candidate(old[:8], [value + 1e-6 for value in old[:8]])) == [Outcome.SAME]
+
+
+def test_the_same_is_rarely_said_where_a_few_seeds_got_much_worse(candidate):
+    """One of twenty seeds is worse by 24 margins, so that the mean is worse by 1.2; eight seeds are looked at first."""
+    draw, said = np.random.default_rng(3), []
+    for _ in range(40):
+        old = draw.gamma(2.0, 1.0, 64)
+        new = old + np.where(draw.random(64) < 0.05, 24.0, 1e-6)
+        whole = candidate(old.tolist(), new.tolist())
+        found = settle(
+            lambda look, _, one=whole: [replace(one, seeds=tuple(range((8, 64)[look - 1])))], looks=2, error_rate=0.05
+        )
+        said.append(found.comparisons[whole.subject].outcome)
+    # The range of the baseline's seeds is less than 24 margins: of 64 seeds none is worse in 4 % of the cases.
+    assert said.count(Outcome.SAME) <= 4
 
 
 def test_one_pair_is_inconclusive(candidate):
