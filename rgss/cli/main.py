@@ -68,7 +68,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if arguments is None:
         interrupt_at_termination()
     with safe_output():
-        return _run(arguments)
+        status = _run(arguments)
+    if arguments is None:
+        # The work is done, with this status. What ends with the process, such as its children, is not cut off.
+        ignore_interrupts()
+    return status
 
 
 def _run(arguments: Sequence[str] | None) -> int:

@@ -89,6 +89,20 @@ def test_a_second_interrupt_cuts_off_nothing():
     assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", "rgss: interrupted\n")
 
 
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_an_interrupt_at_the_very_end_cuts_off_nothing(name):
+    """It comes when the work is done, while the interpreter ends processes and removes temporary files."""
+    script = (
+        "import atexit, os, signal, sys; from rgss.cli.main import main; "
+        "signal.signal(signal.SIGINT, signal.default_int_handler); "
+        "atexit.register(lambda: (os.kill(os.getpid(), signal.Signals[sys.argv.pop()]), print('cleaned up'))); "
+        "own, sys.argv = sys.argv.pop(), ['rgss']; name = own; "
+        "status = main(); sys.argv.append(name); sys.exit(status)"
+    )
+    ended = subprocess.run([sys.executable, "-c", script, name], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout.splitlines()[-1], ended.stderr) == (0, "cleaned up", "")
+
+
 REQUEST = (
     "import os, signal, sys; from rgss.cli import main as module; "
     "again = lambda: [os.kill(os.getpid(), signal.Signals[name]) for name in sys.argv[1].split()]; "
