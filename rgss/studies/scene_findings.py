@@ -272,16 +272,8 @@ class _Places:
         at, entry = self.at[tall.object][:-1], self.document.data
         for key in at:
             entry = entry[key]
-        message = (
-            f"{tall.object} is too tall for {', '.join(sorted(grippers))}: held at its middle, its top is "
-            f"{tall.top_m * 1e3:.4g} mm above the grasp, and the palm leaves {tall.most_m * 1e3:.4g} mm"
-        )
-        hint = (
-            f"take an object of at most {tall.most_m * 2e3:.4g} mm, a gripper with longer fingers, or let the task "
-            "choose the grasp ('candidates' of the task)"
-        )
-        if serves:
-            hint = "designs with this gripper fail at the grasp, and the others do not"
+        message = tall.message(", ".join(sorted(grippers)))
+        hint = "designs with this gripper fail at the grasp, and the others do not" if serves else tall.hint
         severity = Severity.INFO if serves else Severity.ERROR
         location = (*at, "height" if "height" in entry else "id")
         return self.document.finding("scene.too-tall", message, location, hint=hint, severity=severity)

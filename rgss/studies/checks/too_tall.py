@@ -20,12 +20,38 @@ class TooTall:
     Attributes:
         object: The object.
         top_m: Height of its top above the grasp.
-        most_m: The greatest height that leaves the clearance below the palm.
+        palm_m: Height of the palm above the grasp.
+        clearance_m: Clearance of planned paths, which its top must keep from the palm.
     """
 
     object: str
     top_m: float
-    most_m: float
+    palm_m: float
+    clearance_m: float
+
+    @property
+    def most_m(self) -> float:
+        """The greatest height of a top that keeps the clearance; negative if the clearance reaches below the grasp."""
+        return self.palm_m - self.clearance_m
+
+    def message(self, grippers: str) -> str:
+        """The heights, for the grippers of some files."""
+        text = f"{self.object} is too tall for {grippers}: held at its middle, its top is {_mm(self.top_m)} above the"
+        clearance = f"the clearance of planned paths of {_mm(self.clearance_m)}"
+        if self.most_m <= 0.0:
+            return f"{text} grasp and the palm {_mm(self.palm_m)}, less than {clearance}"
+        return f"{text} grasp, and the palm leaves {_mm(self.most_m)}"
+
+    @property
+    def hint(self) -> str:
+        """What would fit."""
+        text = "a gripper with longer fingers, or let the task choose the grasp ('candidates' of the task)"
+        room_m = self.palm_m - self.top_m
+        lower = f"lower 'clearance' of 'planning' below {_mm(room_m)}"
+        if self.most_m > 0.0:
+            text = f"take an object of at most {_mm(2 * self.most_m)}, {text}"
+            return f"{text}, or {lower}" if room_m > 0.0 else text
+        return f"{lower}, take {text}" if room_m > 0.0 else f"take {text}"
 
 
 def objects_too_tall(geometry: GripperGeometry, project: Project) -> tuple[TooTall, ...]:
@@ -35,12 +61,11 @@ def objects_too_tall(geometry: GripperGeometry, project: Project) -> tuple[TooTa
         geometry: The gripper's shape.
         project: The project.
     """
-    found = []
+    found, clearance_m = [], project.study.planning.clearance_m
     for name, view in gripped_views(project):
         fit = palm_fit(at_object(geometry, view), view)
-        most_m = 0.0 if fit is None else fit.palm_m - project.study.planning.clearance_m
-        if fit is not None and fit.top_m > most_m:
-            found.append(TooTall(object=name, top_m=fit.top_m, most_m=most_m))
+        if fit is not None and fit.top_m > fit.palm_m - clearance_m:
+            found.append(TooTall(object=name, top_m=fit.top_m, palm_m=fit.palm_m, clearance_m=clearance_m))
     return tuple(found)
 
 
@@ -53,3 +78,7 @@ def is_at_the_palm(problem: SceneProblem, name: str) -> bool:
     """
     pair = None if problem.reason is None else problem.reason.pair
     return pair is not None and {*pair} == {GRIPPER_BASE_LINK, name}
+
+
+def _mm(metres: float) -> str:
+    return f"{metres * 1e3:.4g} mm"
