@@ -19,7 +19,7 @@ def too_wide(geometry: GripperGeometry, scene: Scene) -> str:
     if geometry.cup is not None or (half_m := grasp_opening_m(scene, geometry)) < geometry.largest_opening_m:
         return ""
     return (
-        f"the object of {_millimetres(2 * half_m)} is too wide to enter {_named(geometry)}, "
+        f"{scene.workpiece.id} of {_millimetres(2 * half_m)} is too wide to enter {_named(geometry)}, "
         f"which opens to {_millimetres(2 * geometry.largest_opening_m)}"
     )
 
@@ -34,7 +34,7 @@ def too_narrow(geometry: GripperGeometry, scene: Scene) -> str:
     if geometry.cup is not None or (half_m := grasp_opening_m(scene, geometry)) > geometry.least_opening_m:
         return ""
     return (
-        f"the object of {_millimetres(2 * half_m)} is too narrow to be touched by {_named(geometry)}, "
+        f"{scene.workpiece.id} of {_millimetres(2 * half_m)} is too narrow to be touched by {_named(geometry)}, "
         f"which closes to {_millimetres(2 * geometry.least_opening_m)}"
     )
 
@@ -65,7 +65,7 @@ def unsealed(geometry: GripperGeometry, scene: Scene) -> str:
             "middle of the top of a box or an upright cylinder"
         )
     return (
-        f"the top of the object of {_millimetres(2 * room_m)} is smaller than the cup of "
+        f"the top of {scene.workpiece.id} of {_millimetres(2 * room_m)} is smaller than the cup of "
         f"{_named(geometry)}, {_millimetres(2 * geometry.cup.radius_m)}"
     )
 

@@ -39,7 +39,7 @@ def test_every_gripped_object_that_is_smaller_than_the_cup(project):
 
     assert [name for name, _ in found] == [one.workpiece.id for one in project.scene.objects]
     assert all(
-        "the top of the object of 30 mm is smaller than the cup of gripper lite6_vacuum" in why for _, why in found
+        f"the top of {name} of 30 mm is smaller than the cup of gripper lite6_vacuum" in why for name, why in found
     )
 
 
