@@ -14,28 +14,29 @@ _DIGITS = 6
 _TOLERANCE_RAD = 1e-6
 
 
-def is_half_turn_symmetric(geometry: GripperGeometry) -> bool:
-    """True if a half turn about the approach exchanges the fingers of a hand and changes nothing else.
+def has_opposed_fingers(geometry: GripperGeometry) -> bool:
+    """True if a half turn about the approach exchanges the pads of a hand.
 
-    So for two opposed sliding fingers. A linkage is not taken for symmetric: its links may differ on both sides.
+    So for two opposed fingers and for a linkage. The other links of a linkage may differ on both sides: the filters of
+    a candidate have the hand as it is turned.
 
     Args:
         geometry: The gripper's shape.
     """
-    if geometry.cup is not None or geometry.linkage is not None or geometry.fingers != 2:
+    if geometry.cup is not None or geometry.fingers != 2:
         return False
     one, other = geometry.azimuths_rad
     return abs(abs(math.remainder(other - one, math.tau)) - math.pi) < _TOLERANCE_RAD
 
 
 def with_half_turns(grasps: Sequence[RankedGrasp], geometry: GripperGeometry) -> tuple[RankedGrasp, ...]:
-    """Candidates, each followed by its half turn unless that is a candidate already; unchanged without the symmetry.
+    """Candidates, each followed by its half turn unless that is a candidate already; unchanged of other hands.
 
     Args:
         grasps: The candidates in their order.
         geometry: The gripper's shape.
     """
-    if not is_half_turn_symmetric(geometry):
+    if not has_opposed_fingers(geometry):
         return tuple(grasps)
     known = {_key(one.tool_in_object) for one in grasps}
     found: list[RankedGrasp] = []

@@ -81,7 +81,7 @@ def ranked_grasps(
 ) -> RankedGrasps:
     """Grasp candidates of an object, ordered by quality, then distance of the centre of mass, then approach.
 
-    Of a symmetric hand the half turn of each is a candidate too.
+    Of a hand with two opposed pads the half turn of each is a candidate too.
 
     Args:
         workpiece: The object.

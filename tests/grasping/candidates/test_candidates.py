@@ -26,6 +26,7 @@ from rgss.scenes import (
     load_gripper,
     pad_patches,
 )
+from tests.trials.hands.gripper_files import linkage_file
 
 GRIPPERS = Path(__file__).resolve().parents[3] / "scenes" / "grippers"
 EVERY = GraspCandidates(approaches=tuple(Approach), heights=2, yaws=4, samples=12)
@@ -231,13 +232,15 @@ def test_the_half_turn_of_each_candidate_of_two_fingers_is_one_of_the_same_quali
         assert found[partner[0]].opening_m == pytest.approx(one.opening_m, abs=1e-9)
 
 
-def test_a_given_grasp_is_tried_with_either_finger_first_and_three_fingers_have_no_half_turn():
+def test_a_given_grasp_is_tried_with_either_pad_first_and_three_fingers_have_no_half_turn(tmp_path):
     down = Pose(quaternion_xyzw=(1.0, 0.0, 0.0, 0.0))
     given = piece(SHAPES["mesh"], grasps=(GivenGrasp(id="top", tool_in_object=down, width_m=0.05),))
     alone = GraspCandidates(approaches=(Approach.ABOVE,), samples=0)
     two, three = (ranked_grasps(given, hand(count), alone, friction=0.8).grasps for count in (2, 3))
-    assert [one.id for one in two] == ["top", "top:turned"]
-    first, turned = (one.tool_in_object for one in two)
-    assert turned.rotate((1.0, 0.0, 0.0)) == pytest.approx([-x for x in first.rotate((1.0, 0.0, 0.0))], abs=1e-9)
-    assert turned.rotate((0.0, 0.0, 1.0)) == pytest.approx(first.rotate((0.0, 0.0, 1.0)), abs=1e-9)
+    cranks = ranked_grasps(given, linkage_file(tmp_path).geometry, alone, friction=0.8).grasps
+    assert [one.id for one in two] == [one.id for one in cranks] == ["top", "top:turned"]
+    for first, turned in ([one.tool_in_object for one in found] for found in (two, cranks)):
+        assert turned.position_m == pytest.approx(first.position_m, abs=1e-9)
+        assert turned.rotate((1.0, 0.0, 0.0)) == pytest.approx([-x for x in first.rotate((1.0, 0.0, 0.0))], abs=1e-9)
+        assert turned.rotate((0.0, 0.0, 1.0)) == pytest.approx(first.rotate((0.0, 0.0, 1.0)), abs=1e-9)
     assert not any(one.id.endswith(":turned") for one in three)
