@@ -15,6 +15,7 @@ from rgss.scenes import load_gripper_file
 from rgss.studies.motion import neutral_findings
 from rgss.tasks import NeutralStep, load_task
 from rgss.trials import plan_of, timing_of
+from rgss.trials.second_engine import mujoco_settings
 from tests.fixtures.shared_trials import record_without_bench
 from tests.trials.hands.gripper_files import FILES
 
@@ -54,6 +55,18 @@ def test_what_they_hold_is_carried_on_and_placed(neutral_after, fidelity):
     assert record.success
     neutral = next(phase for phase in record.phases if phase.phase == "neutral")
     assert neutral.duration_s == pytest.approx(0.275, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("share", "failed"),
+    [(0.0, ("neutral", Failure.OBJECT_DROPPED)), (0.8, ("neutral", Failure.OBJECT_DROPPED)), (1.6, (None, None))],
+)
+def test_in_the_second_engine_friction_decides_alike(neutral_after, share, failed):
+    spec = neutral_after("lift", Fidelity.CONTACT, share)
+    record = record_without_bench(replace(spec, settings=replace(spec.settings, physics=mujoco_settings())))
+
+    assert (record.failed_phase, record.failure) == failed
+    assert record.success is (failed == (None, None))
 
 
 @pytest.mark.parametrize("fidelity", [Fidelity.DYNAMIC, Fidelity.CONTACT])
