@@ -15,6 +15,7 @@ if TYPE_CHECKING:
         HandAction,
         MoveKind,
         MoveStep,
+        Named,
         Nearness,
         NeutralStep,
         ReleaseStep,

@@ -84,6 +84,9 @@ def test_a_frame_of_the_held_object_is_refused(tmp_path, scene):
     assert findings(tmp_path, scene, CARRY + "  - move: {frame: tray}\n" + PLACED) == []
 
 
-def test_frames_are_inputs_of_the_plan(scene):
+def test_the_frames_to_which_a_task_moves_are_inputs_of_the_plan(scene):
     moved = replace(scene, frames=(replace(TRAY, pose=TRAY.pose.raised(0.01)), OVER))
-    assert len({geometry_digest(one) for one in (scene, moved, replace(scene, frames=()))}) == 3
+    scenes = (scene, moved, replace(scene, frames=()))
+    assert len({geometry_digest(one, frames=frozenset({"tray"})) for one in scenes}) == 3
+    assert len({geometry_digest(one, frames=frozenset({"over"})) for one in scenes}) == 2
+    assert len({geometry_digest(one) for one in scenes}) == 1

@@ -2,9 +2,9 @@
 
 A trial is divided into pieces by their inputs. The *plan* needs the scene, the gripper's shape, the planner with its
 parameters and the seed; the *timing* needs the plan, the tool speed and the joints' speed and acceleration limits; the
-*execution* needs the timing, the joints' torques and the gripper's masses, forces and friction; the *bench* needs only
-the gripper and the object; only the *record* needs the planning limit. Variants with the same digest of a piece share
-the piece.
+*execution* needs the timing, the inertias and torques of the arm, the gripper's masses, forces and friction, and the
+durations and conditions of the steps; the *bench* needs only the gripper and the object; only the *record* needs the
+planning limits. Variants with the same digest of a piece share the piece.
 """
 
 from __future__ import annotations
@@ -12,13 +12,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from types import MappingProxyType
 from typing import Any
 
 from rgss.documents import digest
 from rgss.evidence import Fidelity
 from rgss.motion import Objective
 from rgss.scenes import Robot
-from rgss.tasks import TaskProgram
+from rgss.tasks import Named, Step, TaskProgram
 from rgss.trials.code import ENTRIES, versions_of
 from rgss.trials.conditions import ConditionInputs, condition_inputs, conditions_from
 from rgss.trials.payload_bench import BenchSpec, bench_of
@@ -27,6 +28,7 @@ from rgss.trials.pieces.scene_digests import (
     ARM_RATES,
     choice_digest,
     geometry_digest,
+    gripper_geometry_digest,
     physics_digest,
     true_values_digest,
 )
@@ -41,6 +43,10 @@ _JOINED_KEPT = 8192
 _SPECS_KEPT = 8192
 # Settings of a step that affect its execution.
 _EXECUTED = ("reached_rad", "control", "firm_above_n", "firm_s", "opened_m", "near")
+# Fields of a wait and of a check that only the execution reads.
+_OBSERVED = ("duration_s", "at", "is_upright", "is_at_rest", "held")
+# Settings of a move that later pieces read, with their defaults: the timing, and the record.
+_LATER: Mapping[str, Any] = MappingProxyType({"speed_share": 1.0, "limit_s": None})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,10 +88,10 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
 @lru_cache(maxsize=_SPECS_KEPT)
 def _digests_of(spec: TrialSpec, versions: tuple[tuple[str, str], ...]) -> TrialDigests:
     used = _version_digests(versions)
-    drawn = _digests_of_conditions(condition_inputs(spec))
+    drawn = _digests_of_conditions(condition_inputs(spec), _frames_of(spec.task), has_inertias=_is_by_work(spec))
     plan = _joined(
         *drawn.planned,
-        _digest_of(spec.gripper.geometry),
+        gripper_geometry_digest(spec.gripper.geometry),
         _digest_of(spec.planned_by),
         _potential_digest(spec),
         spec.seed,
@@ -98,6 +104,7 @@ def _digests_of(spec: TrialSpec, versions: tuple[tuple[str, str], ...]) -> Trial
         drawn.tool_speed_m_s,
         _rates_digest(spec.scene.robot),
         *_stated(spec.settings.timing),
+        *_later(spec.task, "speed_share"),
         used["timing"],
     )
     execution = _joined(
@@ -107,12 +114,13 @@ def _digests_of(spec: TrialSpec, versions: tuple[tuple[str, str], ...]) -> Trial
         _digest_of(spec.settings.control),
         *_controller_digest(spec),
         *_execution_of_steps(spec),
+        *_observed(spec.task),
         spec.fidelity.value,
         used["execution"],
     )
     bench = bench_of(spec)
     lifted = "" if bench is None else _bench_digest(bench, used["bench"])
-    limits_s = [spec.planning_limit_s, spec.task.time_limit_s]
+    limits_s = [spec.planning_limit_s, spec.task.time_limit_s, *_later(spec.task, "limit_s")]
     trial = digest([execution, lifted, limits_s, used["record"], [drawn.case, dict(drawn.draws)]])
     return TrialDigests(plan=plan, timing=timing, execution=execution, bench=lifted, trial=trial)
 
@@ -138,10 +146,11 @@ class _ConditionDigests:
 
 # Suppositions about planning and limits leave the conditions of every trial as they are.
 @lru_cache(maxsize=_SPECS_KEPT)
-def _digests_of_conditions(inputs: ConditionInputs) -> _ConditionDigests:
+def _digests_of_conditions(inputs: ConditionInputs, frames: frozenset[str], *, has_inertias: bool) -> _ConditionDigests:
     conditions = conditions_from(inputs)
+    geometry = geometry_digest(conditions.perceived_scene, frames=frames, has_inertias=has_inertias)
     return _ConditionDigests(
-        planned=(geometry_digest(conditions.perceived_scene), *choice_digest(conditions)),
+        planned=(geometry, *choice_digest(conditions)),
         tool_speed_m_s=conditions.tool_speed_m_s,
         executed=(
             _digest_of(conditions.true_gripper),
@@ -165,8 +174,12 @@ def bench_digest(spec: BenchSpec, versions: Mapping[str, str]) -> str:
 
 def _potential_digest(spec: TrialSpec) -> float:
     """Digest of gravity for a planner that minimises mechanical work; planning does not depend on it otherwise."""
-    needs_gravity = spec.planned_by.objective is Objective.MECHANICAL_WORK
-    return spec.scene.gravity_m_s2 if needs_gravity else 0.0
+    return spec.scene.gravity_m_s2 if _is_by_work(spec) else 0.0
+
+
+def _is_by_work(spec: TrialSpec) -> bool:
+    """True if the planner minimises mechanical work, for which it reads gravity and the inertias of the links."""
+    return spec.planned_by.objective is Objective.MECHANICAL_WORK
 
 
 def _controller_digest(spec: TrialSpec) -> tuple[str, ...]:
@@ -183,9 +196,37 @@ def _stated(settings: TimingSettings | JointController) -> tuple[str, ...]:
 
 @lru_cache(maxsize=_KEPT)
 def _task_digest(task: TaskProgram) -> str:
-    """Digest of the steps of a task without settings that affect only its execution; its name is not an input."""
-    steps = [[type(step).__name__, without(to_plain(step), _EXECUTED)] for step in task.steps]
+    """Digest of what planning reads of the steps of a task; its name is not an input."""
+    steps = [[type(step).__name__, _planned(step)] for step in task.steps]
     return digest([to_plain(task.start), steps])
+
+
+def _planned(step: Step) -> dict[str, Any]:
+    plain = without(to_plain(step), (*_EXECUTED, *_OBSERVED))
+    return {name: _LATER.get(name, value) for name, value in plain.items()}
+
+
+@lru_cache(maxsize=_KEPT)
+def _frames_of(task: TaskProgram) -> frozenset[str]:
+    """Named frames to which a task moves."""
+    start = () if task.start is None else task.start.mentions
+    mentions = (*start, *(mention for step in task.steps for mention in step.mentions))
+    return frozenset(one.name for one in mentions if one.kind is Named.FRAME and one.name)
+
+
+@lru_cache(maxsize=_KEPT)
+def _later(task: TaskProgram, setting: str) -> tuple[str, ...]:
+    """Digest of a setting of the moves that is no input of their plans; empty if no move states it."""
+    stated = [[move.name, value] for move in task.moves if (value := getattr(move, setting)) != _LATER[setting]]
+    return (digest(stated),) if stated else ()
+
+
+@lru_cache(maxsize=_KEPT)
+def _observed(task: TaskProgram) -> tuple[str, ...]:
+    """Digest of durations of waits and of conditions of checks; empty for a task without either."""
+    plain = ((step.name, to_plain(step)) for step in task.steps)
+    stated = [[name, {key: one[key] for key in _OBSERVED if key in one}] for name, one in plain]
+    return (digest(stated),) if any(values for _, values in stated) else ()
 
 
 def _execution_of_steps(spec: TrialSpec) -> tuple[str, ...]:

@@ -3,15 +3,19 @@
 All objects are treated alike, the first and the further ones: planning uses their ids, shapes, perceived poses,
 supports and places; the choice of a grasp also their friction and centre of mass; only the execution uses the other
 numbers, the true and the assumed ones. The name of the scene and all colours are no inputs.
+
+Planning reads the joints and the collision shapes of the robot and of a linkage, not the inertias of their links: these
+are inputs of the execution. A named frame is an input of a task that moves to it, and of no other.
 """
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
 from functools import lru_cache
 from typing import Any
 
 from rgss.documents import digest
-from rgss.scenes import ObjectShape, PlaceRegion, Scene, Workpiece, centre_of_mass
+from rgss.scenes import GripperGeometry, ObjectShape, PlaceRegion, Robot, Scene, Workpiece, centre_of_mass
 from rgss.trials.conditions import Conditions
 from rgss.trials.pieces.plain_values import to_plain, without
 
@@ -19,17 +23,22 @@ ARM_RATES = ("speed_rad_s", "acceleration_rad_s2")
 """Fields of a joint that only the timing uses."""
 
 _KEPT = 512
-_UNPLANNED = ("payload_kg", "tool_speed_m_s", "tool_acceleration_m_s2", "calibration", "frames")
+_UNPLANNED = ("payload_kg", "tool_speed_m_s", "tool_acceleration_m_s2", "calibration", "frames", "files")
+_UNPLANNED_OF_LINK = ("mass_kg", "inertial", "inertia_kg_m2")
 
 
 @lru_cache(maxsize=_KEPT)
-def geometry_digest(scene: Scene) -> str:
+def geometry_digest(scene: Scene, *, frames: frozenset[str] = frozenset(), has_inertias: bool = False) -> str:
     """Digest of the scene's inputs of planning: poses, shapes and joint ranges.
 
     Args:
         scene: The perceived scene.
+        frames: The named frames to which the task moves.
+        has_inertias: True if planning reads the inertias of the robot's links.
     """
     robot = without(to_plain(scene.robot), _UNPLANNED)
+    if not has_inertias:
+        robot["urdf"] = _without_inertias(scene.robot.urdf)
     robot["joints"] = [without(joint, (*ARM_RATES, "torque_n_m")) for joint in robot["joints"]]
     # No trial uses the effort of a follower.
     robot["followers"] = [without(one, ("effort",)) for one in robot["followers"]]
@@ -47,8 +56,8 @@ def geometry_digest(scene: Scene) -> str:
         geometry["others"] = [
             [_solid(one.workpiece), one.support, one.place_support, _position(one.place)] for one in scene.others
         ]
-    if scene.frames:
-        geometry["frames"] = to_plain(scene.frames)
+    if named := [one for one in scene.frames if one.id in frames]:
+        geometry["frames"] = to_plain(named)
     if scene.places:
         geometry["places"] = [[one.id, one.support, _position(one.region)] for one in scene.places]
     return digest(geometry)
@@ -73,6 +82,42 @@ def choice_digest(conditions: Conditions) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=_KEPT)
+def gripper_geometry_digest(geometry: GripperGeometry) -> str:
+    """Digest of the gripper's inputs of planning.
+
+    Args:
+        geometry: The gripper's shape.
+    """
+    plain = to_plain(geometry)
+    if geometry.linkage is not None:
+        plain["linkage"]["links"] = [without(link, _UNPLANNED_OF_LINK) for link in plain["linkage"]["links"]]
+    return digest(plain)
+
+
+@lru_cache(maxsize=16)
+def description_digest(robot: Robot) -> str:
+    """Digest of the robot's description with the inertias of its links and the content of its meshes.
+
+    Args:
+        robot: The robot.
+    """
+    return digest([robot.urdf, to_plain(robot.files)])
+
+
+@lru_cache(maxsize=16)
+def _without_inertias(urdf: str) -> str:
+    """URDF without the inertias of its links and without comments; a text that is no XML as it is."""
+    try:
+        root = ET.fromstring(urdf)  # noqa: S314 - entities and document types were refused on reading
+    except ET.ParseError:
+        return urdf
+    for link in root.iter("link"):
+        for inertial in link.findall("inertial"):
+            link.remove(inertial)
+    return ET.tostring(root, encoding="unicode")
+
+
+@lru_cache(maxsize=_KEPT)
 def physics_digest(scene: Scene) -> str:
     """Digest of the scene's inputs that only the physics uses.
 
@@ -85,6 +130,7 @@ def physics_digest(scene: Scene) -> str:
         "workpiece": _strength(scene.workpiece),
         "place": _tolerances(scene.place),
         "torques_n_m": [joint.torque_n_m for joint in scene.robot.joints],
+        "description": description_digest(scene.robot),
         **_stated_inertia(scene.workpiece),
     }
     if scene.others:

@@ -14,7 +14,6 @@ import pytest
 from rgss.evidence import Fidelity, PieceKind
 from rgss.motion import ClockKind, Objective, PlanningClock
 from rgss.scenes import Calibration, Pose, ServoControl
-from rgss.scenes.robot import RobotFile
 from rgss.studies.expansion import trial_specs
 from rgss.trials import JointController, JointGains, TimingProfile, TimingSettings
 from rgss.trials.code.piece_versions import ENGINES, ENTRIES, versions
@@ -231,14 +230,6 @@ def test_everything_in_a_scene_but_its_name_and_its_colours_is_an_input(spec_of)
 
     assert {re.sub(r"\[\d+\]$", "", path).rsplit(".", 1)[-1] for path in missed} == {"colour", "id"}
     assert len(missed) == 4 * (len(spec.scene.bodies) + 1) + len(["scene.id"])
-
-
-def test_a_mesh_of_the_robot_is_an_input_of_everything_that_is_planned(spec_of):
-    def with_file(content):
-        file = RobotFile(name="meshes/part.stl", sha256=content * 64)
-        return with_scene(spec_of(1), robot=replace(spec_of(1).scene.robot, files=(file,)))
-
-    assert changed(spec_of(1), with_file("a")) == changed(with_file("a"), with_file("b")) == PLANNED
 
 
 def test_72_variants_and_a_seed_need_6_plans_12_timings_24_executions_and_4_benches(project):
