@@ -11,7 +11,7 @@ from enum import Enum
 
 from rgss.grasping.candidates.boxes import box_frames
 from rgss.grasping.candidates.cylinders import cylinder_frames
-from rgss.grasping.candidates.fingertips import off_support
+from rgss.grasping.candidates.fingertips import off_support, too_low
 from rgss.grasping.candidates.frames import ToolFrame, approach_of
 from rgss.grasping.candidates.hand_symmetry import with_half_turns
 from rgss.grasping.candidates.meshes import antipodal_frames
@@ -56,11 +56,13 @@ class RankedGrasps:
         rejected_frames: Number of rejected tool frames by reason.
         nearest_opening_m: Of the frames that are too wide or too narrow for the gripper, the opening nearest to its
         range by reason.
+        too_low: Reason why the ends of the fingers do not hold a low object from above; empty if they do.
     """
 
     grasps: tuple[RankedGrasp, ...]
     rejected_frames: Mapping[FrameRejection, int]
     nearest_opening_m: Mapping[FrameRejection, float] = field(default_factory=dict)
+    too_low: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +117,9 @@ def ranked_grasps(
         grasps=with_half_turns(found, geometry),
         rejected_frames=dict(rejected_frames),
         nearest_opening_m={why: of(openings_m[why]) for why, of in nearest.items() if why in openings_m},
+        too_low=""
+        if clearance_m is None or Approach.ABOVE not in options.approaches
+        else too_low(2 * workpiece.shape.half_height_m, clearance_m),
     )
 
 

@@ -107,7 +107,7 @@ class GraspSearch:
 
     @property
     def reasons(self) -> str:
-        """Numbers of rejections by filter in one line, without any candidate with the widths that did not fit."""
+        """Numbers of rejections by filter in one line, with the widths or the height of the object that did not fit."""
         counts = [(reason.value, count) for reason, count in self.ranked.rejected_frames.items()]
         counts += [(reason.value, count) for reason, count in self.rejected.items()]
         if not counts and not self.ranked.grasps:
@@ -115,7 +115,8 @@ class GraspSearch:
                 return "its shape has no flat face for the cup"
             return "its shape has no two surfaces that face each other within the friction of the pads"
         text = ", ".join(f"{reason}: {count}" for reason, count in counts)
-        return text if self.ranked.grasps else text + self._widths()
+        low = f"; {self.ranked.too_low}" if self.ranked.too_low and Rejection.COLLISION in self.rejected else ""
+        return text + (low if self.ranked.grasps else self._widths())
 
     @property
     def no_grasp(self) -> NoGrasp | None:

@@ -177,6 +177,14 @@ def test_a_trial_without_a_grasp_says_why_no_candidate_can_be_carried_out(with_o
     )
 
 
+def test_of_a_plate_that_is_too_low_for_the_fingers_a_trial_says_so(with_object):
+    plate = with_object(Box(size_m=(0.06, 0.05, 0.008)))
+    record = record_without_bench(replace(plate, fidelity=Fidelity.KINEMATIC))
+    assert record.failure_detail.startswith("no grasp candidate of ")
+    assert "; from above, fingers that keep the clearance of " in record.failure_detail
+    assert "of its height of 8 mm, and need 5 mm" in record.failure_detail
+
+
 def test_a_grasp_that_no_arm_reaches_is_counted_by_its_filter(with_object):
     spec = with_object("box")
     x, y, z = spec.scene.workpiece.pose.position_m
