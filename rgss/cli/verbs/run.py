@@ -155,14 +155,23 @@ def _show(record: Any, digest: str, drawn: Sequence[DrawnValue], control: str) -
     print_table(titles, rows, right=(3, 4, 5, 6, 7, 8))
     metrics = record.metrics
     if record.success:
-        offset = metrics["place_error_m"]
-        releases = sum(phase.metrics.get("release_height_m") is not None for phase in record.phases)
-        which = "the object" if releases <= 1 else f"the farthest of {releases} placed objects"
-        where = "" if offset is None else f": {which} is {number(1e3 * offset, 3)} mm from the place"
-        print(f"Success in {number(metrics['task_time_s'])} s (planning included){where}.")
+        print(f"Success in {number(metrics['task_time_s'])} s (planning included){_distance_from_place(record)}.")
     else:
         print(f"Failed at {record.failed_phase}: {record.failure.value}: {record.failure_detail}")
     print(f"digest {digest}")
+
+
+def _distance_from_place(record: Any) -> str:
+    """Distance of the placed object from its place, of several releases the greatest; empty if it is not observed."""
+    from rgss.cli.output import number
+
+    offset = record.metrics["place_error_m"]
+    if offset is None:
+        return ""
+    releases = sum(phase.metrics.get("release_height_m") is not None for phase in record.phases)
+    # An object may be released several times.
+    which = "the object" if releases <= 1 else f"of {releases} releases the farthest object"
+    return f": {which} is {number(1e3 * offset, 3)} mm from the place"
 
 
 def _print_chosen_grasps(record: Any) -> None:

@@ -1,4 +1,4 @@
-"""The lines of `rgss run` on the grasps that were chosen."""
+"""The lines of `rgss run` on the grasps that were chosen, and on the places of objects."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from rgss.cli.verbs.run import _print_chosen_grasps
+from rgss.cli.verbs.run import _distance_from_place, _print_chosen_grasps
 
 COMMON = {
     "chosen_grasp_rank": 2,
@@ -60,3 +60,19 @@ def test_objects_with_different_grasps_have_a_line_each(capsys):
     tin, box = capsys.readouterr().out.splitlines()
     assert tin.startswith("Grasp in tin.grip: candidate 2 of 40, centre at (1, 0, -20) mm in the object")
     assert box.startswith("Grasp in box.grip: candidate 2 of 40, centre at (0, 0, 12.3) mm in the object")
+
+
+@pytest.mark.parametrize(
+    ("releases", "text"),
+    [
+        (0, ": the object is 2 mm from the place"),
+        (1, ": the object is 2 mm from the place"),
+        (2, ": of 2 releases the farthest object is 2 mm from the place"),
+    ],
+)
+def test_an_object_that_is_released_twice_is_not_two_objects(releases, text):
+    phases = [SimpleNamespace(metrics={"release_height_m": 0.003}) for _ in range(releases)]
+    record = SimpleNamespace(phases=[SimpleNamespace(metrics={}), *phases], metrics={"place_error_m": 0.002})
+    assert _distance_from_place(record) == text
+    record.metrics["place_error_m"] = None
+    assert _distance_from_place(record) == ""
