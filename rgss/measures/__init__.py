@@ -29,4 +29,5 @@ from rgss.measures.possible_values import estimate_ranges
 from rgss.measures.ranges import Range
 from rgss.measures.ratios import ratio_values
 from rgss.measures.readings import with_alternative
+from rgss.measures.undefined import undefined_measures
 from rgss.measures.verdicts import StaleCause, Verdict, judge, meets

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
         strict_findings,
         task_time_findings,
         threshold_findings,
+        undefined_findings,
     )
     from rgss.studies.document import MOST_REPLICATES, StudyDocument
     from rgss.studies.document_kinds import DOCUMENT_KINDS, document_kind

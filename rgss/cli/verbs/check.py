@@ -133,6 +133,7 @@ def _checked(folder: Path, study: str | None, options: argparse.Namespace) -> _C
         task_time_findings,
         threshold_findings,
         uncounted_mass_findings,
+        undefined_findings,
         unused_findings,
     )
     from rgss.studies.robot_project import robot_findings
@@ -152,6 +153,7 @@ def _checked(folder: Path, study: str | None, options: argparse.Namespace) -> _C
             *task_time_findings(project),
             *strict_findings(project),
             *threshold_findings(project),
+            *undefined_findings(project),
             *double_counting_findings(project),
             *assumption_findings(project),
             *scene.findings,

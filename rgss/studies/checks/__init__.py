@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from rgss.studies.checks.task_time_check import task_time_findings
     from rgss.studies.checks.threshold_check import threshold_findings
     from rgss.studies.checks.too_tall import TooTall, is_at_the_palm, objects_too_tall
+    from rgss.studies.checks.undefined_check import undefined_findings
     from rgss.studies.checks.width_check import is_of_fingers, objects_too_wide, width_finding
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
