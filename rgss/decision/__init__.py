@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.decision.choosing import choose, trade_problem
+    from rgss.decision.choosing import choose, trade_problem, unweighted_measures
     from rgss.decision.named_trials import NamingStudy, asked_of, asked_trials, naming_studies
     from rgss.decision.portfolios import choose_portfolio, measured_studies
     from rgss.decision.screening import (

@@ -129,6 +129,12 @@ def proportion_measures(project: Project) -> frozenset[str]:
     )
 
 
+def unweighted_measures(project: Project) -> tuple[str, ...]:
+    """Valued measures with weight 0, which neither the value nor the rule of equals reads."""
+    weights = project.study.trade_off.weighting.weights
+    return tuple(measure for measure, weight in weights.items() if weight == 0.0)
+
+
 def double_counting(project: Project) -> tuple[Overlap, ...]:
     """Valued measures of which one contains the other, with an alternative measure."""
     measures = project.measures

@@ -32,7 +32,9 @@ def test_every_page_counts_it_as_open(changed, rgss, monkeypatch):
     assert "SYS-012" in by.split(", ")
     standing = next(line for line in said.splitlines() if line.startswith("Requirements of variant"))
     assert "SYS-012 stale" in standing
-    assert standing.endswith("'rgss measure' says why a verdict is stale.")
+    stale = "Stale verdicts, which leave designs open, are those on SYS-012; 'rgss measure' says what changed."
+    remedy = "'rgss measure --record' gives verdicts by the stored evidence."
+    assert f"{stale} {remedy}" in said.splitlines()
     (count, named) = re.search(r"(\d+) open \(([^)]*)\)", standing).groups()
     assert len(named.split(", ")) == int(count)
 
@@ -45,3 +47,17 @@ def test_every_page_counts_it_as_open(changed, rgss, monkeypatch):
     page = rgss("report", "--no-film", "--json", "--out", changed / "report.html").document["report"]["decision"]
     assert OPEN.findall(page["headline"]) == [by]
     assert standing in page["standing"]
+    assert document["conclusion"]["stale"] == f"{stale} {remedy}"
+    assert f"{stale} {remedy}" in page["standing"]
+
+
+def test_the_remedy_that_the_decision_names_gives_verdicts(changed, rgss):
+    assert rgss("measure", "--project", changed, "--record").status == 0
+    said = rgss("trade", "--project", changed, "--brief").output
+    assert "stale" not in said.lower()
+
+
+def test_a_decision_without_a_choice_names_the_remedy_too(changed, rgss):
+    said = rgss("trade", "--project", changed, "--brief", "--what-if", "SYS-004.threshold=1 USD").output
+    assert "No variant is chosen" in said
+    assert "'rgss measure --record' gives verdicts by the stored evidence." in said

@@ -217,8 +217,10 @@ def test_the_document_of_a_report_lists_the_same_ties(made):
         return Rival(row=row, probability=probability, within_margin=True, replicates=None, measure=None)
 
     variants = made.robustness.analysis.variants
-    part = decision_part(with_rivals(made, rival(6, 0.4), rival(2, 0.1)))
+    part = decision_part(with_rivals(made, rival(6, 0.4), rival(2, 0.1), rival(3, 0.028)))
     assert part["rivals"] == [variants[6], variants[2]]
+    # The page says of these that they are as good with a probability of 5 % or more.
+    assert part["rivals_by_margin"] == [variants[3]]
     assert decision_part(with_rivals(made))["rivals"] == []
 
 
@@ -316,6 +318,9 @@ def test_every_page_states_the_rule_of_the_choice(made):
     rule = trade_document(ruled)["conclusion"]["rule"]
     margin = made.practical_margin
     assert rule == {"sentence": sentence, "practical_margin": margin, "tolerance": 0.05, "of_equals": "last"}
+    assert "quantities of the valued measures with a weight above 0, then" in rule_sentence(
+        dataclasses.replace(made, unweighted=("t_p",))
+    )
     assert rule_sentence(dataclasses.replace(made, tolerance=0.0)) == (
         "Rule: of the variants whose estimates meet every requirement, the one of the highest value is chosen; of "
         "equals one that no other surpasses in the quantities of the valued measures, then the smallest id."

@@ -12,6 +12,7 @@ from rgss.decision.study_decision import decide_study
 from rgss.reports.decision import decision_lines, decision_section, rule_sentence
 from rgss.reports.decision.sentences import certificate_sentence, noise_sentence, reasons
 from rgss.reports.decision.text.effects import usable_resamples_sentence
+from rgss.reports.decision.words import kept_amount, kept_share
 from rgss.tradeoff.decision import InfeasibleAlternative
 
 
@@ -113,3 +114,26 @@ def test_numbers_that_are_too_large_to_square_leave_a_part_out():
 )
 def test_resamples_without_a_success_are_counted(used, words):
     assert usable_resamples_sentence(type("Analysis", (), {"used": used})()) == words
+
+
+@pytest.mark.parametrize(
+    ("end", "unit", "is_least", "text"),
+    [
+        # Three drives of 1,267 USD in place of 450 are one dollar more than the limit allows.
+        (450.0 + 2450.0 / 3.0, "USD", False, "1,266 USD"),
+        (2993.2, "USD", True, "2,994 USD"),
+        (7650.000000000001, "USD", False, "7,650 USD"),
+        (1.27256, "kg", False, "1.272 kg"),
+        (1.27241, "kg", True, "1.273 kg"),
+        (0.0, "USD", True, "0 USD"),
+    ],
+)
+def test_the_end_of_a_range_is_written_so_that_it_is_within(end, unit, is_least, text):
+    assert kept_amount(end, unit, is_least=is_least) == text
+
+
+@pytest.mark.parametrize(
+    ("share", "digits", "text"), [(0.0604, 1, "6.0 %"), (0.06999, 1, "6.9 %"), (0.07, 2, "7.00 %"), (0.1, 1, "10.0 %")]
+)
+def test_a_share_up_to_which_something_holds_is_rounded_down(share, digits, text):
+    assert kept_share(share, digits) == text

@@ -14,6 +14,7 @@ from rgss.decision.study_decision.findings import robustness_findings
 from rgss.decision.what_if import suppose
 from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
 from rgss.reports.decision.words import score
+from rgss.reports.study.variants import weight_columns
 from rgss.tradeoff.robustness import Support
 
 
@@ -146,6 +147,25 @@ def test_of_another_program_the_pages_give_its_objectives_and_no_lead_in_value(s
     scenario = suppose(project, ["SYS-012.threshold=0.7 kg"])
     other = decide_study(project, measured, evidence="evidence.sqlite", analysed=False, scenario=scenario)
     assert other.what_if.before.lead is other.what_if.after.lead is None
+
+
+def test_a_measure_with_weight_zero_is_named_where_it_has_no_part(shipped, measured, read_trade_off_of):
+    study = read_trade_off_of(
+        "values:",
+        "  - {measure: S, weight: 1.0, worst: 0.8, best: 1.0}",
+        "  - {measure: t_p, weight: 0, worst: 15 s, best: 1 s}",
+    )
+    project = dataclasses.replace(shipped, study=study)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(robustness, "ITERATIONS", 200)
+        found = decide_study(project, measured, evidence="evidence.sqlite")
+    assert found.unweighted == ("t_p",)
+    # The quantities of t_p differ, and do not break the tie.
+    assert len(found.decision.ties) > 1
+    assert found.decision.chosen == min(found.decision.ties)
+    assert not found.decision.surpassed
+    columns = weight_columns(project, found.robustness.analysis)
+    assert ([one["id"] for one in columns["measures"]], columns["unweighted"]) == (["S"], ["t_p"])
 
 
 def test_a_missing_part_is_not_final(made):

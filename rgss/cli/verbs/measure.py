@@ -200,6 +200,8 @@ def _gap_lines(project: Project, measured: Sequence[VariantMeasures], shown: Con
 
 def _print_stale(measured: Sequence[VariantMeasures]) -> None:
     """Print why verdicts are stale, with a remedy."""
+    from rgss.assessment import stale_remedies
+
     counts = Counter(causes for entry in measured for causes in entry.causes.values())
     if not counts:
         return
@@ -208,10 +210,4 @@ def _print_stale(measured: Sequence[VariantMeasures]) -> None:
         verdicts, verb = ("verdict is", "it was") if count == 1 else ("verdicts are", "they were")
         what = ", ".join(cause.value for cause in causes)
         print(f"{count} {verdicts} stale, for this changed since {verb} made: {what}")
-    # A verdict is recorded again only with present evidence, which a change of the requirement leaves as it is.
-    needing = {entry.outdated > 0 for entry in measured if entry.causes}
-    if True in needing:
-        print("'rgss sweep' makes the outdated trials again, and records the verdicts of their variants.")
-    if False in needing:
-        others = " the other" if True in needing else ""
-        print(f"'rgss measure --record' gives{others} verdicts by the stored evidence.")
+    print(*stale_remedies(measured), sep="\n")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from rgss.assessment import VariantMeasures, requirements_with_criteria
+from rgss.assessment import VariantMeasures, requirements_with_criteria, stale_remedies
 from rgss.measures import Verdict, judge
 from rgss.studies import Project
 from rgss.trace.evidence import FailedVerifications
@@ -65,12 +65,19 @@ class Conclusion:
         chosen: The verdicts on the chosen design; None if nothing is chosen.
         unmeasured: Ids of the system requirements without a criterion.
         failed: Requirements that tests or verification records show are not met.
+        remedies: Sentences that name the commands after which no verdict is stale; empty if none is.
     """
 
     standings: tuple[DesignStanding, ...]
     chosen: DesignStanding | None
     unmeasured: tuple[str, ...]
     failed: FailedVerifications = _NONE_FAILED
+    remedies: tuple[str, ...] = ()
+
+    @property
+    def stale(self) -> tuple[str, ...]:
+        """Ids of the requirements with a stale verdict on a design, in their order."""
+        return tuple(dict.fromkeys(requirement for one in self.standings for requirement in one.stale))
 
     def count(self, feasibility: Feasibility) -> int:
         """Number of designs with this conclusion."""
@@ -110,6 +117,7 @@ def conclusion_of(
         chosen=next((one for one in standings if one.variant == chosen), None),
         unmeasured=unmeasured,
         failed=failed,
+        remedies=stale_remedies(measured),
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rgss.decision.robustness import RequirementPrice, Robustness
-from rgss.tradeoff.problem import Comparison
+from rgss.tradeoff.problem import Comparison, Threshold
 from rgss.tradeoff.robustness import changes_of_best, step_at
 
 
@@ -35,6 +35,7 @@ class LimitMoves:
         at_least: True if the limit is a lower bound.
         looser: The nearest change when it is loosened; None if there is none.
         tighter: The nearest change when it is tightened; None if there is none.
+        is_tolerated: Whether the limits contain the tolerance of the choice, so that the requirement's differs.
         anchored: Measures whose value functions are anchored on the requirement, and do not move with the limit.
     """
 
@@ -45,6 +46,7 @@ class LimitMoves:
     looser: LimitMove | None
     tighter: LimitMove | None
     anchored: tuple[str, ...]
+    is_tolerated: bool = False
 
 
 def limit_moves(found: Robustness, *, chosen: int | None) -> tuple[LimitMoves, ...]:
@@ -82,4 +84,5 @@ def _moves(found: Robustness, price: RequirementPrice, chosen: int | None) -> Li
         looser=None if looser is None else move(steps[looser].tightest, looser),
         tighter=None if tighter is None else move(steps[tighter - 1].tightest, tighter),
         anchored=price.anchored,
+        is_tolerated=isinstance(condition, Threshold) and condition.required is not None,
     )

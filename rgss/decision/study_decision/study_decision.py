@@ -16,7 +16,7 @@ from rgss.assessment import (
     success_by_case,
 )
 from rgss.decision.assumptions import AssumptionOutcome
-from rgss.decision.choosing import choose, double_counting, shared_measures, trade_problem
+from rgss.decision.choosing import choose, double_counting, shared_measures, trade_problem, unweighted_measures
 from rgss.decision.robustness import Robustness, analyse_robustness
 from rgss.decision.screening_result import ScreeningResult
 from rgss.decision.sensitivity import Sensitivity, analyse_sensitivity
@@ -55,6 +55,7 @@ class StudyDecision:
         practical_margin: Differences in value below this are of no practical meaning.
         tolerance: Share of a threshold on what trials observe by which the choice may miss it.
         last_of_equals: True if the largest id of equals is chosen; otherwise the smallest.
+        unweighted: Valued measures with weight 0, which no rule of the choice reads.
         shown_feasible: True if verdicts decide whether a variant meets a requirement; otherwise estimates.
         double_counted: Valued measures of which one contains the other.
         shared_parts: Valued measures that depend on measures in common.
@@ -102,6 +103,7 @@ class StudyDecision:
     seeds: tuple[SeedGroup, ...] = ()
     tolerance: float = 0.0
     last_of_equals: bool = False
+    unweighted: tuple[str, ...] = ()
     shown_feasible: bool = False
 
     @property
@@ -243,6 +245,7 @@ def study_decision(
         practical_margin=project.study.trade_off.practical_margin,
         tolerance=project.study.trade_off.tolerance,
         last_of_equals=project.study.trade_off.last_of_equals,
+        unweighted=unweighted_measures(project),
         shown_feasible=project.study.trade_off.shown_feasible,
         double_counted=double_counting(project),
         shared_parts=shared_measures(project),

@@ -6,7 +6,13 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.reports.decision.answers_in_words import elicitation_sentences
-    from rgss.reports.decision.conclusion import headline, rule_sentence, seeds_sentences, standing_sentence
+    from rgss.reports.decision.conclusion import (
+        headline,
+        rule_sentence,
+        seeds_sentences,
+        stale_sentence,
+        standing_sentence,
+    )
     from rgss.reports.decision.json import decision_to_json, elicitation_to_json, screening_to_json, trade_document
     from rgss.reports.decision.markdown import decision_section, text_with_place, with_section
     from rgss.reports.decision.report_conflicts import conflict_part

@@ -12,6 +12,7 @@ from rgss.reports.decision.words import UNKNOWN, ids_text
 
 ASSUMPTION_HEADS = ("assumption", "taken as", "instead", "then chosen", "changes the choice")
 _FIDELITY = "fidelity"
+_READING = "reading."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,9 +64,9 @@ def assumption_sentences(made: StudyDecision) -> Iterator[str]:
     if not made.assumptions:
         return
     known = [one for one in made.assumptions if one.is_same is not None]
-    changing = list(dict.fromkeys(one.question.about for one in known if not one.is_same))
+    changing = dict.fromkeys((one.question.title, one.question.about) for one in known if not one.is_same)
     if changing:
-        yield f"The choice depends on {', '.join(changing)}."
+        yield f"The choice depends on {', '.join(_named(*one) for one in changing)}."
     elif known:
         yield "No assumption whose trials are known changes the choice."
     missing = [one for one in made.assumptions if one.missing]
@@ -77,6 +78,12 @@ def assumption_sentences(made: StudyDecision) -> Iterator[str]:
             "with --run alone those of all."
         )
     yield from _fidelity_sentences(made)
+
+
+def _named(title: str, about: str) -> str:
+    """An assumption in words, with its name for ``--what-if``."""
+    kind = "the reading of " if about.startswith(_READING) else ""
+    return f"{kind}“{title}” ({about})" if title else about
 
 
 def _fidelity_sentences(made: StudyDecision) -> Iterator[str]:

@@ -69,10 +69,11 @@ def rule_sentence(made: StudyDecision) -> str:
         within = f"miss no threshold on what trials observe by more than {share} of it, and no other threshold"
     value = "of the highest value" if made.decision.program == "additive" else f"that {made.decision.program} prefers"
     end = "largest" if made.last_of_equals else "smallest"
+    with_weight = " with a weight above 0" if made.unweighted else ""
     which = f"that are shown to {within}" if made.shown_feasible else f"whose estimates {within}"
     return (
         f"Rule: of the variants {which}, the one {value} is chosen; of equals one that no other surpasses in the "
-        f"quantities of the valued measures, then the {end} id."
+        f"quantities of the valued measures{with_weight}, then the {end} id."
     )
 
 
@@ -100,9 +101,20 @@ def standing_sentence(made: StudyDecision) -> str:
             (not_run, f"not run by trials{why if not_run else ''}"),
         )
     ]
-    return f"Requirements of variant {chosen.variant}: {'; '.join(parts)}." + (
-        " 'rgss measure' says why a verdict is stale." if chosen.stale else ""
-    )
+    return f"Requirements of variant {chosen.variant}: {'; '.join(parts)}."
+
+
+def stale_sentence(made: StudyDecision) -> str:
+    """The requirements with a stale verdict on a design, the command that says why, and the remedy; empty without one.
+
+    Args:
+        made: The decision.
+    """
+    found = made.conclusion
+    if not found.stale:
+        return ""
+    says = "Stale verdicts, which leave designs open, are those on"
+    return " ".join((f"{says} {_first_of(found.stale)}; 'rgss measure' says what changed.", *found.remedies))
 
 
 def _first_of(named: Sequence[str]) -> str:

@@ -1,10 +1,31 @@
-"""Sentence about limits on which value functions are anchored."""
+"""Sentences about moved limits: anchored value functions, and the tolerance of the choice."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from rgss.decision.study_decision import LimitMoves
+
+
+def limit_sentences(limits: Sequence[LimitMoves], *, tolerance: float) -> tuple[str, ...]:
+    """What a table of moved limits leaves out, with what a supposition of the same limit takes; empty if nothing.
+
+    Args:
+        limits: The moves of each limit.
+        tolerance: Share of a threshold on what trials observe by which the choice may miss it.
+    """
+    sentences = [anchored_limits_sentence(limits)]
+    tolerated = [one for one in limits if one.is_tolerated]
+    if tolerated:
+        named = ", ".join(one.requirement for one in tolerated)
+        of_least = {one.at_least for one in tolerated}
+        factors = [f"{1.0 + tolerance:g} times an upper one"] * (False in of_least)
+        factors += [f"{1.0 - tolerance:g} times a lower one"] * (True in of_least)
+        sentences.append(
+            f"The limits of {named} are with the tolerance, {' and '.join(factors)} of the requirement, which is what "
+            "--what-if takes."
+        )
+    return tuple(one for one in sentences if one)
 
 
 def anchored_limits_sentence(limits: Sequence[LimitMoves]) -> str:

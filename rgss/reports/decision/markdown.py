@@ -16,11 +16,22 @@ from rgss.reports.decision.conclusion import (
     rule_sentence,
     seeds_sentences,
     share_text,
+    stale_sentence,
     standing_sentence,
     uncertainty_sentences,
 )
 from rgss.reports.decision.sensitivity_sentences import tied_by_weights_sentence
-from rgss.reports.decision.words import UNKNOWN, amount, basis_text, ids_text, moves_text, score, variants_text
+from rgss.reports.decision.words import (
+    UNKNOWN,
+    amount,
+    basis_text,
+    ids_text,
+    kept_amount,
+    kept_share,
+    moves_text,
+    score,
+    variants_text,
+)
 from rgss.trace.views import share_in_words, value_in_words
 
 BEGIN = "<!-- decision: written by `rgss trade --section --into FILE`; do not edit -->"
@@ -103,7 +114,7 @@ def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:
         f"{decision.counts.feasible} of them meet every requirement by their {basis}{within}."
     )
     yield ""
-    standing = (headline(made), standing_sentence(made), rule_sentence(made))
+    standing = (headline(made), standing_sentence(made), stale_sentence(made), rule_sentence(made))
     lines = (*standing, *uncertainty_sentences(made), *seeds_sentences(made.seeds))
     yield from (f"- {line}" for line in lines if line)
     yield ""
@@ -170,10 +181,12 @@ def _shares(made: StudyDecision, found: RobustnessFindings) -> Iterator[str]:
         yield f"it is the best for {share_in_words(weighting.regions[row].share)} of all weights"
     indices = weighting.acceptability
     if indices is not None:
-        noise = " and the noise of the replicates" if weighting.with_noise else ""
         first, confidence = share_in_words(float(indices.first[row])), share_in_words(float(indices.confidence[row]))
+        if not weighting.with_noise:
+            yield f"over all weights it comes first in {first} of the draws"
+            return
         yield (
-            f"over all weights{noise} it comes first in {first} of the draws, and at the "
+            f"over all weights and the noise of the replicates it comes first in {first} of the draws, and at the "
             f"weights that are typical for it with a probability of {confidence}"
         )
 
@@ -194,7 +207,7 @@ def _costs(found: RobustnessFindings) -> Iterator[str]:
     then = f"{variants_text(winners)} can win" if winners else "the choice can be infeasible"
     yield (
         "*The assumed costs of components matter.* All of them together may be off by "
-        f"±{share_in_words(box.range.factor)} before {then}. Alone, the choice stands while"
+        f"±{kept_share(box.range.factor, 1)} before {then}. Alone, the choice stands while"
     )
     yield ""
     costs = {number.id for number in box.numbers}
@@ -204,9 +217,10 @@ def _costs(found: RobustnessFindings) -> Iterator[str]:
             continue
         bounds = []
         if span.low is not None:
-            bounds.append(f"at least {amount(span.low, 'USD')} (below, {ids_text(found.variants(span.below))})")
+            least = kept_amount(span.low, "USD", is_least=True)
+            bounds.append(f"at least {least} (below, {ids_text(found.variants(span.below))})")
         if span.high is not None:
             above = f" (above, {ids_text(found.variants(span.above))})" if span.above else ""
-            bounds.append(f"at most {amount(span.high, 'USD')}{above}")
+            bounds.append(f"at most {kept_amount(span.high, 'USD', is_least=False)}{above}")
         assumed = amount(one.number.value, "USD")
         yield f"- `{one.number.component}` costs {' and '.join(bounds)}; assumed are {assumed}"

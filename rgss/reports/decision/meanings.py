@@ -8,10 +8,10 @@ _FIRST_WITHOUT_NOISE = "first: how often it would be the best if the weights wer
 _CONFIDENCE = "confidence: with the weights that are typical for it, the probability that it is best"
 
 
-def meanings(*, with_noise: bool) -> tuple[str, str, str]:
-    """Explanations of `weights`, `first` and `confidence`.
+def meanings(*, with_noise: bool) -> tuple[str, ...]:
+    """Explanations of `weights`, `first` and, where the noise is known, `confidence`.
 
     Args:
         with_noise: Whether draws of `first` include the noise of the trials.
     """
-    return _WEIGHTS, _FIRST if with_noise else _FIRST_WITHOUT_NOISE, _CONFIDENCE
+    return (_WEIGHTS, _FIRST, _CONFIDENCE) if with_noise else (_WEIGHTS, _FIRST_WITHOUT_NOISE)

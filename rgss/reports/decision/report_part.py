@@ -12,17 +12,19 @@ from rgss.reports.decision.conclusion import (
     headline,
     rule_sentence,
     seeds_sentences,
+    stale_sentence,
     standing_sentence,
     uncertainty_sentences,
 )
 from rgss.reports.decision.json import assumptions_to_json, costs_to_json
-from rgss.reports.decision.limit_sentences import anchored_limits_sentence
+from rgss.reports.decision.limit_sentences import limit_sentences
 from rgss.reports.decision.report_conflicts import conflict_reasons
 from rgss.reports.decision.sentences import cautions, no_portfolio, portfolio_proof, reading_lines, reasons
 from rgss.reports.failure_drivers import cases_to_json, driver_sentence
 from rgss.reports.plain_numbers import Plain, plain_number
 from rgss.tradeoff import Contribution, PortfolioDecision
 from rgss.tradeoff.programs import Certificate
+from rgss.tradeoff.robustness import TIE_PROBABILITY
 
 MOST_CONTENDERS = 40
 """Most listed variants that come first for some weights, the most acceptable first."""
@@ -42,7 +44,8 @@ def decision_part(made: StudyDecision) -> Plain:
         "runner_up": decision.runner_up,
         "ties": list(decision.ties),
         "near_ties": list(decision.near_ties),
-        "rivals": _rivals(made.robustness),
+        "rivals": _rivals(made.robustness, likely=True),
+        "rivals_by_margin": _rivals(made.robustness, likely=False),
         "program": decision.program,
         "objectives": list(decision.objectives),
         "counts": {"alternatives": decision.counts.alternatives, "feasible": decision.counts.feasible},
@@ -54,6 +57,7 @@ def decision_part(made: StudyDecision) -> Plain:
             line
             for line in (
                 standing_sentence(made),
+                stale_sentence(made),
                 rule_sentence(made),
                 *uncertainty_sentences(made),
                 *seeds_sentences(made.seeds),
@@ -79,7 +83,7 @@ def decision_part(made: StudyDecision) -> Plain:
             "runner_up": _contributions(decision.runner_up_contributions),
         },
         "certificate": _certificate(decision.certificate),
-        **_robustness(made.robustness),
+        **_robustness(made),
     }
 
 
@@ -99,22 +103,24 @@ def portfolio_sentence(portfolio: PortfolioDecision) -> str:
     return f"Portfolio: {members} {serve} every study: {served}. {proof[0].upper()}{proof[1:]}."
 
 
-def _rivals(found: RobustnessFindings | None) -> list[int]:
-    """Variants that the evidence does not separate from the choice, by falling probability."""
+def _rivals(found: RobustnessFindings | None, *, likely: bool) -> list[int]:
+    """Tied variants by falling probability: those as likely as a tie, or those within the practical margin alone."""
     weighting = None if found is None else found.analysis.weighting
     if found is None or weighting is None or weighting.uncertainty is None:
         return []
-    return list(found.variants(tuple(one.row for one in weighting.uncertainty.rivals)))
+    rivals = weighting.uncertainty.rivals
+    return list(found.variants(tuple(one.row for one in rivals if (one.probability >= TIE_PROBABILITY) is likely)))
 
 
-def _robustness(found: RobustnessFindings | None) -> Plain:
+def _robustness(made: StudyDecision) -> Plain:
+    found = made.robustness
     if found is None:
         return {}
     return {
         "acceptability": _acceptability(found),
         "weight_ranges": _weight_ranges(found),
         "limits": [_limit(moves) for moves in found.limits],
-        "anchored_limits": anchored_limits_sentence(found.limits),
+        "limit_sentences": list(limit_sentences(found.limits, tolerance=made.tolerance)),
         "assumptions": assumptions_to_json(found.analysis),
         "costs": costs_to_json(found.analysis),
         "refused": dict(found.analysis.refused),
@@ -177,7 +183,7 @@ def _acceptability(found: RobustnessFindings) -> Plain | None:
                 "variant": one.variant,
                 "first": plain_number(one.first),
                 "error": plain_number(one.first_error),
-                "confidence": plain_number(one.confidence),
+                "confidence": plain_number(one.confidence) if weighting.with_noise else None,
                 "feasible": plain_number(one.feasible_share),
                 "region": plain_number(one.region),
             }

@@ -78,8 +78,8 @@ def range_sentence(tornado: Tornado) -> str:
     cut = [bar.id for bar in tornado.bars if bar.basis.value.startswith("cut_")]
     smaller = f" Nearer, since beyond it a value function is not defined: {', '.join(cut)}." if cut else ""
     return (
-        f"Of the ranges {stated} are stated, {elicited} elicited and {shares} a share of the value, which is a "
-        f"convention and no evidence.{smaller}"
+        f"Of the ranges {stated} are stated, {elicited} elicited and {shares} defaults, a share of the value or of the "
+        f"distance of its ends, or a curvature: a convention and no evidence.{smaller}"
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from rgss.trace.views import rounded_away, value_in_words
@@ -71,6 +72,23 @@ def quantity_text(value: float, unit: str) -> str:
 def moved_limit(limit: float, needed: float, unit: str) -> str:
     """New value of a limit, rounded away from the present one, so that the rounded number suffices."""
     return amount(rounded_away(limit, needed, unit), unit)
+
+
+def kept_amount(end: float, unit: str, *, is_least: bool) -> str:
+    """End of a range within which something holds, rounded inwards, so that it holds at the rounded number too.
+
+    Args:
+        end: The end.
+        unit: Its unit.
+        is_least: Whether it is the least number of the range; the greatest otherwise.
+    """
+    return amount(rounded_away(-math.inf if is_least else math.inf, end, unit), unit)
+
+
+def kept_share(share: float, digits: int) -> str:
+    """Greatest share up to which something holds, in percent, rounded down to some digits after the point."""
+    scale = 10.0**digits
+    return f"{math.floor(100.0 * share * scale * (1.0 + 1e-12)) / scale:.{digits}f} %"
 
 
 def moves_text(before: Mapping[str, float], after: Mapping[str, float]) -> str:

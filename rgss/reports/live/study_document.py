@@ -11,7 +11,15 @@ from rgss.decision import ScreeningResult, screening_summary
 from rgss.decision.study_decision import StudyDecision
 from rgss.evidence import TrialRecord
 from rgss.measures import Verdict
-from rgss.reports.decision import cautions, certificate_sentence, headline, reasons, rule_sentence, standing_sentence
+from rgss.reports.decision import (
+    cautions,
+    certificate_sentence,
+    headline,
+    reasons,
+    rule_sentence,
+    stale_sentence,
+    standing_sentence,
+)
 from rgss.studies import Project
 
 MOST_VARIANTS = 400
@@ -93,7 +101,12 @@ def _decision(
     found: dict[str, Any] = {"standing": standing, "problem": problem, "is_complete": made is not None and not missing}
     if made is None:
         return found | {"headline": "There is no decision yet.", "lines": [], "why": [], "cautions": []}
-    lines = (standing_sentence(made), rule_sentence(made), certificate_sentence(made.decision.certificate))
+    lines = (
+        standing_sentence(made),
+        stale_sentence(made),
+        rule_sentence(made),
+        certificate_sentence(made.decision.certificate),
+    )
     return found | {
         "headline": headline(made),
         "lines": [line for line in lines if line],

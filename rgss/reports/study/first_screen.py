@@ -64,6 +64,7 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         "equal": equal,
         # A design of equal value is tied as well, and is not named twice.
         "tied": [one for one in decision["rivals"] if one != chosen and one not in equal],
+        "near": [one for one in decision["rivals_by_margin"] if one != chosen and one not in equal],
         "met": len(judged) - len(open_) - len(missed),
         "open": [{"id": one["id"], "text": one["text"]} for one in open_],
         "missed": [

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from rgss.assessment import VariantMeasures, requirements_with_criteria
+from rgss.decision import unweighted_measures
 from rgss.decision.robustness import Robustness
 from rgss.designs import value_columns
 from rgss.measures import Measure, MeasureKind
@@ -146,6 +147,7 @@ def weight_columns(project: Project, found: Robustness) -> Plain:
             for place, (measure, weight) in enumerate(zip(found.measures, found.weights.tolist(), strict=True))
         ],
         "practical_margin": project.study.trade_off.practical_margin,
+        "unweighted": list(unweighted_measures(project)),
         "surpassed": np.flatnonzero(found.surpassed).tolist(),
         "of_equals": "last" if project.study.trade_off.last_of_equals else "first",
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 
 import pytest
 
@@ -120,11 +121,37 @@ def test_limits_on_which_a_value_is_anchored_are_named(folder, edit, filled, rec
     assert moved.ranking[0].value > kept + 0.01
     sentence = "(SYS-004: C_total): rgss trade --what-if SYS-004.threshold=… answers for both."
     assert sentence in "\n".join(robustness_lines(made))
-    assert sentence in decision_part(made)["anchored_limits"]
+    assert any(one.endswith(sentence) for one in decision_part(made)["limit_sentences"])
     document = robustness_to_json(made.robustness.analysis)
     assert {one["requirement"]: one["values_kept"] for one in document["prices"] if one["values_kept"]} == {
         "SYS-004": ["C_total"]
     }
+
+
+def test_limits_with_the_tolerance_say_what_a_supposition_takes(shipped, filled, record_of):
+    """A limit of the table, taken as the requirement, changes nothing yet; its share without the tolerance does."""
+    trade_off = replace(shipped.study.trade_off, tolerance=0.1)
+    project = replace(shipped, study=replace(shipped.study, trade_off=trade_off))
+    measured = measure_variants(
+        project, filled(project, lambda spec: record_of(spec, planning_s=0.5 + 0.01 * spec.variant))
+    )
+    made = decide_study(project, measured, evidence="evidence.sqlite")
+    sentence = "1.1 times an upper one and 0.9 times a lower one of the requirement, which is what --what-if takes."
+    assert sentence in "\n".join(robustness_lines(made))
+    assert any(one.endswith(sentence) for one in decision_part(made)["limit_sentences"])
+
+    tolerated = {one.requirement: one for one in made.robustness.limits if one.is_tolerated}
+    assert {"SYS-024", "SYS-033"} <= set(tolerated)
+    assert not {"SYS-004", "SYS-012"} & set(tolerated)
+    move = tolerated["SYS-033"].tighter
+    within = (1.0 - 1e-6) * move.limit
+
+    def chosen(threshold):
+        scenario = suppose(project, [f"SYS-033.threshold={threshold} s"])
+        return choose(scenario.project, measured_in(scenario, measured)).chosen
+
+    assert chosen(within) == made.decision.chosen
+    assert chosen(within / 1.1) != made.decision.chosen
 
 
 def test_limits_without_anchors_have_no_such_sentence(shipped, filled, record_of):

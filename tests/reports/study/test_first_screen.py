@@ -55,6 +55,7 @@ DOCUMENT = {
         "ties": [2],
         "near_ties": [1],
         "rivals": [],
+        "rivals_by_margin": [],
         "failed_tests": [],
         "failed_records": [],
         "modelling": {
@@ -115,8 +116,8 @@ def test_the_levels_of_the_choice_in_words():
 
 
 def test_designs_of_equal_value_and_designs_that_the_evidence_does_not_separate():
-    shown = first_screen_content(changed(ties=[2, 5], rivals=[5, 1, 4]))
-    assert (shown["equal"], shown["tied"]) == ([5], [1, 4])
+    shown = first_screen_content(changed(ties=[2, 5], rivals=[5, 1, 4], rivals_by_margin=[3]))
+    assert (shown["equal"], shown["tied"], shown["near"]) == ([5], [1, 4], [3])
 
 
 def test_limits_without_a_chart_are_counted():

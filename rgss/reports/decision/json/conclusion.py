@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rgss.decision.study_decision import DesignStanding, Feasibility, StudyDecision
-from rgss.reports.decision.conclusion import headline, rule_sentence, standing_sentence
+from rgss.reports.decision.conclusion import headline, rule_sentence, stale_sentence, standing_sentence
 
 Plain = dict[str, object]
 
@@ -18,6 +18,7 @@ def conclusion_to_json(made: StudyDecision) -> Plain:
     return {
         "headline": headline(made),
         "requirements": standing_sentence(made),
+        "stale": stale_sentence(made),
         "rule": {
             "sentence": rule_sentence(made),
             "practical_margin": made.practical_margin,

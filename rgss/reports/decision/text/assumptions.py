@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from rgss.decision.robustness import AssumptionFinding, Part
 from rgss.decision.study_decision import RobustnessFindings
-from rgss.reports.decision.words import UNKNOWN, amount, variants_text
+from rgss.reports.decision.words import UNKNOWN, amount, kept_amount, kept_share, variants_text
 from rgss.reports.plain_text import aligned_table
 
 _ALL = "All assumed costs of components together"
@@ -45,8 +45,8 @@ def _row(found: RobustnessFindings, one: AssumptionFinding) -> list[str]:
     high = "∞" if math.isinf(span.highest) else f"≥ {amount(span.highest, unit)}"
     return [
         *cells,
-        low if span.low is None else about + amount(span.low, unit),
-        high if span.high is None else about + amount(span.high, unit),
+        low if span.low is None else about + kept_amount(span.low, unit, is_least=True),
+        high if span.high is None else about + kept_amount(span.high, unit, is_least=False),
         UNKNOWN if span.low is None else variants_text(found.variants(span.below)),
         UNKNOWN if span.high is None else variants_text(found.variants(span.above)),
     ]
@@ -63,6 +63,6 @@ def _costs(found: RobustnessFindings) -> Iterator[str]:
     then = f"{variants_text(winners)} can win" if winners else "the choice can miss a threshold"
     moved = [f"{component} at {amount(value, 'USD')}" for component, value in found.corner.items()]
     corner = f" (with {', '.join(moved)})" if moved else ""
-    yield f"{_ALL} may be off by ±{100.0 * box.range.factor:.2f} %; beyond that, {then}{corner}."
+    yield f"{_ALL} may be off by ±{kept_share(box.range.factor, 2)}; beyond that, {then}{corner}."
     if box.unmoved:
         yield f"(no percentage moves what is assumed to cost nothing: {', '.join(box.unmoved)})"

@@ -35,7 +35,8 @@ def contender_lines(found: RobustnessFindings) -> Iterator[str]:
         return
     groups = _groups(found.contenders)
     titles = ["variants", "Pareto", "weights", "first", "confidence", "feasible", "weight to move"]
-    yield from aligned_table(titles, map(_row, groups[:MOST_GROUPS]), right=(2, 3, 4, 5, 6))
+    rows = [_row(group, with_noise=weighting.with_noise) for group in groups[:MOST_GROUPS]]
+    yield from aligned_table(titles, rows, right=(2, 3, 4, 5, 6))
     yield from _legend(found, weighting, weighting.acceptability)
     if len(groups) > MOST_GROUPS:
         yield f"And {len(groups) - MOST_GROUPS} more that are first in some draws (--json has them)."
@@ -62,7 +63,7 @@ def _groups(contenders: tuple[Contender, ...]) -> list[list[Contender]]:
     return list(groups.values())
 
 
-def _row(members: list[Contender]) -> list[str]:
+def _row(members: list[Contender], *, with_noise: bool) -> list[str]:
     one = members[0]
     outside = UNKNOWN if one.feasible else "not feasible"
     return [
@@ -70,8 +71,8 @@ def _row(members: list[Contender]) -> list[str]:
         outside if one.support is None else one.support.value.replace("_", " "),
         UNKNOWN if one.region is None else share_in_words(one.region),
         share_in_words(one.first),
-        UNKNOWN if math.isnan(one.confidence) else share_in_words(one.confidence),
-        share_in_words(one.feasible_share),
+        UNKNOWN if math.isnan(one.confidence) or not with_noise else share_in_words(one.confidence),
+        share_in_words(one.feasible_share) if with_noise else UNKNOWN,
         UNKNOWN if one.weight_to_move is None else f"{one.weight_to_move:.3f}",
     ]
 
@@ -83,14 +84,15 @@ def _legend(found: RobustnessFindings, weighting: WeightRobustness, indices: Acc
     shares = max((region.share_error for region in weighting.regions or ()), default=0.0)
     counted = f" (counted, ± {shares:.2g})" if shares else ""
     yield f"weights: share of {bounded} at which they are best by the evidence as it is{counted}"
+    within = "another study of this size" if weighting.with_noise else "by the number of draws"
     yield (
         f"first: share of {indices.iterations:,} draws of {bounded} {noise} in which none is better "
-        f"(another study of this size: ± {max(error, 1e-4):.2g})"
+        f"({within}: ± {max(error, 1e-4):.2g})"
     )
     if indices.drawn_by is Drawing.HIT_AND_RUN:
         yield "(weights are drawn by random walks, hit-and-run: uniform up to an error that is tested, not proven)"
-    yield "confidence: probability that they are best at their own typical weights"
     if weighting.with_noise:
+        yield "confidence: probability that they are best at their own typical weights"
         yield f"feasible: probability that they meet every requirement, by {found.analysis.draws:,} posterior draws"
     yield from (
         "In other words,",

@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rgss.decision.study_decision import SideBySide, StudyDecision
-from rgss.reports.decision.conclusion import headline, rule_sentence, standing_sentence, uncertainty_sentences
+from rgss.reports.decision.conclusion import (
+    headline,
+    rule_sentence,
+    stale_sentence,
+    standing_sentence,
+    uncertainty_sentences,
+)
 from rgss.reports.decision.sentences import certificate_sentence, no_portfolio, notable_checks, portfolio_proof, reasons
 from rgss.reports.decision.text.conflicts import conflict_lines
 from rgss.reports.decision.words import score
@@ -24,9 +30,13 @@ def choice_lines(made: StudyDecision) -> Iterator[str]:
     if made.comparison is None:
         yield from conflict_lines(made.decision, shown_feasible=made.shown_feasible)
         yield headline(made)
+        if stale_sentence(made):
+            yield stale_sentence(made)
         return
     yield headline(made)
     yield standing_sentence(made)
+    if stale_sentence(made):
+        yield stale_sentence(made)
     yield rule_sentence(made)
     yield from uncertainty_sentences(made)
     yield ""

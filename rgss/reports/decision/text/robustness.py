@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from rgss.decision.robustness import Part, WeightRobustness, not_computed_lines
 from rgss.decision.study_decision import LimitMove, RobustnessFindings, StudyDecision
-from rgss.reports.decision.limit_sentences import anchored_limits_sentence
+from rgss.reports.decision.limit_sentences import limit_sentences
 from rgss.reports.decision.sensitivity_sentences import tied_by_weights_sentence
 from rgss.reports.decision.text.assumptions import assumption_lines
 from rgss.reports.decision.text.contenders import contender_lines
@@ -35,7 +35,7 @@ def robustness_lines(made: StudyDecision) -> Iterator[str]:
     if weighting is not None:
         yield from _weights(found, weighting)
     chosen = next((one.value for one in made.decision.ranking if one.variant == made.decision.chosen), None)
-    yield from _limits(found, chosen or 0.0)
+    yield from _limits(found, chosen or 0.0, made.tolerance)
     if weighting is not None:
         yield from assumption_lines(found)
     yield _reversals(found)
@@ -71,7 +71,7 @@ def _weights(found: RobustnessFindings, weighting: WeightRobustness) -> Iterator
     yield "(one weight moves, the others keep their proportions)"
 
 
-def _limits(found: RobustnessFindings, value: float) -> Iterator[str]:
+def _limits(found: RobustnessFindings, value: float, tolerance: float) -> Iterator[str]:
     """The next change of the choice on either side of each limit."""
     if found.is_missing(Part.PRICES):
         yield from ("", "Price of each requirement: not computed.")
@@ -96,8 +96,7 @@ def _limits(found: RobustnessFindings, value: float) -> Iterator[str]:
     yield ""
     yield from aligned_table(["threshold", "demands", "loosened to", "tightened to"], rows)
     yield "(which variant would then win, and what its value gains or loses)"
-    if sentence := anchored_limits_sentence(found.limits):
-        yield sentence
+    yield from limit_sentences(found.limits, tolerance=tolerance)
 
 
 def _reversals(found: RobustnessFindings) -> str:
