@@ -242,6 +242,15 @@ def test_a_tie_says_what_could_break_it(made, replicates, measure, words):
     )
 
 
+def test_a_tie_by_the_margin_alone_names_no_replicates(made):
+    row = int(made.robustness.analysis.feasible.argmax())
+    rival = Rival(row=row, probability=0.028, within_margin=True, replicates=None, measure="t_e", separated=True)
+    assert list(uncertainty_sentences(with_rivals(made, rival)))[1].endswith(
+        "as good with a probability of 2.8 %); the replicates separate them, most by t_e: no more of them, but a "
+        "smaller margin, breaks the tie."
+    )
+
+
 def test_a_tie_of_different_quantities_says_that_they_are_beyond_an_end(made):
     row = int(made.robustness.analysis.feasible.argmax())
     rival = Rival(row=row, probability=1.0, within_margin=True, replicates=None, measure=None, clipped=("t_e", "t_p"))

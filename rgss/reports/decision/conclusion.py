@@ -241,6 +241,11 @@ def _tie(found: RobustnessFindings, members: list[Rival]) -> str:
                 "function, where no difference is worth anything; another worst or best breaks the tie."
             )
         return f"{tied}; no estimate differs, so that only a measure in which they differ breaks the tie."
+    if rival.separated:
+        return (
+            f"{tied}; the replicates separate them, most by {rival.measure}: no more of them, but a smaller margin, "
+            "breaks the tie."
+        )
     if rival.replicates is None:
         return f"{tied}; they differ most in {rival.measure}, and no affordable number of replicates separates them."
     if rival.fixed:

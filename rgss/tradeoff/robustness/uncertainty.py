@@ -37,7 +37,8 @@ class Rival:
             between them.
         within_margin: Whether its estimated value is within the practical margin of the choice's.
         replicates: Replicates in all with which their difference would exceed its noise; None where
-            no number does, for they do not differ or a demand decides.
+            no number does, for they do not differ or a demand decides, and where it does already.
+        separated: Whether their difference exceeds its noise already, so that the margin alone makes it a tie.
         by_feasibility: Whether it is not tied by its value: with the choice feasible it is as good with a probability
             below `TIE_PROBABILITY`.
         measure: The measure in whose value they differ most by the estimates; None where they do not differ.
@@ -52,6 +53,7 @@ class Rival:
     replicates: int | None
     measure: str | None
     by_feasibility: bool = False
+    separated: bool = False
     fixed: bool = False
     clipped: tuple[str, ...] = ()
 
@@ -202,12 +204,15 @@ def _rivals(
         by_feasibility = not near and by_value < TIE_PROBABILITY
         fewest = int(min(replicates[row], replicates[chosen]))
         counted = bool(estimated[row]) and not by_feasibility and measure is not None
+        needed = _replicates_needed(expected, spread, fewest) if counted else None
+        separated = needed is not None and needed <= fewest and probability < TIE_PROBABILITY
         rivals.append(
             Rival(
                 row=row,
                 probability=probability,
                 within_margin=near,
-                replicates=_replicates_needed(expected, spread, fewest) if counted else None,
+                replicates=None if needed is None or separated else max(needed, fewest + 1),
+                separated=separated,
                 measure=measure,
                 by_feasibility=by_feasibility,
                 fixed=measure is not None and measure not in found.table.samples,
@@ -222,7 +227,7 @@ def _replicates_needed(difference: float, spread: float, replicates: int) -> int
     if not math.isfinite(spread) or not math.isfinite(difference) or abs(difference) <= TIE_TOLERANCE:
         return None
     needed = math.ceil(replicates * (_Z * spread / abs(difference)) ** 2)
-    return None if needed > MOST_MORE else max(needed, replicates + 1)
+    return None if needed > MOST_MORE else needed
 
 
 def _different(table: EvidenceTable, measures: tuple[str, ...], row: int, chosen: int) -> tuple[str, ...]:

@@ -69,6 +69,23 @@ def test_a_lead_of_the_estimates_by_luck_does_not_count_as_separated():
     assert rival.replicates == pytest.approx(10 * (1.645 * 0.03 / 0.01) ** 2, rel=0.15)
 
 
+def test_a_tie_by_the_margin_alone_that_the_evidence_separates_gets_no_number():
+    """0.04 apart with a spread of 0.02 after 50 trials: 34 would have separated them, and the margin is 0.05."""
+    generator = np.random.default_rng(5)
+    totals = np.column_stack([np.full(2000, 0.5), 0.46 + 0.02 * generator.standard_normal(2000)])
+    one = choice_uncertainty(
+        found_of(totals, np.ones((2000, 2), dtype=bool)),
+        0,
+        margin=0.05,
+        replicates=np.array([50, 50]),
+        estimated=np.ones(2, dtype=bool),
+        single=np.array([[0.5], [0.46]]),
+    )
+    (rival,) = one.rivals
+    assert rival.probability < 0.05
+    assert (rival.within_margin, rival.separated, rival.replicates) == (True, True, None)
+
+
 @pytest.mark.parametrize(
     ("comparison", "value", "counts", "scarce"),
     [

@@ -73,6 +73,7 @@ def _uncertainty(made: StudyDecision) -> Plain | None:
                 "probability": rival.probability,
                 "within_margin": rival.within_margin,
                 "replicates": rival.replicates,
+                "separated": rival.separated,
                 "measure": rival.measure,
                 "by_feasibility": rival.by_feasibility,
                 "fixed": rival.fixed,
