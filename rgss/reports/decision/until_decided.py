@@ -94,11 +94,15 @@ def _advice(result: UntilDecided, command: str) -> str:
             f"If trials go on as so far, {MOST_FORECAST} replicates do not settle all of it: accept the tie, widen "
             f"until_decided.margin, or go on with '{command} {_raised(result, result.total)}'."
         )
-    name = "cap" if result.reason is Reason.CAP else "budget"
+    name, option = "cap" if result.reason is Reason.CAP else "budget", _raised(result, found.trials)
+    most = _most_of_a_variant(found)
+    if result.reason is not Reason.CAP and most > result.rule.cap:
+        # A budget alone would end at the cap; what the pages read ends at that of the study.
+        name, option = "budget and until_decided.cap, as no page reads more of a variant", f"{option} --cap {most}"
     return (
         f"If trials go on as so far, some {_rounded(found.trials)} more trials settle the decision"
         f"{_beyond_cap(result, found)}; to go on where it stopped, type "
-        f"'{command} {_raised(result, found.trials)}', or raise until_decided.{name}."
+        f"'{command} {option}', or raise until_decided.{name}."
     )
 
 
@@ -110,8 +114,12 @@ def _raised(result: UntilDecided, more: int) -> str:
 
 
 def _beyond_cap(result: UntilDecided, found: Forecast) -> str:
-    most = max([count or 0 for count in (found.accepted, *found.rivals.values())])
+    most = _most_of_a_variant(found)
     return f" (up to {most} of a variant, more than the cap of {result.rule.cap})" if most > result.rule.cap else ""
+
+
+def _most_of_a_variant(found: Forecast) -> int:
+    return max([count or 0 for count in (found.accepted, *found.rivals.values())])
 
 
 def _rounded(trials: int) -> int:

@@ -189,6 +189,19 @@ def test_what_was_spent_of_the_reserve_is_said():
         ),
         (
             {
+                "reason": Reason.BUDGET,
+                "unsettled": (),
+                "forecast": Forecast(rivals={}, requirements={}, accepted=236, trials=388),
+            },
+            (
+                f"{UNPROVEN} that variant 2 keeps every requirement within the slack. If trials go on as so far, some "
+                "400 more trials settle the decision (up to 236 of a variant, more than the cap of 200); to go on "
+                "where it stopped, type 'rgss sweep --budget 450 --cap 236', or raise until_decided.budget and "
+                "until_decided.cap, as no page reads more of a variant."
+            ),
+        ),
+        (
+            {
                 "reason": Reason.CAP,
                 "unsettled": (),
                 "forecast": Forecast(rivals={}, requirements={}, accepted=400, trials=388),
