@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from rgss.cli.options import add_evidence_choice, chosen_project
 from rgss.cli.verbs.variants import ONLY_HELP
+from rgss.counted import counted
 
 if TYPE_CHECKING:
     from rgss.cli.sweep import FinishedSweep
@@ -123,6 +124,7 @@ def _print_result(swept: FinishedSweep, screened: ScreeningResult | None, label:
 
 
 def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[DesignVariant]) -> int:
+    from rgss.assessment import read_specs
     from rgss.cli.main import CLEAN
     from rgss.cli.output import print_json, shown_path
     from rgss.cli.sweep import dry_run_as_json, dry_run_lines
@@ -144,20 +146,38 @@ def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[D
                 *surviving_specs(project, screened, variants=variants),
             )
         found = dry_run(specs, store, share=not options.no_share, study=project.study.label)
+        read = sum(map(len, read_specs(project, store, variants).values()))
     if options.json:
         print_json(dry_run_as_json(found, label))
     else:
         print(*dry_run_lines(found, label), sep="\n")
         if project.study.sweeps_until_decided and not options.only:
-            more = (project.study.until_decided.budget or 0) - len(specs)
-            print(f"Then up to {more} more trials where the decision is open (until_decided.budget).")
-            rule = project.study.until_decided
-            if rule.reserve is not None:
-                print(
-                    f"Then up to {rule.reserve} more trials while the probability of good selection is below "
-                    f"{rule.good_selection:g} (until_decided.reserve)."
-                )
+            print(*_further_trials(project, options.budget, read), sep="\n")
     return CLEAN
+
+
+def _further_trials(project: Project, budget: int | None, read: int) -> Iterator[str]:
+    """Lines on the trials that a sweep until decided may add.
+
+    Args:
+        project: The project with its study.
+        budget: The budget that the command states; None for the study's.
+        read: Number of trials that the study has, or is about to have.
+    """
+    rule = project.study.until_decided
+    name = "until_decided.budget" if budget is None else "--budget"
+    most = (rule.budget or 0) if budget is None else budget
+    if most > read:
+        yield f"Then up to {counted(most - read, 'more trial')} where the decision is open ({name})."
+    else:
+        yield f"No more trials where the decision is open: the budget of {most} is spent ({name})."
+    # A budget that is typed is all that is spent.
+    reserve = (rule.reserve or 0) - max(0, read - most)
+    if budget is None and reserve > 0:
+        yield (
+            f"Then up to {counted(reserve, 'more trial')} while the probability of good selection is below "
+            f"{rule.good_selection:g} (until_decided.reserve)."
+        )
 
 
 def _limits(options: argparse.Namespace) -> WorkerLimits:

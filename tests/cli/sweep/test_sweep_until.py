@@ -5,11 +5,14 @@ from __future__ import annotations
 import pytest
 
 import rgss.decision.until_decided as until
-from rgss.evidence import RunFailure, RunFailureKind
+from rgss.evidence import EvidenceStore, RunFailure, RunFailureKind
 from rgss.measures import Verdict
 from rgss.reports.decision.until_decided import open_paragraph, until_decided_summary
+from rgss.studies.expansion import trial_specs
+from rgss.studies.project import load_project
 from rgss.sweep.results import LostTrials, SweepResult
 from rgss.tradeoff.sequential import Forecast, Reason, SequentialRule
+from tests.fixtures.stored_trials import put_trials
 
 
 @pytest.mark.parametrize(
@@ -161,6 +164,40 @@ def test_a_study_with_a_budget_goes_on_until_decided_of_itself(rgss, folder, mon
         "Then up to 300 more trials while the probability of good selection is below 0.9 (until_decided.reserve)."
     )
     assert len(asked) == 2
+
+
+def test_a_dry_run_counts_the_replicates_that_were_added(folder, rgss, record_of):
+    study = folder / "studies" / "pick_place.yaml"
+    study.write_text(
+        f"{study.read_text(encoding='utf-8')}\nuntil_decided: {{budget: 600, reserve: 20}}\n", encoding="utf-8"
+    )
+    project = load_project(folder)
+    own = trial_specs(project)
+    first = project.designs.variant(1)
+    more = trial_specs(project, variants=[first], seeds=range(1 + project.study.replicates, 31))
+
+    def told(*options):
+        return rgss("sweep", "--dry-run", *options, "--project", folder).output.splitlines()[-2:]
+
+    in_reserve = "more trials while the probability of good selection is below 0.9 (until_decided.reserve)."
+    with EvidenceStore.open(folder / ".rgss" / "evidence.sqlite") as store:
+        put_trials(store, (*own, *more), record_of)
+    left = 600 - len(own) - len(more)
+    assert told() == [
+        f"Then up to {left} more trials where the decision is open (until_decided.budget).",
+        f"Then up to 20 {in_reserve}",
+    ]
+    # A budget that is typed is all that is spent.
+    spent = len(own) + len(more)
+    assert told("--budget", str(spent + 7))[-1] == "Then up to 7 more trials where the decision is open (--budget)."
+    assert told("--budget", str(spent))[-1] == (
+        f"No more trials where the decision is open: the budget of {spent} is spent (--budget)."
+    )
+    study.write_text(study.read_text(encoding="utf-8").replace("budget: 600", f"budget: {spent - 5}"), encoding="utf-8")
+    assert told() == [
+        f"No more trials where the decision is open: the budget of {spent - 5} is spent (until_decided.budget).",
+        f"Then up to 15 {in_reserve}",
+    ]
 
 
 def test_what_was_spent_of_the_reserve_is_said():
