@@ -23,7 +23,7 @@ from rgss.studies.measure_sources import metric_ranges, source_findings
 from rgss.studies.measure_traces import measure_traces
 from rgss.studies.motion import motion_findings, neutral_findings
 from rgss.studies.planning import resolution_findings
-from rgss.studies.project_folders import REQUIREMENTS, measures_of, requirements_named, study_file
+from rgss.studies.project_folders import REQUIREMENTS, measures_of, requirements_named, study_file, words_of_study
 from rgss.studies.study import StudyDefinition, named_file, read_study
 from rgss.studies.uncertainty_findings import uncertainty_findings
 from rgss.studies.value_symbols import symbol_findings
@@ -65,6 +65,14 @@ class Project:
     def evidence(self) -> Path:
         """The file of the evidence store."""
         return self.folder / EVIDENCE
+
+    def command(self, verb: str) -> str:
+        """The command of a verb on this study, such as ``rgss sweep nominal_world``.
+
+        Args:
+            verb: The verb.
+        """
+        return f"rgss {verb}{words_of_study(self.study.label)}"
 
     def check(self) -> tuple[Finding, ...]:
         """Findings on traceability, without a simulation."""

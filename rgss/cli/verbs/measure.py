@@ -74,7 +74,7 @@ def run(options: argparse.Namespace) -> int:
     elif options.json:
         print_json(list(_verdict_rows(measured) if options.verdicts else _measure_rows(measured)))
     elif options.verdicts:
-        _print_verdicts(measured)
+        _print_verdicts(project, measured)
     elif options.variant is not None:
         _print_variant(project, measured[0])
     else:
@@ -127,7 +127,7 @@ def _verdict_rows(measured: Sequence[VariantMeasures]) -> Iterator[dict[str, Any
             }
 
 
-def _print_verdicts(measured: Sequence[VariantMeasures]) -> None:
+def _print_verdicts(project: Project, measured: Sequence[VariantMeasures]) -> None:
     from rgss.cli.output import print_table
 
     rows = [
@@ -135,7 +135,7 @@ def _print_verdicts(measured: Sequence[VariantMeasures]) -> None:
         for row in _verdict_rows(measured)
     ]
     print_table(["variant", "requirement", "verdict", "changed since"], rows, right=(0,))
-    _print_stale(measured)
+    _print_stale(project, measured)
 
 
 def _print_variant(project: Project, entry: VariantMeasures) -> None:
@@ -161,7 +161,7 @@ def _print_variant(project: Project, entry: VariantMeasures) -> None:
     gaps = _gap_lines(project, [entry], entry.estimates)
     if gaps:
         print("", *gaps, sep="\n")
-    _print_stale([entry])
+    _print_stale(project, [entry])
 
 
 def _print_all(project: Project, measured: Sequence[VariantMeasures]) -> None:
@@ -175,7 +175,7 @@ def _print_all(project: Project, measured: Sequence[VariantMeasures]) -> None:
     if gaps:
         print(*gaps, "", sep="\n")
     print_measures(shown, measured)
-    _print_stale(measured)
+    _print_stale(project, measured)
 
 
 def _gap_lines(project: Project, measured: Sequence[VariantMeasures], shown: Container[str]) -> tuple[str, ...]:
@@ -198,7 +198,7 @@ def _gap_lines(project: Project, measured: Sequence[VariantMeasures], shown: Con
     return tuple(lines)
 
 
-def _print_stale(measured: Sequence[VariantMeasures]) -> None:
+def _print_stale(project: Project, measured: Sequence[VariantMeasures]) -> None:
     """Print why verdicts are stale, with a remedy."""
     from rgss.assessment import stale_remedies
 
@@ -210,4 +210,4 @@ def _print_stale(measured: Sequence[VariantMeasures]) -> None:
         verdicts, verb = ("verdict is", "it was") if count == 1 else ("verdicts are", "they were")
         what = ", ".join(cause.value for cause in causes)
         print(f"{count} {verdicts} stale, for this changed since {verb} made: {what}")
-    print(*stale_remedies(measured), sep="\n")
+    print(*stale_remedies(project, measured), sep="\n")

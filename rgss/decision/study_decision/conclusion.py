@@ -117,8 +117,13 @@ def conclusion_of(
         chosen=next((one for one in standings if one.variant == chosen), None),
         unmeasured=unmeasured,
         failed=failed,
-        remedies=stale_remedies(measured),
+        remedies=_remedies(project, measured),
     )
+
+
+def _remedies(project: Project, measured: Sequence[VariantMeasures]) -> tuple[str, ...]:
+    remedies = stale_remedies(project, measured)
+    return (f"'{project.command('measure')}' says what changed.", *remedies) if remedies else ()
 
 
 def _standing(

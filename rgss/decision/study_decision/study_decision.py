@@ -44,6 +44,7 @@ class StudyDecision:
 
     Attributes:
         study: The study's id.
+        trade_command: The command that decides it.
         evidence: Name of the evidence in messages.
         variants: Number of compared variants.
         trials: Number of their trials.
@@ -76,6 +77,7 @@ class StudyDecision:
     """
 
     study: str
+    trade_command: str
     evidence: str
     variants: int
     trials: int
@@ -234,6 +236,7 @@ def study_decision(
     """
     return StudyDecision(
         study=project.study.id,
+        trade_command=project.command("trade"),
         evidence=evidence,
         variants=len(measured),
         trials=sum(len(entry.records) for entry in measured),

@@ -74,7 +74,7 @@ def assumption_sentences(made: StudyDecision) -> Iterator[str]:
         trials = sum(one.missing for one in missing)
         yield (
             f"{len(missing)} of {len(made.assumptions)} rows need trials that were not run, {trials} in all: "
-            f"'rgss trade' with --what-if \"{missing[0].question.supposition}\" --run runs those of one row, "
+            f"'{made.trade_command}' with --what-if \"{missing[0].question.supposition}\" --run runs those of one row, "
             "with --run alone those of all."
         )
     yield from _fidelity_sentences(made)
@@ -98,7 +98,7 @@ def _fidelity_sentences(made: StudyDecision) -> Iterator[str]:
         if one.missing:
             yield (
                 f"Whether {other} trials decide as {here} trials do is not known: {counted(one.missing, 'trial')} "
-                f"{'was' if one.missing == 1 else 'were'} not run; 'rgss trade' with --what-if "
+                f"{'was' if one.missing == 1 else 'were'} not run; '{made.trade_command}' with --what-if "
                 f'"{one.question.supposition}" --run runs them.'
             )
             yield from _motion_sentence(one, made.decision.chosen)

@@ -114,7 +114,7 @@ def stale_sentence(made: StudyDecision) -> str:
     if not found.stale:
         return ""
     says = "Stale verdicts, which leave designs open, are those on"
-    return " ".join((f"{says} {_first_of(found.stale)}; 'rgss measure' says what changed.", *found.remedies))
+    return " ".join((f"{says} {_first_of(found.stale)}.", *found.remedies))
 
 
 def _first_of(named: Sequence[str]) -> str:

@@ -14,4 +14,4 @@ from rgss.studies.project_folders.requirement_sets import (
     requirements_of_study,
     studies_by_set,
 )
-from rgss.studies.project_folders.study_names import study_file
+from rgss.studies.project_folders.study_names import study_file, words_of_study

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
+import shlex
 from pathlib import Path
 
 from rgss.errors import DefinitionError
@@ -36,6 +37,19 @@ def study_file(project: Path, name: str | None) -> tuple[Path, str]:
         return path, path.resolve().relative_to(project.resolve()).as_posix()
     except (OSError, ValueError):  # a name that no file can have, a study outside the project
         return path, name
+
+
+def words_of_study(label: str) -> str:
+    """What names a study in a command, with a space before it; empty for the default study.
+
+    Args:
+        label: The study's file, relative to the project.
+    """
+    if label == DEFAULT_STUDY:
+        return ""
+    path = Path(label)
+    is_name = path.parent == Path(_STUDIES) and path.suffix == _SUFFIX and _NAME.fullmatch(path.stem)
+    return f" {shlex.quote(path.stem if is_name else label)}"
 
 
 def _unnamed(project: Path) -> tuple[Path, str]:
