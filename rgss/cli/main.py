@@ -10,14 +10,14 @@ import keyword
 import os
 import sys
 from collections.abc import Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, nullcontext, suppress
 from pathlib import Path
 from types import ModuleType
 
 from rgss.cli.command_parser import BAD_INPUT, CommandParser
 from rgss.cli.options import with_sweep_options
 from rgss.cli.safe_output import safe_output
-from rgss.cli.termination import ignore_interrupts, interrupt_at_termination
+from rgss.cli.termination import Interrupts
 from rgss.errors import DocumentError, DriverError, MotionError, RgssError, SimulationError, StorageError
 from rgss.findings import printable
 
@@ -65,17 +65,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # Start-up creates some hundred thousand long-lived objects; frequent garbage collections over them take a
     # tenth of a short command's time.
     gc.set_threshold(_OBJECTS_BETWEEN_COLLECTIONS)
-    if arguments is None:
-        interrupt_at_termination()
+    if arguments is not None:
+        # Another program that calls this keeps its handlers.
+        with safe_output():
+            return _run(arguments, Interrupts())
+    interrupts = Interrupts()
+    interrupts.listen()
     with safe_output():
-        status = _run(arguments)
-    if arguments is None:
-        # The work is done, with this status. What ends with the process, such as its children, is not cut off.
-        ignore_interrupts()
-    return status
+        try:
+            return _run(None, interrupts)
+        finally:
+            # The work is done. What ends with the process, such as its children, is not cut off.
+            interrupts.ignore()
 
 
-def _run(arguments: Sequence[str] | None) -> int:
+def _run(arguments: Sequence[str] | None, interrupts: Interrupts) -> int:
     options: argparse.Namespace | None = None
     try:
         options = command_line().parse_args(arguments)
@@ -101,13 +105,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         _print_error(f"rgss: {error}")
         return BAD_INPUT
     except KeyboardInterrupt:
-        if arguments is None:
-            # Another program that calls this keeps its handlers.
-            ignore_interrupts()
-        stores = getattr(options, "stores_trials", False) or getattr(options, "run", False)
-        _print_error("rgss: interrupted; finished trials are stored" if stores else "rgss: interrupted")
-        _report_interrupted_import(options)
-        return INTERRUPTED
+        return _interrupted(options, interrupts if arguments is None else None)
     except BrokenPipeError:
         # The reader of the output has closed the pipe, which is no error.
         _discard_output()
@@ -134,6 +132,23 @@ def _run(arguments: Sequence[str] | None) -> int:
         else:
             _print_error(f"rgss: the output cannot be written: {error.strerror}" if printed else f"rgss: {error}")
         return RUN_FAILED
+    except Exception:
+        if not interrupts.received:
+            raise
+        # What a library made of the interrupt.
+        return _interrupted(options, interrupts)
+
+
+def _interrupted(options: argparse.Namespace | None, interrupts: Interrupts | None) -> int:
+    """Report an interrupt, which further ones do not cut off."""
+    if interrupts is not None:
+        interrupts.ignore()
+    stores = getattr(options, "stores_trials", False) or getattr(options, "run", False)
+    _print_error("rgss: interrupted; finished trials are stored" if stores else "rgss: interrupted")
+    # Modules whose import was cut off cannot be imported again; then nothing has been written.
+    with suppress(ImportError, AttributeError):
+        _report_interrupted_import(options)
+    return INTERRUPTED
 
 
 def _report_interrupted_import(options: argparse.Namespace | None) -> None:

@@ -1,4 +1,4 @@
-"""Requests of the system to terminate, which end a verb as Ctrl-C does."""
+"""Interrupts: Ctrl-C, and requests of the system to terminate, which end a verb as Ctrl-C does."""
 
 from __future__ import annotations
 
@@ -6,38 +6,56 @@ import signal
 import threading
 from typing import NoReturn
 
-_INTERRUPTS = ("SIGINT", "SIGTERM", "SIGHUP")
+_REQUESTS = ("SIGTERM", "SIGHUP")
 
 
 class TerminationRequest(KeyboardInterrupt):
     """A request to terminate, or the loss of the terminal: an interrupt that is meant for this process alone."""
 
 
-def interrupt_at_termination() -> None:
-    """Raise a `TerminationRequest` in the main thread at SIGTERM, as of a scheduler, and at SIGHUP.
+class Interrupts:
+    """Interrupts of this process.
 
-    By default they end the process where it is: finished trials that are not stored yet are lost, and temporary files
-    are left. A signal that is ignored, as under ``nohup``, stays ignored.
+    Attributes:
+        received: True after the first one. A library may turn it into an error of its own, as pydantic does within the
+            validator of a model.
     """
-    if threading.current_thread() is not threading.main_thread():
-        return
-    for number in _numbers()[1:]:
-        if signal.getsignal(number) is signal.SIG_DFL:
-            signal.signal(number, _interrupt)
+
+    def __init__(self) -> None:
+        """Listen to nothing yet."""
+        self.received = False
+
+    def listen(self) -> None:
+        """Raise `KeyboardInterrupt` in the main thread at SIGINT, and `TerminationRequest` at SIGTERM and SIGHUP.
+
+        By default the latter end the process where it is: finished trials that are not stored yet are lost, and
+        temporary files are left. A signal that is ignored, as under ``nohup``, stays ignored.
+        """
+        if threading.current_thread() is not threading.main_thread():
+            return
+        if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            signal.signal(signal.SIGINT, self._interrupt)
+        for number in _requests():
+            if signal.getsignal(number) is signal.SIG_DFL:
+                signal.signal(number, self._terminate)
+
+    def ignore(self) -> None:
+        """Ignore further ones: they must cut off neither a message nor the end of the process."""
+        if threading.current_thread() is threading.main_thread():
+            for number in (signal.SIGINT, *_requests()):
+                signal.signal(number, signal.SIG_IGN)
+
+    def _interrupt(self, _number: int, _frame: object) -> NoReturn:
+        self.received = True
+        raise KeyboardInterrupt
+
+    def _terminate(self, _number: int, _frame: object) -> NoReturn:
+        self.received = True
+        # Another one, which a service manager may send at once, would cut off what is cleaned up at this one.
+        for number in _requests():
+            signal.signal(number, signal.SIG_IGN)
+        raise TerminationRequest
 
 
-def ignore_interrupts() -> None:
-    """Ignore further interrupts and requests: they must cut off neither a message nor the end of the process."""
-    for number in _numbers():
-        signal.signal(number, signal.SIG_IGN)
-
-
-def _numbers() -> list[signal.Signals]:
-    return [getattr(signal, name) for name in _INTERRUPTS if hasattr(signal, name)]
-
-
-def _interrupt(_number: int, _frame: object) -> NoReturn:
-    # Another one, which a service manager may send at once, would cut off what is cleaned up at this one.
-    for number in _numbers()[1:]:
-        signal.signal(number, signal.SIG_IGN)
-    raise TerminationRequest
+def _requests() -> list[signal.Signals]:
+    return [getattr(signal, name) for name in _REQUESTS if hasattr(signal, name)]

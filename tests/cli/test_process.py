@@ -89,6 +89,33 @@ def test_a_second_interrupt_cuts_off_nothing():
     assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", "rgss: interrupted\n")
 
 
+@pytest.mark.parametrize("error", ["ValueError('wrapped')", "ImportError('of a module whose import was cut off')"])
+def test_an_interrupt_that_a_library_turns_into_an_error_is_one(error):
+    """As pydantic does where it comes within the validator of a model."""
+    script = (
+        "import os, signal, sys; from rgss.cli import main as module; "
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "def wrapped():\n"
+        "    try:\n        os.kill(os.getpid(), signal.SIGINT); signal.pause()\n"
+        f"    except KeyboardInterrupt:\n        raise {error}\n"
+        "module.command_line = wrapped; sys.exit(module.main())"
+    )
+    ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", "rgss: interrupted\n")
+
+
+def test_an_interrupt_while_modules_are_imported_is_one_line():
+    """What is looked up for the message may need a module whose import was cut off."""
+    script = (
+        "import signal, sys; from rgss.cli import main as module; "
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "def cut_off():\n    sys.modules['rgss.studies'] = None; signal.raise_signal(signal.SIGINT)\n"
+        "module.command_line = cut_off; sys.exit(module.main())"
+    )
+    ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", "rgss: interrupted\n")
+
+
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
 def test_an_interrupt_at_the_very_end_cuts_off_nothing(name):
     """It comes when the work is done, while the interpreter ends processes and removes temporary files."""
