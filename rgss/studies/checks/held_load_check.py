@@ -1,4 +1,4 @@
-"""Findings about objects that slide or turn in the fingers of the designs when they are lifted."""
+"""Findings about objects that slide or turn in the fingers of the designs, or tear off a cup, when they are lifted."""
 
 from __future__ import annotations
 
@@ -15,9 +15,18 @@ from rgss.studies.checks.object_limit_check import mass_location, unborne_object
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
 
+_PADS = (
+    "slides or turns between the pads of {variants}: they bear",
+    "grip it nearer to its centre of mass, or with more force or friction",
+)
+_CUP = (
+    "tears off the cup of {variants}: the seal bears",
+    "take a lighter object or a cup with more force, or hold it nearer to its centre of mass",
+)
+
 
 def held_load_findings(project: Project, document: Document) -> Iterator[Finding]:
-    """Warn of objects that the fingers cannot lift at the tool's full acceleration; a note if some designs can.
+    """Warn of objects that no hand can lift at the tool's full acceleration; a note if some designs can.
 
     Args:
         project: The project with its study.
@@ -44,16 +53,19 @@ def held_load_findings(project: Project, document: Document) -> Iterator[Finding
         of_object = unborne.get(name, [])
         if not of_object or name in unborne_at_rest:
             continue
-        best = max((load for load, _ in of_object), key=lambda load: load.factor / load.needed)
-        variants = [variant for _, variant in of_object]
-        is_of_all = len(variants) == len(specs)
-        yield document.finding(
-            "scene.grip-load",
-            f"{name} slides or turns between the pads of {variants_text(variants)}: they bear {best.factor:.3g} times "
-            f"its weight at most, and a lift at full acceleration takes {best.needed:.3g} times",
-            mass_location(document, index),
-            severity=Severity.WARNING if is_of_all else Severity.INFO,
-            hint="grip it nearer to its centre of mass, or with more force or friction"
-            if is_of_all
-            else "these designs fail once it is lifted, and the others do not",
-        )
+        is_of_all = len(of_object) == len(specs)
+        for has_cup in (False, True):
+            failing = [(load, variant) for load, variant in of_object if load.has_cup is has_cup]
+            if not failing:
+                continue
+            best = max((load for load, _ in failing), key=lambda load: load.factor / load.needed)
+            hand, hint = _CUP if has_cup else _PADS
+            of_designs = hand.format(variants=variants_text([variant for _, variant in failing]))
+            yield document.finding(
+                "scene.grip-load",
+                f"{name} {of_designs} {best.factor:.3g} times its weight at most, and a lift at full acceleration "
+                f"takes {best.needed:.3g} times",
+                mass_location(document, index),
+                severity=Severity.WARNING if is_of_all else Severity.INFO,
+                hint=hint if is_of_all else "these designs fail once it is lifted, and the others do not",
+            )

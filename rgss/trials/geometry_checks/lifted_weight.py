@@ -1,4 +1,4 @@
-"""Multiples of the objects' weights that the fingers of a trial bear, with the turning that their pads resist."""
+"""Multiples of the objects' weights that the hand of a trial bears, with the turning that pads or a lip resist."""
 
 from __future__ import annotations
 
@@ -6,15 +6,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from rgss.grasping import load_factor
-from rgss.grasping.candidates import contact_points
+from rgss.grasping.candidates import contact_points, weight_share
 from rgss.scenes import (
+    Gripper,
     PadPatch,
     Scene,
+    Suction,
     centre_of_mass,
     initial_placements,
     pad_layouts,
     pad_patches,
     scene_about,
+    suction_point_of,
+    unsealed,
 )
 from rgss.tasks import HandAction, stages_of
 from rgss.trials.trial_spec import TrialSpec
@@ -23,17 +27,19 @@ from rgss.trials.workcell import cell_of, with_grasp_of
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeldLoad:
-    """Load that the fingers bear on an object.
+    """Load that the fingers, or the seal of a cup, bear on an object.
 
     Attributes:
         object: Its id.
         factor: Greatest multiple of its weight that they bear with their whole force, as it rests.
         needed: Multiple with which a lift at the tool's full acceleration loads them.
+        has_cup: True for a suction cup.
     """
 
     object: str
     factor: float
     needed: float
+    has_cup: bool = False
 
     @property
     def is_borne(self) -> bool:
@@ -42,15 +48,14 @@ class HeldLoad:
 
 
 def held_loads(spec: TrialSpec) -> Iterator[HeldLoad]:
-    """Loads on the fingers by the gripped objects of a trial, as its scene states them; none of a suction cup.
+    """Loads on the hand by the gripped objects of a trial, as its scene states them.
 
-    Objects without a grasp, or beside which a finger closes without contact, are left out.
+    Objects without a grasp, beside which a finger closes without contact, or on which the cup does not seal, are left
+    out.
 
     Args:
         spec: The trial.
     """
-    if spec.gripper.suction is not None:
-        return
     cell = cell_of(spec)
     scene = with_grasp_of(spec.scene, cell)
     placements = initial_placements(scene)
@@ -61,11 +66,13 @@ def held_loads(spec: TrialSpec) -> Iterator[HeldLoad]:
         if name not in cell.ungrasped:
             factor = _factor(spec, scene_about(scene, name, place="", placements=placements))
         if factor is not None:
-            yield HeldLoad(object=name, factor=factor, needed=needed)
+            yield HeldLoad(object=name, factor=factor, needed=needed, has_cup=spec.gripper.suction is not None)
 
 
 def _factor(spec: TrialSpec, view: Scene) -> float | None:
     geometry, workpiece = spec.gripper.geometry, view.workpiece
+    if spec.gripper.suction is not None:
+        return _of_seal(spec.gripper, spec.gripper.suction, view)
     tool_in_object = workpiece.pose.inverse() @ view.grasp
     patches = pad_patches(workpiece.shape, tool_in_object, geometry)
     if patches is None:
@@ -81,6 +88,17 @@ def _factor(spec: TrialSpec, view: Scene) -> float | None:
         (x, y, z),
         finger_force_limit_n=spec.gripper.finger_force_n,
     )
+
+
+def _of_seal(gripper: Gripper, suction: Suction, view: Scene) -> float | None:
+    """Multiple that the seal of a cup bears by its axial and tangential forces and at the edge of its lip."""
+    workpiece, cup = view.workpiece, gripper.geometry.cup
+    if cup is None or unsealed(gripper.geometry, view):
+        return None
+    ratio_1 = suction.tangential_force_n / gripper.finger_force_n
+    share = weight_share(suction_point_of(view), centre_of_mass(workpiece), cup.radius_m, ratio_1)
+    held_n = (1.0 - suction.leak) * gripper.finger_force_n
+    return share * held_n / (workpiece.mass_kg * view.gravity_m_s2)
 
 
 def _inset(patch: PadPatch, radius_m: float) -> PadPatch:

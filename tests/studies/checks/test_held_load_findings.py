@@ -1,4 +1,4 @@
-"""Objects that slide or turn in the hand once they are lifted are found before anything is simulated."""
+"""Objects that slide or turn in the hand, or tear off a cup, are found before anything is simulated."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ from pathlib import Path
 
 import pytest
 
+from rgss.documents import read_document
 from rgss.evidence import Fidelity
 from rgss.findings import Severity
 from rgss.studies import object_limit_findings
+from rgss.studies.checks.held_load_check import held_load_findings
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.studies.scene_findings import check_scene
@@ -83,3 +85,33 @@ def test_what_no_friction_bears_is_told_once(yumi):
 def test_without_contact_nothing_slips(yumi):
     kinematic = replace(yumi, study=replace(yumi.study, fidelity=Fidelity.KINEMATIC))
     assert found_in(kinematic, mass_kg=20.0) == []
+
+
+@pytest.fixture(scope="module")
+def lite6():
+    """Designs with fingers in two mountings and with a cup of 12 N and 10 mm that leaks 10 %, lifted with 2 m/s²."""
+    return load_project(REPOSITORY, "studies/lite6_cubes.yaml")
+
+
+@pytest.mark.parametrize(
+    ("mass_kg", "aside_m", "tears_off"),
+    [(0.90, 0.0, False), (0.93, 0.0, True), (0.60, 0.005, False), (0.62, 0.005, True)],
+)
+def test_an_object_that_tears_off_the_cup(lite6, mass_kg, aside_m, tears_off):
+    """10.8 N over 11.81 m/s² are 0.914 kg, and 0.610 kg beside the axis, where the lip of 10 mm lifts off first."""
+    cube = replace(lite6.scene.workpiece, mass_kg=mass_kg, centre_of_mass_across_m=(aside_m, 0.0))
+    project = replace(lite6, scene=replace(lite6.scene, workpiece=cube))
+    document = read_document(REPOSITORY / lite6.study.scene, label=lite6.study.scene)
+    found = [one for one in held_load_findings(project, document) if " cup " in one.message]
+    assert len(found) == tears_off
+    for one in found:
+        factor = 10.8 / (mass_kg * 9.81 * (1.0 + aside_m / 0.01))
+        assert one.message == (
+            f"red_cube tears off the cup of 24 variants, such as 49: the seal bears {factor:.3g} times its weight at "
+            "most, and a lift at full acceleration takes 1.2 times"
+        )
+
+
+def test_the_cubes_stay_on_the_cup(lite6):
+    document = read_document(REPOSITORY / lite6.study.scene, label=lite6.study.scene)
+    assert not [one for one in held_load_findings(lite6, document) if " cup " in one.message]
