@@ -1,5 +1,6 @@
 """The driver of UFACTORY arms: by the real SDK on a server of the protocol, and on a double with its signatures."""
 
+import contextlib
 import importlib
 import inspect
 import os
@@ -323,10 +324,17 @@ def test_an_arm_of_other_joints_is_told_by_the_real_sdk(server, arm):
         arm.connect()
 
 
+def reports_joints(driver):
+    """True once a reply came within the driver's own time limit, which a loaded machine may miss."""
+    with contextlib.suppress(DriverError):
+        return driver.read().stamp >= 1.0
+    return False
+
+
 def test_a_controller_that_falls_silent_is_no_report_and_takes_nothing(server):
     driver = XarmDriver(ADDRESS, joints=6)
     driver.connect()
-    wait_until(lambda: driver.read().stamp >= 1.0)
+    wait_until(lambda: reports_joints(driver))
     server.is_silent = True
     last = driver.read()
     assert driver.read() == last
