@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 from rgss.common_units import common_unit
 from rgss.errors import QuantityError
 from rgss.findings import shown
+from rgss.unit_registry import contains_level, is_level, unit_registry
 
 if TYPE_CHECKING:
     import pint
@@ -191,21 +192,6 @@ def dimension(unit: str) -> tuple[tuple[str, float], ...]:
     return tuple(sorted((name.strip("[]"), float(power)) for name, power in powers.items()))
 
 
-@lru_cache(maxsize=1)
-def _registry() -> Any:
-    import pint
-
-    # Decimals keep "35 mm" exact: with floats, cm**3 would be 1.0000000000000002e-06 m**3.
-    registry: Any = pint.UnitRegistry(
-        autoconvert_offset_to_baseunit=False, cache_folder=None, non_int_type=Decimal, on_redefinition="ignore"
-    )
-    registry.define("US_dollar = [currency] = USD = dollar")
-    # Torques as data sheets write them. To pint, Nm is the number of a yarn, and Ncm and Nmm are unknown.
-    for symbol, length in (("Nm", "meter"), ("Ncm", "centimeter"), ("Nmm", "millimeter")):
-        registry.define(f"newton_{length} = newton * {length} = {symbol}")
-    return registry
-
-
 @lru_cache(maxsize=512)
 def _unit(text: str) -> pint.Unit:
     import pint
@@ -214,9 +200,12 @@ def _unit(text: str) -> pint.Unit:
         raise QuantityError(f"{shown(text)} is not a unit", hint="write units such as mm, m/s or kg*m**2")
     cleaned = text.replace("·", "*").replace("^", "**").replace("$", "USD").replace("%", "percent")
     try:
-        unit: pint.Unit = _registry().Unit("dimensionless" if text == "1" else cleaned)
-        # Of a quotient with a logarithmic unit, such as dB/m, pint finds only here that it is undefined.
+        unit: pint.Unit = unit_registry().Unit("dimensionless" if text == "1" else cleaned)
+        # Of a quotient with a logarithmic unit, such as dB/m, older versions of pint find only here that it is
+        # undefined, and newer ones not at all.
         _ = unit.dimensionality
+        if contains_level(unit):
+            raise ValueError("a product with a level")
     except (pint.errors.PintError, ValueError) as error:
         if other := _OTHER_CURRENCY.search(text):
             raise _other_currency(other[0]) from error
@@ -236,7 +225,7 @@ def _measure_the_same(unit: str, other: str) -> bool:
 @lru_cache(maxsize=512)
 def _measure(unit: str) -> str:
     """Dimension of a unit, including angles, as the product of its root units."""
-    return str(_registry().get_root_units(_unit(unit))[1])
+    return str(unit_registry().get_root_units(_unit(unit))[1])
 
 
 @lru_cache(maxsize=512)
@@ -251,7 +240,7 @@ def _factor(from_unit: str, to_unit: str) -> Decimal:
     source, target = _unit(from_unit), _unit(to_unit)
     if source.dimensionality != target.dimensionality:
         raise _mismatch(from_unit, to_unit)
-    registry = _registry()
+    registry = unit_registry()
     try:
         zero, one = (Decimal(registry.convert(Decimal(magnitude), source, target)) for magnitude in (0, 1))
     except (pint.errors.PintError, TypeError):  # TypeError: a logarithm of a Decimal
@@ -263,16 +252,19 @@ def _factor(from_unit: str, to_unit: str) -> Decimal:
 
 def _base_unit(unit: str) -> str:
     """Symbol of a unit's base unit, such as K for degC."""
-    return f"{_registry().get_base_units(_unit(unit))[1]:~}" or "1"
+    return f"{unit_registry().get_base_units(_unit(unit))[1]:~}" or "1"
 
 
 def _on_scale(value: float, from_unit: str, to_unit: str) -> float | None:
     """Magnitude on the scale of another unit, with its zero; None for a level, such as dB."""
     import pint
 
+    source = _unit(from_unit)
+    if is_level(str(source)):
+        return None
     try:
-        return float(_registry().convert(Decimal(repr(value)), _unit(from_unit), _unit(to_unit)))
-    except (pint.errors.PintError, TypeError):  # TypeError: a logarithm of a Decimal
+        return float(unit_registry().convert(Decimal(repr(value)), source, _unit(to_unit)))
+    except (pint.errors.PintError, TypeError):
         return None
 
 
