@@ -115,10 +115,12 @@ def stream(
         guard: Fresh limits with the period of the driver's rate.
         clock: Time.
         settings: Speed and tolerances.
-        is_interrupted: Read once in each period; if true, the motion comes to rest on its path.
+        is_interrupted: Read once in each period; if true, the motion comes to rest on its path. A `KeyboardInterrupt`
+            after that stops the robot at once; the result has what it did until then.
 
     Raises:
         DriverError: The robot cannot be connected; nothing has moved.
+        KeyboardInterrupt: It came while `is_interrupted` was false; the robot is stopped.
     """
     try:
         driver.connect()
@@ -127,11 +129,17 @@ def stream(
             outcome, detail = run.run()
         except DriverError as error:
             outcome, detail = StreamOutcome.FAULT, str(error)
-        except BaseException:
-            _stop(driver)
-            raise
+        except BaseException as error:
+            if not (isinstance(error, KeyboardInterrupt) and is_interrupted()):
+                _stop(driver)
+                raise
+            outcome, detail = StreamOutcome.INTERRUPTED, f"interrupted again in {run.phase}, and stopped at once"
         try:
             _stop(driver)
+        except KeyboardInterrupt:
+            if not is_interrupted():
+                raise
+            outcome = StreamOutcome.INTERRUPTED if outcome is StreamOutcome.COMPLETED else outcome
         except DriverError as error:
             outcome = StreamOutcome.FAULT if outcome is StreamOutcome.COMPLETED else outcome
             detail = "; ".join(filter(None, (detail, f"the stop was not confirmed: {error}")))
@@ -202,6 +210,11 @@ class _Stream:
             due_s = (now_s if now_s - due_s > self._period_s else due_s) + self._period_s
             self._clock.wait_until(due_s)
             estimate = self._driver.read()
+
+    @property
+    def phase(self) -> str:
+        """Name of the phase that runs."""
+        return self._cursor.segment.name
 
     def _first_gripper(self) -> GripperState:
         return self._cursor.segment.gripper

@@ -261,3 +261,39 @@ def test_a_signal_does_not_keep_the_robot_from_stopping(robot):
         run(robot)
 
     assert robot.calls[-3:] == ["stop", "stop", "disconnect"]
+
+
+def test_what_the_robot_did_is_known_after_a_second_interrupt(robot):
+    """The first one is a flag; the second one interrupts what the program waits for."""
+    send, sent = robot.send, []
+
+    def hanging(point):
+        sent.append(point)
+        if len(sent) == 60:
+            raise KeyboardInterrupt
+        send(point)
+
+    robot.send = hanging
+    result = run(robot, is_interrupted=lambda: len(sent) >= 50)
+    assert (result.outcome, result.detail) == (
+        StreamOutcome.INTERRUPTED,
+        "interrupted again in go, and stopped at once",
+    )
+    assert (len(result.samples), result.sent) == (60, 59)
+    assert robot.calls == ["connect", "stop", "disconnect"]
+
+
+def test_a_second_interrupt_while_the_robot_is_stopped_loses_nothing(robot):
+    stop, stops = robot.stop, []
+
+    def interrupted():
+        stops.append(robot.time_s)
+        stop()
+        if len(stops) == 1:
+            raise KeyboardInterrupt
+
+    robot.stop = interrupted
+    result = run(robot, is_interrupted=lambda: len(robot.sent) >= 50)
+    assert (result.outcome, result.detail) == (StreamOutcome.INTERRUPTED, "interrupted in go")
+    assert len(result.samples) == result.sent + 1
+    assert robot.calls[-3:] == ["stop", "stop", "disconnect"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -70,6 +70,7 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
         result = stream(driver, task, guard, clock, settings, is_interrupted=is_interrupted)
         if options.recording is not None:
             # A signal while it is written must not lose what the robot has done.
+            is_interrupted.ends_waiting = False
             recorded = f"variant {spec.variant} by rgss run --driver {driver.name}, {result.outcome.value}"
             robot = cell.scene.robot.id
             content = recording_csv(result.samples, limits.names, robot=robot, recorded=recorded, slides=limits.slides)
@@ -149,23 +150,39 @@ def _driver(
     return UrDriver(address, settings=UrSettings(gripper_output=options.gripper_output or 0)), MonotonicClock()
 
 
+class _InterruptFlag:
+    """Flag that Ctrl-C and termination set.
+
+    Attributes:
+        ends_waiting: Whether the second signal raises a `KeyboardInterrupt`.
+    """
+
+    def __init__(self) -> None:
+        self.ends_waiting = True
+        self._received = 0
+
+    def __call__(self) -> bool:
+        """True if a signal came."""
+        return self._received > 0
+
+    def note(self, _number: int, _frame: object) -> None:
+        """Handle a signal."""
+        self._received += 1
+        if self._received == 2 and self.ends_waiting:
+            raise KeyboardInterrupt
+
+
 @contextmanager
-def _interrupt_flag() -> Iterator[Callable[[], bool]]:
+def _interrupt_flag() -> Iterator[_InterruptFlag]:
     """Turn Ctrl-C and termination into a flag, so that the robot is brought to rest before the program ends.
 
     The second one interrupts what the program waits for, such as a call of an SDK that does not return, and the robot
     is stopped at once. Further ones are ignored: they must not interrupt that stop.
     """
-    received: list[int] = []
-
-    def note(number: int, _frame: object) -> None:
-        received.append(number)
-        if len(received) == 2:
-            raise KeyboardInterrupt
-
-    previous = {number: signal.signal(number, note) for number in (signal.SIGINT, signal.SIGTERM)}
+    flag = _InterruptFlag()
+    previous = {number: signal.signal(number, flag.note) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
-        yield lambda: bool(received)
+        yield flag
     finally:
         for number, handler in previous.items():
             signal.signal(number, handler)

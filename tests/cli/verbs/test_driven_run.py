@@ -215,6 +215,14 @@ def test_the_second_signal_interrupts_and_no_further_one_does():
         assert is_interrupted()
 
 
+def test_no_signal_interrupts_the_writing_of_a_recording():
+    with _interrupt_flag() as is_interrupted:
+        is_interrupted.ends_waiting = False
+        for _ in range(3):
+            os.kill(os.getpid(), signal.SIGINT)
+        assert is_interrupted()
+
+
 @pytest.mark.engine
 def test_the_simulated_robot_carries_what_each_grip_takes(untouched):
     """The second object is too heavy for the arm, which sags under it and not under the first."""
