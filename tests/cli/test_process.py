@@ -130,8 +130,10 @@ def test_an_interrupt_at_the_very_end_cuts_off_nothing(name):
     assert (ended.returncode, ended.stdout.splitlines()[-1], ended.stderr) == (0, "cleaned up", "")
 
 
+# Of a run under nohup, whose children ignore SIGHUP too.
 REQUEST = (
     "import os, signal, sys; from rgss.cli import main as module; "
+    "[signal.signal(number, signal.SIG_DFL) for number in (signal.SIGTERM, signal.SIGHUP)]; "
     "again = lambda: [os.kill(os.getpid(), signal.Signals[name]) for name in sys.argv[1].split()]; "
     "own = module._print_error; module._print_error = lambda text: (again(), own(text)); "
     "module.command_line = lambda: (again(), signal.pause()); sys.exit(module.main())"
