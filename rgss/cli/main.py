@@ -105,7 +105,7 @@ def _run(arguments: Sequence[str] | None, interrupts: Interrupts) -> int:
         _print_error(f"rgss: {error}")
         return BAD_INPUT
     except KeyboardInterrupt:
-        return _interrupted(options, interrupts if arguments is None else None)
+        return _interrupted(options, interrupts)
     except BrokenPipeError:
         # The reader of the output has closed the pipe, which is no error.
         _discard_output()
@@ -139,10 +139,9 @@ def _run(arguments: Sequence[str] | None, interrupts: Interrupts) -> int:
         return _interrupted(options, interrupts)
 
 
-def _interrupted(options: argparse.Namespace | None, interrupts: Interrupts | None) -> int:
+def _interrupted(options: argparse.Namespace | None, interrupts: Interrupts) -> int:
     """Report an interrupt, which further ones do not cut off."""
-    if interrupts is not None:
-        interrupts.ignore()
+    interrupts.ignore()
     stores = getattr(options, "stores_trials", False) or getattr(options, "run", False)
     _print_error("rgss: interrupted; finished trials are stored" if stores else "rgss: interrupted")
     # Modules whose import was cut off cannot be imported again; then nothing has been written.

@@ -24,6 +24,7 @@ class Interrupts:
     def __init__(self) -> None:
         """Listen to nothing yet."""
         self.received = False
+        self._is_listening = False
 
     def listen(self) -> None:
         """Raise `KeyboardInterrupt` in the main thread at SIGINT, and `TerminationRequest` at SIGTERM and SIGHUP.
@@ -33,6 +34,7 @@ class Interrupts:
         """
         if threading.current_thread() is not threading.main_thread():
             return
+        self._is_listening = True
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             signal.signal(signal.SIGINT, self._interrupt)
         for number in _requests():
@@ -40,8 +42,8 @@ class Interrupts:
                 signal.signal(number, self._terminate)
 
     def ignore(self) -> None:
-        """Ignore further ones: they must cut off neither a message nor the end of the process."""
-        if threading.current_thread() is threading.main_thread():
+        """Ignore further ones, if it listens: they must cut off neither a message nor the end of the process."""
+        if self._is_listening:
             for number in (signal.SIGINT, *_requests()):
                 signal.signal(number, signal.SIG_IGN)
 

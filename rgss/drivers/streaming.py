@@ -129,11 +129,14 @@ def stream(
             outcome, detail = run.run()
         except DriverError as error:
             outcome, detail = StreamOutcome.FAULT, str(error)
-        except BaseException as error:
-            if not (isinstance(error, KeyboardInterrupt) and is_interrupted()):
+        except KeyboardInterrupt:
+            if not is_interrupted():
                 _stop(driver)
                 raise
             outcome, detail = StreamOutcome.INTERRUPTED, f"interrupted again in {run.phase}, and stopped at once"
+        except BaseException:
+            _stop(driver)
+            raise
         try:
             _stop(driver)
         except KeyboardInterrupt:

@@ -146,13 +146,14 @@ def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[D
                 *surviving_specs(project, screened, variants=variants),
             )
         found = dry_run(specs, store, share=not options.no_share, study=project.study.label)
-        read = sum(map(len, read_specs(project, store, variants).values()))
+        further: tuple[str, ...] = ()
+        if project.study.sweeps_until_decided and not (options.only or options.json):
+            read = sum(map(len, read_specs(project, store, variants).values()))
+            further = tuple(_further_trials(project, options.budget, read))
     if options.json:
         print_json(dry_run_as_json(found, label))
     else:
-        print(*dry_run_lines(found, label), sep="\n")
-        if project.study.sweeps_until_decided and not options.only:
-            print(*_further_trials(project, options.budget, read), sep="\n")
+        print(*dry_run_lines(found, label), *further, sep="\n")
     return CLEAN
 
 

@@ -27,16 +27,15 @@ def choice_lines(made: StudyDecision) -> Iterator[str]:
     Args:
         made: The decision.
     """
+    stale = tuple(filter(None, (stale_sentence(made),)))
     if made.comparison is None:
         yield from conflict_lines(made.decision, shown_feasible=made.shown_feasible)
         yield headline(made)
-        if stale_sentence(made):
-            yield stale_sentence(made)
+        yield from stale
         return
     yield headline(made)
     yield standing_sentence(made)
-    if stale_sentence(made):
-        yield stale_sentence(made)
+    yield from stale
     yield rule_sentence(made)
     yield from uncertainty_sentences(made)
     yield ""
