@@ -8,7 +8,13 @@ from dataclasses import replace
 from rgss.assessment import VariantMeasures, replicates_of, require_complete, requirements_with_criteria
 from rgss.decision.level_structure import level_structure
 from rgss.decision.moved_thresholds import with_moved_winners
-from rgss.decision.preference_model import program_of, risks_of, threshold_of, value_function_of
+from rgss.decision.preference_model import (
+    deciding_measures,
+    program_of,
+    risks_of,
+    threshold_of,
+    value_function_of,
+)
 from rgss.measures import Estimate, Estimator
 from rgss.requirements import Criterion, Statistic
 from rgss.studies import Project
@@ -37,7 +43,7 @@ def trade_problem(
     Args:
         project: The project with its study.
         measured: Every variant with its estimates.
-        tolerant: True to apply the study's tolerance to thresholds on measures that trials observe.
+        tolerant: True to apply the study's tolerance to thresholds on measures that differ from trial to trial.
         known: Cache of alternatives from earlier calls for the same project, by variant, with their estimates:
             those of the same estimates are reused, and new ones are added.
 
@@ -57,19 +63,15 @@ def trade_problem(
     tolerance = trade_off.tolerance if tolerant else 0.0
     thresholds = tuple(
         threshold_of(project, requirement, criterion, column=_column(criterion)).tolerated(
-            tolerance if project.measures.measure(criterion.measure).from_trials else 0.0
+            tolerance if criterion.measure in project.measures.noisy else 0.0
         )
         for requirement, criterion in criteria.items()
     )
     functions = tuple(value_function_of(project, valued) for valued in trade_off.valued)
     program = program_of(project, functions)
     risks = risks_of(project)
-    wanted = [*trade_off.weighting.weights, *(risk.measure for risk in risks)]
-    wanted += program.aimed_measures
-    wanted += [limit.measure for limit in program.limits]
     # The posterior of an interval's end is drawn around its measure.
-    wanted += [criterion.measure for criterion in criteria.values()]
-    columns = {measure: (measure, Statistic.VALUE) for measure in wanted}
+    columns = {measure: (measure, Statistic.VALUE) for measure in deciding_measures(project)}
     columns.update({_column(criterion): (criterion.measure, criterion.statistic) for criterion in criteria.values()})
     return TradeProblem(
         alternatives=tuple(_known_alternative(project, variant, columns, known) for variant in measured),
@@ -158,8 +160,9 @@ def shared_measures(project: Project) -> tuple[SharedPart, ...]:
 
 def _demanded(project: Project, criterion: Criterion) -> Criterion:
     """Criterion of a choice; if the study decides by verdicts, on the end of the interval that a verdict needs."""
-    from_trials = project.measures.measure(criterion.measure).from_trials
-    if not project.study.trade_off.shown_feasible or criterion.statistic is not Statistic.VALUE or not from_trials:
+    if not project.study.trade_off.shown_feasible or criterion.statistic is not Statistic.VALUE:
+        return criterion
+    if criterion.measure not in project.measures.noisy:
         return criterion
     return replace(criterion, statistic=Statistic.LOW if criterion.comparison.is_lower_bound else Statistic.HIGH)
 
@@ -182,7 +185,9 @@ def _known_alternative(
 def _alternative(
     project: Project, variant: VariantMeasures, columns: Mapping[str, tuple[str, Statistic]]
 ) -> Alternative:
-    samples = replicates_of(project.measures, variant, only={measure for measure, _ in columns.values()})
+    measures = project.measures
+    noisy = {measure for measure, _ in columns.values() if measure in measures.noisy}
+    samples = replicates_of(measures, variant, only=noisy)
     rows = {}
     for column, (measure, statistic) in columns.items():
         if measure in samples:

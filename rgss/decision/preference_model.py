@@ -155,6 +155,29 @@ def risks_of(project: Project) -> tuple[Risk, ...]:
     return tuple(choice.risk(bound_of(project, choice.id, choice.bound)) for choice in project.study.trade_off.risks)
 
 
+def deciding_measures(project: Project) -> tuple[str, ...]:
+    """Measures that a choice reads: those with a weight, those of the program and of risks, those of requirements.
+
+    Args:
+        project: The project with its study.
+
+    Raises:
+        TradeoffError: As for `program_of`.
+        DefinitionError: As for `program_of`.
+    """
+    trade_off = project.study.trade_off
+    program = program_of(project, tuple(value_function_of(project, valued) for valued in trade_off.valued))
+    of_requirements = (one.criterion.measure for one in project.requirements.system if one.criterion is not None)
+    wanted = (
+        *trade_off.weighting.weights,
+        *(risk.measure for risk in risks_of(project)),
+        *program.aimed_measures,
+        *(limit.measure for limit in program.limits),
+        *of_requirements,
+    )
+    return tuple(dict.fromkeys(wanted))
+
+
 def _criterion(project: Project, requirement: str) -> Criterion:
     criterion = project.requirements.requirement(requirement).criterion
     if criterion is None:

@@ -1,4 +1,4 @@
-"""Builder of a consistent set of measures from the entries of a measures file."""
+"""Loader of measures files, and builder of a consistent set of measures from their entries."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ import difflib
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 
-from rgss.documents import LoadedDocument
-from rgss.errors import QuantityError
+from rgss.documents import LoadedDocument, load_document
+from rgss.errors import DocumentError, QuantityError
 from rgss.findings import Finding
 from rgss.measures.consistency import check_entries, check_roles
 from rgss.measures.definitions import (
@@ -27,6 +28,23 @@ from rgss.measures.readings import with_readings
 from rgss.quantities import conversion_factor, dimension, parse_quantity
 
 Bounds = tuple["float | None", "float | None"]
+
+
+def load_measures(path: Path, *, label: str | None = None) -> MeasureSet:
+    """Read a measures file.
+
+    Args:
+        path: The file, such as ``requirements/measures.yaml``.
+        label: Its name in messages; the path itself by default.
+
+    Raises:
+        DocumentError: The file is not a consistent set of measures; with every problem in it.
+    """
+    loaded = load_document(path, MeasuresDocument, label=label)
+    built = build_measures(loaded, path.read_text(encoding="utf-8-sig").splitlines())
+    if isinstance(built, MeasureSet):
+        return built
+    raise DocumentError(sorted(built))
 
 
 def build_measures(loaded: LoadedDocument[MeasuresDocument], lines: Sequence[str]) -> MeasureSet | list[Finding]:

@@ -203,15 +203,14 @@ class MeasureSet:
         equations: The equations, in the order of the file.
         measures: The measures, in the order of the file.
         evaluation_order: The measures in topological order.
-        used: For each measure, the ids of all measures and the symbols of all inputs and constants on which it depends,
-        directly or not.
+        used: For each measure, the measures, inputs and constants on which it depends, directly or not.
         metric_ranges: Ranges of metrics of trials, in SI; a metric that is absent may have any value.
         trial_inputs: The inputs from trials, each with its metric, in the order of the file.
         trial_ranges: The range of each of them, by its symbol, in SI.
         design_inputs: The other inputs, in the order of the file.
         trial_measures: The measures that vary from trial to trial, in topological order.
         design_measures: The other measures, in topological order.
-        of_design: Ids of the measures whose inputs from trials are all declared as ``of_design``.
+        noisy: Ids of the measures whose estimates further trials may change: not those of ``of_design`` inputs alone.
     """
 
     constants: tuple[Constant, ...]
@@ -227,11 +226,11 @@ class MeasureSet:
     design_inputs: tuple[InputSymbol, ...] = field(init=False, repr=False, compare=False)
     trial_measures: tuple[Measure, ...] = field(init=False, repr=False, compare=False)
     design_measures: tuple[Measure, ...] = field(init=False, repr=False, compare=False)
-    of_design: frozenset[str] = field(init=False, repr=False, compare=False)
+    noisy: frozenset[str] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         """Sort inputs and measures once: measures are evaluated for each trial of each design."""
-        inputs = tuple((symbol.metric, symbol) for symbol in self.inputs if symbol.from_trial)
+        inputs = tuple((one.metric, one) for one in self.inputs if one.from_trial)
         varying = {symbol.id for _, symbol in inputs if not symbol.of_design}
         order = self.evaluation_order
         derived = {
@@ -243,8 +242,11 @@ class MeasureSet:
             "design_inputs": tuple(symbol for symbol in self.inputs if not symbol.from_trial),
             "trial_measures": tuple(measure for measure in order if measure.from_trials),
             "design_measures": tuple(measure for measure in order if not measure.from_trials),
-            "of_design": frozenset(
-                measure.id for measure in self.measures if varying.isdisjoint(self.used[measure.id])
+            "noisy": frozenset(
+                one.id
+                for one in order
+                if one.estimate is not None
+                and (one.estimate.statistic is not Estimator.MEAN or not varying.isdisjoint(self.used[one.id]))
             ),
         }
         for name, value in derived.items():

@@ -122,6 +122,9 @@ class _Analysis:
         first = known[0]
         if function.shape is Shape.ENTRY_BY_ENTRY:
             return _raised(first, function.dimension_power)
+        if function.shape is Shape.CHOICE and any(argument.length is not None for argument in known):
+            self._refuse(node, "measures.shape", f"{function.name}() takes several numbers, and no row")
+            return None
         if len(known) == 1:
             if first.length is None:
                 self._refuse(node, "measures.shape", f"{function.name}() of a single number; it needs a row")

@@ -78,7 +78,7 @@ def evaluate(
             )
             continue
         known = [value for row in counted if (value := _summarised(measure, row)) is not None]
-        if rule.statistic is Estimator.MEAN and measure.id in measure_set.of_design:
+        if measure.id not in measure_set.noisy:
             estimates[measure.id] = _same(measure, known, variant)
         elif rule.statistic is Estimator.PROPORTION:
             complete = sum(value >= COMPLETE for value in known)
@@ -114,7 +114,7 @@ def replicate_ranges(
         if rule is None or rule.statistic is Estimator.RATIO:
             continue
         known = estimates[measure.id].value
-        if rule.statistic is Estimator.MEAN and measure.id in measure_set.of_design and known is not None:
+        if measure.id not in measure_set.noisy and known is not None:
             found[measure.id] = Range.of_number(known)
             continue
         within = _bounds(measure, possible.get(measure.id, Range()))

@@ -14,12 +14,16 @@ Value = float | None | tuple[float | None, ...]
 """A number or a row of numbers in SI; None for an unknown value or entry."""
 
 
+FIRST_KNOWN = "first_known"
+
+
 class Shape(Enum):
     """Shape of a function's argument and result."""
 
     ENTRY_BY_ENTRY = "entry by entry"
     REDUCTION = "reduction"
     EXTREME = "extreme"
+    CHOICE = "choice"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,11 +32,11 @@ class Function:
 
     Attributes:
         name: Its name in an expression.
-        shape: Its arguments: one value, element-wise; one row, reduced to a number; or several numbers or one row,
-        reduced to the extreme.
+        shape: Its arguments: one value, element-wise; one row, reduced to a number; several numbers or one row,
+        reduced to the extreme; or several numbers, of which one is the result.
         dimension_power: The result's dimension as a power of the argument's.
         compute: The function of a number (element-wise) or of a row of known numbers.
-        range: The range of the result from that of the argument, or of each entry of the row.
+        range: The range of the result from that of the argument, of each entry of the row, or of all arguments.
         skips_unknown: True if a reduction skips unknown entries.
     """
 
@@ -77,6 +81,13 @@ def _norm(values: list[float]) -> float:
     return math.hypot(*values)
 
 
+def _first(values: list[float]) -> float:
+    # Nothing is known, and the result is not either.
+    if not values:
+        raise ValueError
+    return values[0]
+
+
 def _count(values: list[float]) -> float:
     return float(len(values))
 
@@ -94,6 +105,14 @@ FUNCTIONS: Mapping[str, Function] = MappingProxyType(
                 range=Range.count,
                 skips_unknown=True,
             ),
+            Function(
+                name=FIRST_KNOWN,
+                shape=Shape.CHOICE,
+                dimension_power=1.0,
+                compute=_first,
+                range=Range.entry,
+                skips_unknown=True,
+            ),
             Function(name="max", shape=Shape.EXTREME, dimension_power=1.0, compute=max, range=Range.entry),
             Function(name="mean", shape=Shape.REDUCTION, dimension_power=1.0, compute=_mean, range=Range.entry),
             Function(name="min", shape=Shape.EXTREME, dimension_power=1.0, compute=min, range=Range.entry),
@@ -103,4 +122,5 @@ FUNCTIONS: Mapping[str, Function] = MappingProxyType(
         )
     }
 )
-"""The functions by name; ``count`` is the number of known entries of a row."""
+"""The functions by name. ``count`` is the number of known entries of a row, ``first_known`` the first of its arguments
+that is known and defined."""

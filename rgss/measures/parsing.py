@@ -30,6 +30,7 @@ _REFUSED_CHARACTER = re.compile(r"[^A-Za-z0-9_ .,+\-*/()]")
 _NUMBER_LIKE = re.compile(r"(?<![\w.])\.?[0-9](?:[\w.]|(?<=[eE])[+-](?=[0-9]))*")
 _NUMBER = re.compile(r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _NUMBER_AND_NAME = re.compile(rf"(?<![\w.]){_NUMBER.pattern}\s+(?P<name>[A-Za-z]+)(?!\w)")
+_FEWEST_CHOICES = 2
 _ALLOWED = f"numbers, symbols, + - * / **, parentheses, and calls of {', '.join(FUNCTIONS)}"
 _TOO_DEEP = f"nested more than {DEEPEST_NESTING} deep"
 _SPLIT = "split it into several measures"
@@ -213,6 +214,10 @@ class _Reader:
         if function.shape is Shape.EXTREME:
             if given == 0:
                 self._refuse(node, f"{name}() needs a row or several numbers", "", "measures.arguments")
+                return None
+        elif function.shape is Shape.CHOICE:
+            if given < _FEWEST_CHOICES:
+                self._refuse(node, f"{name}() needs several numbers, such as {name}(x, y)", "", "measures.arguments")
                 return None
         elif given != 1:
             self._refuse(node, f"{name}() takes one argument, not {given}", "", "measures.arguments")

@@ -8,7 +8,7 @@ from dataclasses import replace
 from rgss.measures.definitions import MeasureSet
 from rgss.measures.estimators import Estimator
 from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
-from rgss.measures.functions import FUNCTIONS
+from rgss.measures.functions import FUNCTIONS, Shape
 from rgss.measures.ranges import Range
 
 
@@ -96,6 +96,8 @@ def _of_call(node: Call, ranges: Mapping[str, Range]) -> Range:
     arguments = [range_of(argument, ranges) for argument in node.arguments]
     if len(arguments) == 1:
         return FUNCTIONS[node.function].range(arguments[0])
-    # Only the extremes take several numbers, and they are monotone in each.
+    if FUNCTIONS[node.function].shape is Shape.CHOICE:
+        return Range(low=min(one.low for one in arguments), high=max(one.high for one in arguments))
+    # Of the others only the extremes take several numbers, and they are monotone in each.
     extreme = FUNCTIONS[node.function].compute
     return Range(low=extreme([one.low for one in arguments]), high=extreme([one.high for one in arguments]))

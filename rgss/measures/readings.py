@@ -8,7 +8,7 @@ from dataclasses import replace
 from rgss.documents import LoadedDocument
 from rgss.errors import DefinitionError
 from rgss.findings import Finding
-from rgss.measures.definitions import Alternative, Measure, MeasureSet
+from rgss.measures.definitions import Alternative, EstimateRule, Measure, MeasureSet
 from rgss.measures.dependencies import evaluation_order, transitive_use
 from rgss.measures.document import AlternativeEntry, MeasureEntry, MeasuresDocument
 from rgss.measures.expressions import Expression
@@ -35,8 +35,9 @@ def with_readings(
     found: dict[str, Measure] = {}
     for index, entry in enumerate(loaded.value.measures):
         findings += _twin_findings(measures, loaded, index, entry)
-        findings += _alternative_findings(loaded, index, entry, rebuild)
-        alternatives = tuple(read for one in entry.alternatives if (read := _alternative(entry, one)) is not None)
+        findings += _alternative_findings(measures, loaded, index, entry, rebuild)
+        parsed = (_alternative(measures, entry, one) for one in entry.alternatives)
+        alternatives = tuple(one for one in parsed if one is not None)
         found[entry.id] = replace(
             measures.measure(entry.id), simulated_as=entry.simulated_as, alternatives=alternatives
         )
@@ -85,7 +86,7 @@ def with_alternative(measures: MeasureSet, measure: str, alternative: str) -> Me
     )
 
 
-def _alternative(entry: MeasureEntry, alternative: AlternativeEntry) -> Alternative | None:
+def _alternative(measures: MeasureSet, entry: MeasureEntry, alternative: AlternativeEntry) -> Alternative | None:
     """Parsed alternative; None if its expression is invalid, which has a finding."""
     expression = parse_expression(alternative.expression or entry.expression)
     if not isinstance(expression, Expression):
@@ -93,9 +94,30 @@ def _alternative(entry: MeasureEntry, alternative: AlternativeEntry) -> Alternat
     return Alternative(
         id=alternative.id,
         expression=expression,
-        estimate=alternative.estimate or entry.estimate,
+        estimate=_estimate(measures, entry, alternative),
         rationale=alternative.rationale,
     )
+
+
+def _estimate(measures: MeasureSet, entry: MeasureEntry, alternative: AlternativeEntry) -> EstimateRule | None:
+    """Estimate of an alternative: its own, or that of the measure if its expression has symbols from trials."""
+    if alternative.estimate is not None or alternative.expression is None:
+        return alternative.estimate or entry.estimate
+    parsed = parse_expression(alternative.expression)
+    if not isinstance(parsed, Expression):
+        return entry.estimate
+    return entry.estimate if entry.id in _observed(measures, entry.id, parsed) else None
+
+
+def _observed(measures: MeasureSet, measure: str, expression: Expression) -> frozenset[str]:
+    """Ids of the measures that vary from trial to trial with another expression of one, as far as symbols are known."""
+    known = {one.id: one.expression.names for one in measures.measures} | {measure: expression.names}
+    fixed = {one.id for one in measures.constants} | {one.id for one in measures.design_inputs}
+    follows: set[str] = set()
+    # A measure follows from the design if all of its symbols do; on a cycle none does.
+    while found := {name for name, used in known.items() if name not in follows and {*used} <= fixed | follows}:
+        follows |= found
+    return frozenset(known) - follows
 
 
 def _twin_findings(
@@ -122,7 +144,11 @@ def _twin_findings(
 
 
 def _alternative_findings(
-    loaded: LoadedDocument[MeasuresDocument], index: int, entry: MeasureEntry, rebuild: Rebuild
+    measures: MeasureSet,
+    loaded: LoadedDocument[MeasuresDocument],
+    index: int,
+    entry: MeasureEntry,
+    rebuild: Rebuild,
 ) -> Iterator[Finding]:
     seen: set[str] = set()
     for place, alternative in enumerate(entry.alternatives):
@@ -136,21 +162,27 @@ def _alternative_findings(
             yield loaded.document.finding("measures.alternative", f"{name} changes nothing", location, hint=hint)
             continue
         key = "estimate" if alternative.expression is None else "expression"
-        built = rebuild(_read_as(loaded, index, alternative))
+        built = rebuild(_read_as(measures, loaded, index, alternative))
         for problem in built if isinstance(built, list) else ():
             if problem.rule != _NOT_ASKED:
                 yield loaded.document.finding(problem.rule, f"{name}: {problem.message}", (*location, key))
 
 
 def _read_as(
-    loaded: LoadedDocument[MeasuresDocument], index: int, alternative: AlternativeEntry
+    measures: MeasureSet, loaded: LoadedDocument[MeasuresDocument], index: int, alternative: AlternativeEntry
 ) -> LoadedDocument[MeasuresDocument]:
     """Entries with the alternative in place of the measure's definition."""
     entry = loaded.value.measures[index]
     changes = {
         "expression": alternative.expression or entry.expression,
-        "estimate": alternative.estimate or entry.estimate,
+        "estimate": _estimate(measures, entry, alternative),
     }
     entries = list(loaded.value.measures)
     entries[index] = entry.model_copy(update=changes)
+    parsed = parse_expression(alternative.expression or entry.expression)
+    if isinstance(parsed, Expression):
+        observed = _observed(measures, entry.id, parsed)
+        # What depends on it may follow from the design too, and has nothing to estimate then.
+        kept = {*observed, entry.id}
+        entries = [one if one.id in kept else one.model_copy(update={"estimate": None}) for one in entries]
     return replace(loaded, value=loaded.value.model_copy(update={"measures": tuple(entries)}))

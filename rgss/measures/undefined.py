@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from rgss.measures.definitions import MeasureSet
 from rgss.measures.expressions import Binary, Call, Negative, Node, Power
+from rgss.measures.functions import FUNCTIONS, Shape
 from rgss.measures.possible_values import range_of
 from rgss.measures.ranges import Range
 
@@ -63,6 +64,8 @@ def _is_never_defined(node: Node, ranges: Mapping[str, Range]) -> bool:
         undefined = (node.exponent < 0.0 and _is_zero(base)) or (is_root and base.high < 0.0)
         return undefined or _is_never_defined(node.base, ranges)
     if isinstance(node, Call):
+        if FUNCTIONS[node.function].shape is Shape.CHOICE:
+            return all(_is_never_defined(one, ranges) for one in node.arguments)
         of_negative = node.function == _ROOT and range_of(node.arguments[0], ranges).high < 0.0
         return of_negative or any(_is_never_defined(one, ranges) for one in node.arguments)
     return False

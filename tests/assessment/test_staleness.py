@@ -21,7 +21,7 @@ from rgss.trials.code.piece_versions import versions
 
 REQUIREMENT, MEASURE, MODEL = StaleCause.REQUIREMENT, StaleCause.MEASURE, StaleCause.MODEL
 CODE_CHANGED, ENGINES = StaleCause.CODE, StaleCause.ENGINES
-OF_TRIALS = {"SYS-005", "SYS-009", "SYS-024", "SYS-033", "SYS-040"}
+OF_TRIALS = {"SYS-005", "SYS-009", "SYS-012", "SYS-024", "SYS-033", "SYS-040"}
 """Requirements whose measure is observed in trials; the others follow from the design alone."""
 
 

@@ -310,16 +310,16 @@ def test_a_study_may_ask_that_feasibility_is_shown(shipped, measured):
     trade_off = dataclasses.replace(shipped.study.trade_off, shown_feasible=True)
     strict = dataclasses.replace(shipped, study=dataclasses.replace(shipped.study, trade_off=trade_off))
     problem = trade_problem(strict, measured)
-    assert {"S.low", "t_e_simulated.high", "t_p.high", "P_max"} <= {one.measure for one in problem.thresholds}
+    assert {"S.low", "t_e_simulated.high", "t_p.high", "P_max_simulated"} <= {one.measure for one in problem.thresholds}
     assert not problem.feasible_alternatives(at_most=100)
 
 
 def test_every_page_states_the_rule_of_the_choice(made):
     ruled = dataclasses.replace(made, tolerance=0.05, last_of_equals=True)
     sentence = (
-        "Rule: of the variants whose estimates miss no threshold on what trials observe by more than 5 % of it, and no "
-        "other threshold, the one of the highest value is chosen; of equals one that no other surpasses in the "
-        "quantities of the valued measures, then the largest id."
+        "Rule: of the variants whose estimates miss no threshold on what varies from trial to trial by more than 5 % "
+        "of it, and no other threshold, the one of the highest value is chosen; of equals one that no other surpasses "
+        "in the quantities of the valued measures, then the largest id."
     )
     assert sentence in list(decision_lines(ruled))
     assert sentence in decision_section(ruled)
@@ -351,8 +351,9 @@ def test_the_probability_that_is_stated_is_that_of_being_within_the_margin(made)
         "margin of 0.05: 75 %; that it is feasible: "
     )
     assert second == (
-        "Feasible is here what misses no threshold on what trials observe by more than 10 % of it, the tolerance of "
-        f"the choice; verdicts have none. Probability that variant {chosen} meets every requirement without it: 68 %."
+        "Feasible is here what misses no threshold on what varies from trial to trial by more than 10 % of it, the "
+        f"tolerance of the choice; verdicts have none. Probability that variant {chosen} meets every requirement "
+        "without it: 68 %."
     )
     assert next(uncertainty_sentences(dataclasses.replace(stated, practical_margin=0.0))).startswith(
         f"Probability that variant {chosen} is feasible and best: 75 %"

@@ -3,12 +3,23 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
 
 from rgss.decision.study_decision.equations import equation_verifications
 from rgss.reports.decision.sentences import _equation_sentence
+
+
+@pytest.fixture
+def by_equation(shipped):
+    """The shipped project with SYS-012 on the payload of the equation."""
+    system = tuple(
+        replace(one, criterion=replace(one.criterion, measure="P_max")) if one.id == "SYS-012" else one
+        for one in shipped.requirements.system
+    )
+    return replace(shipped, requirements=replace(shipped.requirements, system=system))
 
 
 def designs(*payloads):
@@ -47,8 +58,14 @@ APART = "variants 1, 3 are on the other side of the threshold by it."
         ([(1.0, None)], (), "These trials have no value of P_max_simulated."),
     ],
 )
-def test_the_page_says_why_the_equation_is_used_and_whether_the_simulation_differs(shipped, payloads, otherwise, words):
-    (found,) = equation_verifications(shipped, designs(*payloads))
+def test_the_page_says_why_the_equation_is_used_and_whether_the_simulation_differs(
+    by_equation, payloads, otherwise, words
+):
+    (found,) = equation_verifications(by_equation, designs(*payloads))
 
     assert (found.requirement, found.otherwise) == ("SYS-012", otherwise)
     assert _equation_sentence(found) == f"{STEM} {words}"
+
+
+def test_no_shipped_requirement_is_verified_by_an_equation_that_has_a_simulation(shipped):
+    assert equation_verifications(shipped, designs((1.0, 1.0))) == ()

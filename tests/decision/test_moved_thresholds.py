@@ -12,7 +12,7 @@ from rgss.decision.moved_thresholds import with_thresholds
 
 ANCHORED = (
     "values:",
-    "  - {measure: P_max, weight: 0.25, worst: {requirement: SYS-012}, best: 2.5 kg}",
+    "  - {measure: P_max_simulated, weight: 0.25, worst: {requirement: SYS-012}, best: 2.5 kg}",
     "  - {measure: C_total, weight: 0.25, worst: {requirement: SYS-004}, best: 30000 USD}",
     "  - {measure: t_e_simulated, weight: 0.3, worst: {requirement: SYS-005}, best: 5 s}",
     "  - {measure: S, weight: 0.2, worst: 0.8, best: 1.0}",

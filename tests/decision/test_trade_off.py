@@ -68,7 +68,8 @@ def values(*entries):
 def test_value_functions(problem_of):
     problem = problem_of(
         *values(
-            "{measure: P_max, weight: 0.2, worst: {requirement: SYS-012}, best: {requirement: SYS-012, times: 1.75}}",
+            "{measure: P_max_simulated, weight: 0.2, worst: {requirement: SYS-012},"
+            " best: {requirement: SYS-012, times: 1.75}}",
             "{measure: t_e_simulated, weight: 0.2, worst: 25 s, best: 5 s,"
             " between: [{at: {requirement: SYS-005, times: 0.6}, worth: 0.8}]}",
             "{measure: t_p, weight: 0.2, worst: 15 s, best: 1 s, halfway: 12 s}",
@@ -77,7 +78,7 @@ def test_value_functions(problem_of):
         )
     )
     assert problem.value_functions == (
-        PiecewiseValue(measure="P_max", worst=0.8, best=0.8 * 1.75),
+        PiecewiseValue(measure="P_max_simulated", worst=0.8, best=0.8 * 1.75),
         PiecewiseValue(measure="t_e_simulated", worst=25.0, best=5.0, interior=((15.0, 0.8),)),
         ExponentialValue(measure="t_p", worst=15.0, best=1.0, halfway=12.0),
         PiecewiseValue(measure="S", worst=0.8, best=1.0),
@@ -172,6 +173,7 @@ def test_too_few_replicates_for_a_chance(problem_of):
 def test_the_replicates_are_what_the_estimates_stand_on(problem_of, measured):
     problem = problem_of(*BOTH, "tail: [{measure: S, at_least: 0.5, worst_share: 0.5}]")
     for entry, alternative in zip(measured, problem.alternatives, strict=True):
+        # The payload of the bench is exact.
         assert set(alternative.samples) == {"t_e", "t_e_simulated", "t_gc_simulated", "t_p", "S", "S_mean"}
         for measure, row in alternative.samples.items():
             known = [quantity for quantity in row if quantity is not None]
@@ -183,7 +185,7 @@ def test_the_replicates_are_what_the_estimates_stand_on(problem_of, measured):
 
 
 def test_a_threshold_that_moves_takes_its_anchor_along(shipped, measured, read):
-    study = read(*values("{measure: P_max, weight: 1, worst: {requirement: SYS-012}, best: 1.4 kg}"))
+    study = read(*values("{measure: P_max_simulated, weight: 1, worst: {requirement: SYS-012}, best: 1.4 kg}"))
     assert [(one.worst, one.best, one.weight) for one in study.values] == [(0.8, 1.4, 1.0)]
 
     def with_threshold(value):
@@ -196,7 +198,7 @@ def test_a_threshold_that_moves_takes_its_anchor_along(shipped, measured, read):
     assert trade_problem(with_threshold(0.9), measured).value_functions[0].worst == 0.9
     with pytest.raises(DefinitionError) as error:
         trade_problem(with_threshold(2.0), measured)
-    assert error.value.message == "with these ends of its value function, less P_max would be worth more"
+    assert error.value.message == "with these ends of its value function, less P_max_simulated would be worth more"
 
 
 def test_levels_come_to_the_same_decision(shipped, measured, read):

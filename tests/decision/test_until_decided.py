@@ -166,11 +166,13 @@ def test_trials_that_were_not_run_are_told(shipped, store):
         replicate_until_decided(shipped, store, lambda specs: None, rule=RULE)
 
 
-@pytest.mark.parametrize(("valued", "apart_by"), [(None, ("d7",)), ("P_max_simulated", ("d1", "d2", "d3"))])
+@pytest.mark.parametrize(
+    ("valued", "apart_by"), [(None, ("d1", "d2", "d3", "d7")), ("P_max_simulated", ("d1", "d2", "d3"))]
+)
 def test_variants_of_equal_trials_are_apart_if_a_measure_of_trials_takes_something_from_the_design(
     shipped, read_trade_off_of, monkeypatch, valued, apart_by
 ):
-    """If trials were the same for all, equation 4.3 would still depend on the speed, the bench on the hand."""
+    """If trials were the same for all, equation 4.3 would still depend on the speed, the payload on the hand."""
     monkeypatch.setattr(until_decided, "keys_of", lambda specs: ["the same"] * len(specs))
     project, variants = shipped, shipped.designs.expand()
     if valued is not None:

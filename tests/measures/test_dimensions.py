@@ -46,6 +46,7 @@ def analysed(text: str) -> tuple[Kind | None, tuple[ExpressionProblem, ...]]:
         ("sqrt(row) * sqrt(row)", "m", 5),
         ("c / m", "USD/kg", None),
         ("2 * 3", "1", None),
+        ("first_known(f / g, m, 2 * m)", "kg", None),
         ("x ** 0", "1", None),
     ],
 )
@@ -65,6 +66,8 @@ def test_the_unit_and_shape_follow_from_the_symbols(text: str, unit: str, length
         ("row + pair", 0, "measures.shape", "a row of 5 does not go with a row of 2"),
         ("sum(m)", 0, "measures.shape", "sum() of a single number; it needs a row"),
         ("max(m)", 0, "measures.shape", "max() of a single number; it needs a row"),
+        ("first_known(row, x)", 0, "measures.shape", "first_known() takes several numbers, and no row"),
+        ("first_known(m, x)", 0, "measures.unit", "first_known() of values in different units: kg, m"),
         ("min(row, x)", 0, "measures.shape", "min() takes one row or several numbers, not a mixture"),
     ],
 )

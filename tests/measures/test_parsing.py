@@ -89,11 +89,17 @@ def test_what_is_not_listed_is_refused_where_it_stands(text: str, offset: int, m
             "__import__(a)",
             "measures.unknown-function",
             "unknown function '__import__'",
-            "functions: abs, count, max, mean, min, norm, sqrt, sum",
+            "functions: abs, count, first_known, max, mean, min, norm, sqrt, sum",
         ),
         ("sum(a, b)", "measures.arguments", "sum() takes one argument, not 2", ""),
         ("sqrt()", "measures.arguments", "sqrt() takes one argument, not 0", ""),
         ("max()", "measures.arguments", "max() needs a row or several numbers", ""),
+        (
+            "first_known(a)",
+            "measures.arguments",
+            "first_known() needs several numbers, such as first_known(x, y)",
+            "",
+        ),
     ],
 )
 def test_calls_are_checked(text: str, rule: str, message: str, hint: str) -> None:

@@ -52,7 +52,9 @@ def grown(inner: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
         st.tuples(inner, powers).map(lambda one: f"({one[0]}) ** {one[1]}"),
         inner.map(lambda one: f"(-{one})"),
         st.tuples(st.sampled_from(["abs", "sqrt"]), inner).map(lambda one: f"{one[0]}({one[1]})"),
-        st.tuples(st.sampled_from(["max", "min"]), inner, inner).map(lambda one: f"{one[0]}({one[1]}, {one[2]})"),
+        st.tuples(st.sampled_from(["max", "min", "first_known"]), inner, inner).map(
+            lambda one: f"{one[0]}({one[1]}, {one[2]})"
+        ),
         st.tuples(st.sampled_from(["sum", "mean", "max", "min", "norm", "count"]), ROWS, inner).map(
             lambda one: f"{one[0]}({one[1]} * {one[2]})"
         ),
@@ -96,6 +98,7 @@ def test_no_value_is_outside_the_range_of_its_expression(text: str, values: dict
         ("count(row)", 0.0, 3.0),
         ("0 * e", 0.0, 0.0),
         ("1 - b / 4", 0.0, 1.0),
+        ("first_known(a, b)", -2.0, 4.0),
     ],
 )
 def test_ranges_worked_by_hand(text: str, low: float, high: float) -> None:

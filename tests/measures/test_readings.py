@@ -60,6 +60,20 @@ def test_a_reading_may_change_the_estimate_alone(load_entries: Loader, entry: Wr
     assert value_of(with_alternative(measures, "s", "mean"), "s", *trials) == 0.75
 
 
+def test_a_reading_of_a_measure_of_trials_may_follow_from_the_design(load_entries: Loader, entry: Writer) -> None:
+    alternatives = "[{id: stated, expression: m / 2, rationale: R.}]"
+    measures = load_entries(
+        entry("s", "m * share", "kg", estimate=MEAN, alternatives=alternatives),
+        entry("twice", "2 * s", "kg", estimate=MEAN),
+    )
+    stated = with_alternative(measures, "s", "stated")
+
+    assert stated.measure("s").estimate is None
+    assert value_of(measures, "s", {"share": 0.1}) == pytest.approx(0.3)
+    assert (value_of(stated, "s"), value_of(stated, "s", {"share": 0.1})) == (1.5, 1.5)
+    assert value_of(stated, "twice", {"share": 0.1}) == 3.0
+
+
 def test_two_readings_that_need_each_other_cannot_be_taken_together(load_entries: Loader, entry: Writer) -> None:
     measures = load_entries(
         entry("a", "m", "kg", alternatives="[{id: other, expression: b, rationale: R.}]"),
@@ -185,7 +199,9 @@ def test_the_readings_of_the_source_are_alternatives(reference: MeasureSet) -> N
 
     assert found >= {
         ("S", "share_of_states"),
-        ("F_max", "force_of_the_hand"),
+        ("P_max", "force_of_the_hand"),
+        ("P_max_simulated", "force_of_the_hand"),
+        ("P_max_simulated", "equation"),
         ("t_e", "without_planning"),
         ("t_e", "simulated"),
         ("t_e_simulated", "without_planning"),

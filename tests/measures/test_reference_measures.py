@@ -263,6 +263,7 @@ def test_a_failed_trial_counts_in_success_and_not_in_time(reference: MeasureSet)
         "phases_total": 8,
         "planning_time_s": (0.5, 0.5, 4.0, None, None),
         "path_length_m": (0.2, 0.3, None, None, None),
+        "bench_payload_kg": TRIAL["bench_payload_kg"],
     }
     failed["attempt_time_s"] = 7.0
     result = values(reference, 1, TRIAL, failed, TRIAL)

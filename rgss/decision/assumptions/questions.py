@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from rgss.decision.assumptions.names import alternative_in_words, name_in_words
-from rgss.decision.what_if import COST, PRICES, assumed_numbers, model_settings, readings_of
+from rgss.decision.what_if import COST, PRICES, assumed_numbers, deciding_readings, model_settings
 from rgss.evidence import Fidelity
 from rgss.studies import Project
 
@@ -49,7 +49,7 @@ def questions_of(project: Project) -> tuple[Question, ...]:
 
     They are those with alternatives in the study's file; if it has none, the charge of a check halved and
     doubled, each planning limit of a design for all designs, the world without uncertainty, kinematic trials, and
-    assumed prices of 0. Readings of the source follow from the measures' file.
+    assumed prices of 0. Readings of the source that decide something follow from the measures' file.
 
     Args:
         project: The project with its study.
@@ -59,7 +59,7 @@ def questions_of(project: Project) -> tuple[Question, ...]:
         for one in project.study.assumptions
         for alternative in one.alternatives
     ]
-    readings = [Question(about=one.id, alternative=one.alternative) for one in readings_of(project)]
+    readings = [Question(about=one.id, alternative=one.alternative) for one in deciding_readings(project)]
     found = dict.fromkeys((*(listed or _derived(project)), *readings))
     return tuple(replace(one, title=name_in_words(project, one.about)) for one in found)
 

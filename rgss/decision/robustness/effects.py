@@ -56,7 +56,7 @@ def study_effects(project: Project, measured: Sequence[VariantMeasures], resampl
     for measure in _analysed(project):
         estimates = design.arranged([_number(entry.estimates[measure.id].value) for entry in measured])
         resampled = None
-        if resamples is not None and measure.from_trials:
+        if resamples is not None and measure.id in replicates:
             resampled = resamples.means(replicates.pop(measure.id))
         known = np.isfinite(estimates)
         if known.tobytes() not in blocks:
@@ -82,11 +82,11 @@ def _analysed(project: Project) -> Iterator[Measure]:
 
 
 def _replicate_columns(project: Project, measured: Sequence[VariantMeasures]) -> dict[str, NDArray[np.float64]]:
-    """Quantities by replicate of each variant, shape (n, r), for each measure that is observed in trials.
+    """Quantities by replicate of each variant, shape (n, r), for each measure with noise.
 
     Arrays are filled row by row, since lists of Python objects would take four times the memory.
     """
-    names = [measure.id for measure in _analysed(project) if measure.from_trials]
+    names = [measure.id for measure in _analysed(project) if measure.id in project.measures.noisy]
     columns: dict[str, NDArray[np.float64]] = {}
     for place, entry in enumerate(measured):
         row = replicates_of(project.measures, entry, only=names)

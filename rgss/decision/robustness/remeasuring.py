@@ -93,6 +93,11 @@ class Remeasuring:
                 continue
             if observed is None:
                 observed = [replicates_of(measures, self._changed(row, number, value), only=wanted) for row in rows]
+            if column not in self.table.samples:
+                # All replicates are the same.
+                first = (next((value for value in one[measure] if value is not None), None) for one in observed)
+                quantities[rows, place] = [np.nan if value is None else value for value in first]
+                continue
             old = self.table.samples[column]
             values = old.values.copy()
             fresh = _padded([one[measure] for one in observed], values.shape[1])

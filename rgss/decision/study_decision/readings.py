@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from rgss.assessment import VariantMeasures
 from rgss.decision.assumptions import AssumptionOutcome
 from rgss.decision.choosing import choose
-from rgss.decision.what_if import Reading, measured_in, readings_of, suppose
+from rgss.decision.what_if import Reading, deciding_readings, measured_in, suppose
 from rgss.errors import RgssError
 from rgss.studies import Project
 
@@ -31,13 +31,13 @@ class ReadingOutcome:
 
 
 def reading_outcomes(project: Project, measured: Sequence[VariantMeasures]) -> tuple[ReadingOutcome, ...]:
-    """The choice under each alternative of each measure, one at a time, from the stored trials.
+    """The choice under each alternative of each measure that decides something, one at a time, from the stored trials.
 
     Args:
         project: The project with its study.
         measured: Every variant with its estimates and records.
     """
-    return tuple(_outcome(project, measured, reading) for reading in readings_of(project))
+    return tuple(_outcome(project, measured, reading) for reading in deciding_readings(project))
 
 
 def readings_among(project: Project, outcomes: Sequence[AssumptionOutcome]) -> tuple[ReadingOutcome, ...]:
@@ -48,7 +48,7 @@ def readings_among(project: Project, outcomes: Sequence[AssumptionOutcome]) -> t
         outcomes: The choice under each alternative of each assumption.
     """
     by_name = {one.question.supposition: one for one in outcomes}
-    pairs = ((reading, by_name[reading.supposition]) for reading in readings_of(project))
+    pairs = ((reading, by_name[reading.supposition]) for reading in deciding_readings(project))
     return tuple(
         ReadingOutcome(reading=reading, chosen=one.chosen, feasible=one.feasible, reason=one.reason)
         for reading, one in pairs

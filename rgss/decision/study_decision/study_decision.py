@@ -27,6 +27,7 @@ from rgss.decision.study_decision.equations import EquationVerification, equatio
 from rgss.decision.study_decision.findings import RobustnessFindings, robustness_findings
 from rgss.decision.study_decision.readings import ReadingOutcome, reading_outcomes, readings_among
 from rgss.decision.study_decision.reasons import ClosestLimit, Gain, closest_limits, gains_over_runner_up
+from rgss.decision.study_decision.substitutions import DecidingSubstitution, deciding_substitutions
 from rgss.decision.study_decision.suppositions import WhatIf, decision_side
 from rgss.decision.what_if import Scenario, measured_in
 from rgss.measures import ModelGap, model_gaps
@@ -54,7 +55,7 @@ class StudyDecision:
         gains: The gains of the choice over the runner-up, in the order of the weights.
         closest_limits: The limits closest to the choice.
         practical_margin: Differences in value below this are of no practical meaning.
-        tolerance: Share of a threshold on what trials observe by which the choice may miss it.
+        tolerance: Share of a threshold on what varies from trial to trial by which the choice may miss it.
         last_of_equals: True if the largest id of equals is chosen; otherwise the smallest.
         unweighted: Valued measures with weight 0, which no rule of the choice reads.
         shown_feasible: True if verdicts decide whether a variant meets a requirement; otherwise estimates.
@@ -73,6 +74,7 @@ class StudyDecision:
         drivers: Drivers of failures; None if not analysed.
         cases: The success of each case of the workload; empty without a workload.
         equations: Requirements that an equation verifies although its measure has a simulation.
+        substitutions: Terms that stand for those that the trials of a deciding measure do not observe.
         seeds: The seeds that were read, if variants may have different numbers; empty otherwise.
     """
 
@@ -98,6 +100,7 @@ class StudyDecision:
     elicited_by: Mapping[str, ElicitedWeights] = field(default_factory=dict)
     gaps: tuple[ModelGap, ...] = ()
     equations: tuple[EquationVerification, ...] = ()
+    substitutions: tuple[DecidingSubstitution, ...] = ()
     readings: tuple[ReadingOutcome, ...] = ()
     assumptions: tuple[AssumptionOutcome, ...] = ()
     drivers: DriversOfFailures | None = None
@@ -261,6 +264,7 @@ def study_decision(
         what_if=what_if,
         gaps=_gaps(project, measured, decision),
         equations=equation_verifications(project, measured),
+        substitutions=deciding_substitutions(project, measured),
         readings=readings,
         assumptions=assumptions,
         drivers=None if found is None else _drivers(project, measured),

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
         symbols_of,
         variant_with,
     )
-    from rgss.decision.what_if.readings import Reading, readings_of
+    from rgss.decision.what_if.readings import Reading, deciding_readings
     from rgss.decision.what_if.remeasured import measured_in
     from rgss.decision.what_if.scenario import Change, Scenario
     from rgss.decision.what_if.shapes import ALL, SHAPE

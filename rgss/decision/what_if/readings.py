@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 from dataclasses import dataclass, replace
 
+from rgss.decision.preference_model import deciding_measures
 from rgss.errors import DefinitionError
 from rgss.findings import shown
 from rgss.measures import with_alternative
@@ -45,6 +46,21 @@ def readings_of(project: Project) -> tuple[Reading, ...]:
         for measure in project.measures.measures
         for one in measure.alternatives
     )
+
+
+def deciding_readings(project: Project) -> tuple[Reading, ...]:
+    """The alternatives of measures that the choice reads, and of those that these use.
+
+    Args:
+        project: The project with its study.
+
+    Raises:
+        TradeoffError: As for `deciding_measures`.
+        DefinitionError: As for `deciding_measures`.
+    """
+    deciding = frozenset(deciding_measures(project))
+    used = deciding.union(*(project.measures.used[measure] for measure in deciding))
+    return tuple(reading for reading in readings_of(project) if reading.measure in used)
 
 
 def with_reading(project: Project, name: str, alternative: str) -> tuple[Reading, Project]:

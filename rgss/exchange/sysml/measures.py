@@ -5,7 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from rgss.exchange.sysml.notation import body, declared, documentation, name, real
-from rgss.measures import Binary, Call, Measure, MeasureSet, Name, Negative, Node, Number, Power
+from rgss.measures import (
+    FIRST_KNOWN,
+    Binary,
+    Call,
+    Measure,
+    MeasureSet,
+    Name,
+    Negative,
+    Node,
+    Number,
+    Power,
+    replaceable_symbols,
+)
 
 MEASURES = "Measures"
 
@@ -39,9 +51,11 @@ def _calculation(
     equation = f" Equation {measure.equation}." if measure.equation else ""
     text = f"{measure.kind.value.upper()}: {measure.definition} Given in {measure.unit}.{equation}"
     inner = [documentation(text)]
+    replaceable = replaceable_symbols(measure.expression)
     for symbol in measure.expression.names:
         if symbol not in constants:
-            count = f"[{lengths[symbol]}] ordered nonunique" if lengths.get(symbol) else ""
+            may_lack = "[0..1]" if symbol in replaceable else ""
+            count = f"[{lengths[symbol]}] ordered nonunique" if lengths.get(symbol) else may_lack
             inner += body(f"in {name(symbol)} : Real{count}", [documentation(_unit(units[symbol]))])
     rows = {symbol: length for symbol, length in lengths.items() if length}
     length = _length(measure.expression.root, rows)
@@ -112,6 +126,8 @@ def _call(node: Call, rows: Mapping[str, int], entries: Mapping[str, str]) -> st
         for other in reversed(others):
             last = f"{node.function}({other}, {last})"
         return last
+    if node.function == FIRST_KNOWN:
+        return f"({' ?? '.join(_written(argument, rows, entries) for argument in node.arguments)})"
     # A reduction is one number, also within a row that is computed entry by entry.
     row = _written(node.arguments[0], rows, {})
     return {

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from rgss.reports.decision.report_part import decision_part
     from rgss.reports.decision.report_sensitivity import sensitivity_part
     from rgss.reports.decision.sensitivity_sentences import no_rival_clause
-    from rgss.reports.decision.sentences import cautions, certificate_sentence, gap_sentence, reasons
+    from rgss.reports.decision.sentences import cautions, certificate_sentence, gap_sentence, model_cautions, reasons
     from rgss.reports.decision.text import (
         decision_lines,
         question_lines,

@@ -66,7 +66,9 @@ def rule_sentence(made: StudyDecision) -> str:
     within = "meet every requirement"
     if made.tolerance:
         share = share_text(made.tolerance)
-        within = f"miss no threshold on what trials observe by more than {share} of it, and no other threshold"
+        within = (
+            f"miss no threshold on what varies from trial to trial by more than {share} of it, and no other threshold"
+        )
     value = "of the highest value" if made.decision.program == "additive" else f"that {made.decision.program} prefers"
     end = "largest" if made.last_of_equals else "smallest"
     with_weight = " with a weight above 0" if made.unweighted else ""
@@ -178,7 +180,7 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
     )
     if made.tolerance:
         yield (
-            "Feasible is here what misses no threshold on what trials observe by more than "
+            "Feasible is here what misses no threshold on what varies from trial to trial by more than "
             f"{share_text(made.tolerance)} of it, the tolerance of the choice; verdicts have none. Probability that "
             f"variant {made.decision.chosen} meets every requirement without it: {share_in_words(one.as_required)}."
         )

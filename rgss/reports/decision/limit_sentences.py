@@ -12,7 +12,7 @@ def limit_sentences(limits: Sequence[LimitMoves], *, tolerance: float) -> tuple[
 
     Args:
         limits: The moves of each limit.
-        tolerance: Share of a threshold on what trials observe by which the choice may miss it.
+        tolerance: Share of a threshold on what varies from trial to trial by which the choice may miss it.
     """
     sentences = [anchored_limits_sentence(limits)]
     tolerated = [one for one in limits if one.is_tolerated]

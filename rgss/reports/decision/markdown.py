@@ -107,7 +107,11 @@ def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:
     decision = made.decision
     others = decision.ties[1:]
     ties = f" ({variants_text(others)} {'is' if len(others) == 1 else 'are'} as good)" if others else ""
-    within = f", within the tolerance of {share_text(made.tolerance)} on what trials observe" if made.tolerance else ""
+    within = (
+        f", within the tolerance of {share_text(made.tolerance)} on what varies from trial to trial"
+        if made.tolerance
+        else ""
+    )
     basis = basis_text(shown_feasible=made.shown_feasible)
     yield (
         f"**Variant {decision.chosen}** is chosen{ties} from {made.variants} variants with {made.trials} trials; "

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from rgss.counted import counted
-from rgss.decision.study_decision import EquationVerification, StudyDecision
+from rgss.decision.study_decision import DecidingSubstitution, EquationVerification, StudyDecision
 from rgss.measures import ModelGap
 from rgss.reports.decision.conclusion import share_text
 from rgss.reports.decision.flat_sentences import flat_sentences
@@ -45,7 +45,7 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
     limits = " and every limit of the program" if decision.program == "epsilon_constraint" else ""
     within = ""
     if made.tolerance:
-        within = f", within the tolerance of {share_text(made.tolerance)} on what trials observe"
+        within = f", within the tolerance of {share_text(made.tolerance)} on what varies from trial to trial"
     basis = basis_text(shown_feasible=made.shown_feasible)
     yield Reason(text=f"Variant {decision.chosen} {among} every requirement{limits} by the {basis}{within}.")
     others = [variant for variant in decision.ties if variant != decision.chosen]
@@ -113,7 +113,17 @@ def cautions(made: StudyDecision) -> Iterator[str]:
             yield f"{flat.measure} is worth the same for all {among}, so its weight of {flat.weight:g} has no effect."
     for gap in made.gaps:
         yield f"{gap_sentence(gap)}."
+    yield from model_cautions(made)
+
+
+def model_cautions(made: StudyDecision) -> Iterator[str]:
+    """Cautions on verdicts, whether a variant is chosen or not: what an equation decides.
+
+    Args:
+        made: The decision.
+    """
     yield from (_equation_sentence(one) for one in made.equations)
+    yield from (_substitution_sentence(one, made.variants) for one in made.substitutions)
 
 
 def _equation_sentence(one: EquationVerification) -> str:
@@ -127,6 +137,19 @@ def _equation_sentence(one: EquationVerification) -> str:
         return f"{text}. {both}, and all of them are on the same side of the threshold by both."
     are = "is" if len(one.otherwise) == 1 else "are"
     return f"{text}. {both}; {variants_text(one.otherwise)} {are} on the other side of the threshold by it."
+
+
+def _substitution_sentence(one: DecidingSubstitution, variants: int) -> str:
+    """Term that stands for one that trials do not observe, and what is decided by it."""
+    missing = " or ".join(one.substitution.missing) or "value of a term"
+    taken = " and ".join(one.substitution.taken) or "a number"
+    which = f"all {variants} variants" if len(one.variants) == variants > 1 else variants_text(one.variants)
+    have = "has" if one.trials == 1 else "have"
+    by = f" {' and '.join(one.requirements)} {'is' if len(one.requirements) == 1 else 'are'} judged by that."
+    return (
+        f"{counted(one.trials, 'trial')} of {which} {have} no {missing}; there {one.measure} takes {taken} instead."
+        f"{by if one.requirements else ''}"
+    )
 
 
 def unvalued_sentences(conflicts: Conflicts | None) -> Iterator[str]:

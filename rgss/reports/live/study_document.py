@@ -15,6 +15,7 @@ from rgss.reports.decision import (
     cautions,
     certificate_sentence,
     headline,
+    model_cautions,
     reasons,
     rule_sentence,
     stale_sentence,
@@ -111,7 +112,7 @@ def _decision(
         "headline": headline(made),
         "lines": [line for line in lines if line],
         "why": [one.text for one in reasons(made)] if made.comparison is not None else [],
-        "cautions": list(cautions(made)) if made.decision.chosen is not None else [],
+        "cautions": list(model_cautions(made) if made.decision.chosen is None else cautions(made)),
     }
 
 

@@ -129,8 +129,8 @@ def test_the_document_is_described(page, rgss, with_evidence):
         r"|^sensitivity\..*\.(effective_weights|regrets|weights)\..+$"
     )
     own = re.compile(
-        r"^(conclusion|robustness|sensitivity|what_if|portfolio|model_gaps|verified_by_equation|readings"
-        r"|modelling_assumptions)\b"
+        r"^(conclusion|robustness|sensitivity|what_if|portfolio|model_gaps|verified_by_equation|substitutions"
+        r"|readings|modelling_assumptions)\b"
     )
     found = {key for key in keys_of(document) if (own.match(key) or "." not in key) and not by_id.match(key)}
 
@@ -156,7 +156,7 @@ def test_the_decision_in_the_document_is_described(page, rgss, with_evidence):
     named = set(re.findall(r"^\| `([\w.\[\]]+)` \|", text, re.MULTILINE))
     whole = {"schema", "study", "double_counting", "shared_parts", "conclusion", "robustness", "portfolio", "what_if"}
     whole |= {"evidence", "screening", "model_gaps", "readings", "sensitivity", "elicitation"}
-    whole |= {"verified_by_equation"}
+    whole |= {"verified_by_equation", "substitutions"}
     whole |= {"modelling_assumptions", "failure_drivers", "cases"}
 
     assert nothing.status == 1

@@ -222,7 +222,7 @@ def test_evidence_is_checked_where_asked_for(rgss, with_evidence, untouched):
 
     told = rgss("check", "--evidence", "--project", untouched)
     assert told.status == 1
-    assert told.output.count("has no evidence for any of the 72 variants (rgss sweep) [evidence.none]") == 5
+    assert told.output.count("has no evidence for any of the 72 variants (rgss sweep) [evidence.none]") == 6
 
 
 def test_verdicts_are_recorded_and_then_stale(rgss, judged):
@@ -276,7 +276,7 @@ def test_another_model_makes_evidence_stale(rgss, judged):
     assert {(row["requirement"], *row["changed"]) for row in rows if row["verdict"] == "stale"} == {
         # The records of the fixture name neither code nor engines.
         (requirement, "model", "code", "engines")
-        for requirement in ("SYS-005", "SYS-009", "SYS-024", "SYS-033", "SYS-040")
+        for requirement in ("SYS-005", "SYS-009", "SYS-012", "SYS-024", "SYS-033", "SYS-040")
     }
     assert not [row for row in rows if row["verdict"] == "not_run"]
 
@@ -286,7 +286,7 @@ def test_a_verdict_of_one_variant_says_why_it_is_stale(rgss, judged):
     path.write_text(path.read_text(encoding="utf-8").replace("mass: 0.25 kg", "mass: 0.26 kg"), encoding="utf-8")
     told = rgss("measure", "--variant", 7, "--project", judged)
 
-    assert "5 verdicts are stale, for this changed since they were made: model, code, engines\n" in told.output
+    assert "6 verdicts are stale, for this changed since they were made: model, code, engines\n" in told.output
     remedy = "'rgss sweep' makes the outdated trials again, and records the verdicts of their variants.\n"
     assert told.output.endswith(remedy)
     assert "--record" not in told.output

@@ -56,7 +56,7 @@ def test_what_is_no_single_number_is_as_stated():
 def test_the_questions_of_a_study_have_them(reference):
     questions = questions_of(reference)
     assert {one.title for one in questions} >= {
-        "Gripper force",
+        "Maximum acceptable payload, simulated",
         "Goal bias of all planners",
         "All assumed prices of components",
     }

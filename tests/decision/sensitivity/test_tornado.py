@@ -171,14 +171,14 @@ def test_a_stated_end_beyond_which_no_value_is_defined_costs_no_other_bar(analys
         choice=[
             "values:",
             "  - {measure: C_total, weight: 0.6, worst: 43000 USD, best: 39000 USD}",
-            "  - {measure: P_max, weight: 0.4, worst: {requirement: SYS-012}, best: 1.4 kg,",
+            "  - {measure: P_max_simulated, weight: 0.4, worst: {requirement: SYS-012}, best: 1.4 kg,",
             "     between: [{at: 1 kg, worth: 0.7}]}",
         ],
     )
     (bar,) = [bar for bar in found.tornado.bars if bar.id == "SYS-012.threshold"]
     assert (bar.low.value, bar.basis) == (pytest.approx(0.4), RangeBasis.CUT_STATED)
     assert 0.8 < bar.high.value < 1.0
-    assert {"weight.P_max", "value.C_total.best"} <= {bar.id for bar in found.tornado.bars}
+    assert {"weight.P_max_simulated", "value.C_total.best"} <= {bar.id for bar in found.tornado.bars}
     assert "Of the ranges 1 are stated" in range_sentence(found.tornado)
     assert range_sentence(found.tornado).endswith("not defined: SYS-012.threshold.")
 

@@ -9,7 +9,7 @@ from rgss.decision.choosing import choose
 from rgss.decision.robustness import robustness
 from rgss.decision.study_decision import decide_study
 from rgss.decision.study_decision.readings import reading_outcomes
-from rgss.decision.what_if import measured_in, readings_of, suppose
+from rgss.decision.what_if import deciding_readings, measured_in, suppose
 from rgss.errors import DefinitionError
 from rgss.reports.decision import decision_lines, decision_part, trade_document
 
@@ -35,13 +35,22 @@ def test_a_reading_takes_the_place_of_the_measures_own(shipped, measured):
     assert scenario.changes == ()
 
 
-def test_what_depends_on_what_is_read_otherwise_follows(shipped, measured):
-    scenario = suppose(shipped, ["reading.F_max=force_of_the_hand"])
+def test_a_reading_that_follows_from_the_design_takes_the_place_of_a_simulation(shipped, measured):
+    scenario = suppose(shipped, ["reading.P_max_simulated=force_of_the_hand"])
     fingers = {entry.variant.id: entry.variant.parameters["d1"] for entry in measured}
 
     for entry in measured[:40:7]:
-        now = estimate(scenario, measured, "P_max_g", entry.variant.id)
+        now = estimate(scenario, measured, "P_max_simulated", entry.variant.id)
         assert now == pytest.approx(entry.estimates["P_max_g"].value / fingers[entry.variant.id])
+    assert choose(scenario.project, measured_in(scenario, measured)).counts.feasible == 0
+
+
+def test_only_readings_of_what_the_choice_reads_are_in_question(shipped):
+    asked = {one.supposition for one in deciding_readings(shipped)}
+    known = {f"reading.{measure.id}={one.id}" for measure in shipped.measures.measures for one in measure.alternatives}
+
+    # The study values t_e, its requirements bound t_e_simulated; nothing reads the energy.
+    assert known - asked == {"reading.E_cycle=recovered"}
 
 
 def test_a_reading_goes_together_with_other_suppositions(shipped, measured):
@@ -79,7 +88,7 @@ def test_the_page_lists_every_reading_with_the_choice_that_it_leads_to(shipped, 
         scenario=suppose(shipped, ["reading.t_e=simulated"]),
     )
 
-    assert [one.reading for one in outcomes] == list(readings_of(shipped))
+    assert [one.reading for one in outcomes] == list(deciding_readings(shipped))
     for outcome in outcomes:
         scenario = suppose(shipped, [outcome.reading.supposition])
         again = choose(scenario.project, measured_in(scenario, measured))

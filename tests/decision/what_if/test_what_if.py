@@ -161,15 +161,15 @@ def test_an_anchor_on_a_requirement_moves_with_it(shipped):
     """Where the file anchors a value on a threshold, supposing another threshold moves the value."""
     trade_off = shipped.study.trade_off
     anchored = tuple(
-        replace(valued, worst=RequirementAnchor(requirement="SYS-012", times=1.0))
-        if valued.measure == "P_max"
+        replace(valued, worst=RequirementAnchor(requirement="SYS-004", times=1.0))
+        if valued.measure == "C_total"
         else valued
         for valued in trade_off.valued
     )
     project = replace(shipped, study=replace(shipped.study, trade_off=replace(trade_off, valued=anchored)))
-    scenario = suppose(project, ["SYS-012.threshold=0.7 kg"])
+    scenario = suppose(project, ["SYS-004.threshold=42000 USD"])
 
-    assert next(one.worst for one in scenario.project.study.values if one.measure == "P_max") == pytest.approx(0.7)
+    assert next(one.worst for one in scenario.project.study.values if one.measure == "C_total") == pytest.approx(42e3)
 
 
 def test_several_suppositions_at_once(supposed):

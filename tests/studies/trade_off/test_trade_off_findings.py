@@ -277,7 +277,11 @@ def test_several_findings_at_once(read_trade_off_of):
 
 def test_the_project_s_own_requirements_are_looked_up(folder, edit, problems, place_of):
     file = "studies/pick_place.yaml"
-    edit(file, "worst: 0.8 kg", "worst: {requirement: SYS-012}")
+    edit(
+        file,
+        "{measure: P_max, weight: 0.25, worst: 0.8 kg,",
+        "{measure: P_max_simulated, weight: 0.25, worst: {requirement: SYS-012},",
+    )
     assert load_project(folder).study.values[0].worst == 0.8
     edit(file, "{requirement: SYS-012}", "{requirement: SYS-112}")
     (problem,) = problems()

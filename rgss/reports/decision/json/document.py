@@ -44,6 +44,7 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
         for gap in made.gaps
     ]
     document["verified_by_equation"] = _equations_to_json(made)
+    document["substitutions"] = _substitutions_to_json(made)
     document["readings"] = [
         {
             "measure": one.reading.measure,
@@ -91,6 +92,20 @@ def _equations_to_json(made: StudyDecision) -> list[dict[str, Any]]:
             "greatest_difference": one.greatest,
         }
         for one in made.equations
+    ]
+
+
+def _substitutions_to_json(made: StudyDecision) -> list[dict[str, Any]]:
+    return [
+        {
+            "measure": one.measure,
+            "requirements": list(one.requirements),
+            "missing": list(one.substitution.missing),
+            "taken": list(one.substitution.taken),
+            "variants": list(one.variants),
+            "trials": one.trials,
+        }
+        for one in made.substitutions
     ]
 
 

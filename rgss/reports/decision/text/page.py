@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from rgss.decision.study_decision import StudyDecision
 from rgss.reports.decision.answers_in_words import elicitation_sentences
 from rgss.reports.decision.conclusion import seeds_sentences
-from rgss.reports.decision.sentences import cautions, reading_lines
+from rgss.reports.decision.sentences import cautions, model_cautions, reading_lines
 from rgss.reports.decision.text.decision import certificate_lines, choice_lines, portfolio_lines
 from rgss.reports.decision.text.effects import effects_lines
 from rgss.reports.decision.text.modelling import drivers_lines, modelling_lines
@@ -46,8 +46,8 @@ def decision_lines(made: StudyDecision, *, effects: bool = False) -> Iterator[st
     if made.portfolio is not None:
         yield from portfolio_lines(made.portfolio)
     yield ""
-    if made.decision.chosen is not None:
-        yield from (f"Caution: {caution}" for caution in cautions(made))
+    found = model_cautions(made) if made.decision.chosen is None else cautions(made)
+    yield from (f"Caution: {caution}" for caution in found)
     yield from certificate_lines(made.decision.certificate)
     yield from elicitation_sentences(made.elicited, made.elicited_by)
     yield f"Evidence: {made.evidence}"
