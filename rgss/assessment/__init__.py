@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rgss.assessment.measuring import (
         VariantMeasures,
         judged_measures,
+        leading_measures,
         measure_variants,
         require_complete,
         requirements_with_criteria,

@@ -12,7 +12,7 @@ from rgss.assessment.stored_replicates import read_specs
 from rgss.designs import DesignVariant, sources
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, TrialRecord
-from rgss.measures import Estimate, MeasureKind, StaleCause, Verdict, evaluate, judge
+from rgss.measures import Estimate, Measure, MeasureKind, StaleCause, Verdict, evaluate, judge
 from rgss.requirements import Criterion, Requirement
 from rgss.studies import Project
 from rgss.trials.code import assume_engines
@@ -173,6 +173,21 @@ def judged_measures(project: Project) -> frozenset[str]:
     effectiveness = {measure.id for measure in project.measures.of_kind(MeasureKind.EFFECTIVENESS)}
     bounded = {criterion.measure for _, criterion in _criteria(project)}
     return frozenset(effectiveness | bounded)
+
+
+def leading_measures(project: Project) -> tuple[Measure, ...]:
+    """The measures of effectiveness, each by its simulation if that is what a requirement bounds.
+
+    Args:
+        project: The project.
+    """
+    measures = project.measures
+    bounded = {criterion.measure for _, criterion in _criteria(project)}
+    found = (
+        one.simulated_as if one.id not in bounded and one.simulated_as in bounded else one.id
+        for one in measures.of_kind(MeasureKind.EFFECTIVENESS)
+    )
+    return tuple(measures.measure(name) for name in dict.fromkeys(found) if name is not None)
 
 
 def _criteria(project: Project) -> tuple[tuple[Requirement, Criterion], ...]:

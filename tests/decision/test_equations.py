@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from rgss.decision.study_decision.equations import equation_verifications
-from rgss.reports.decision.sentences import _equation_sentence
+from rgss.reports.decision.model_sentences import _equation_sentence
 
 
 @pytest.fixture

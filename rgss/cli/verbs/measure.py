@@ -158,22 +158,21 @@ def _print_variant(project: Project, entry: VariantMeasures) -> None:
     print_table(["measure", "value", "unit", "interval", "trials", "name", "kind"], rows, right=(1, 4), spare=(5, 6))
     print()
     print_table(["requirement", "verdict"], [[name, verdict.value] for name, verdict in entry.verdicts.items()])
-    gaps = _gap_lines(project, [entry], entry.estimates)
-    if gaps:
-        print("", *gaps, sep="\n")
+    cautions = [*_gap_lines(project, [entry], entry.estimates), *_substitution_lines(project, [entry])]
+    if cautions:
+        print("", *cautions, sep="\n")
     _print_stale(project, [entry])
 
 
 def _print_all(project: Project, measured: Sequence[VariantMeasures]) -> None:
-    from rgss.assessment import judged_measures
+    from rgss.assessment import judged_measures, leading_measures
     from rgss.cli.measured_tables import print_measures, print_verdict_counts
-    from rgss.measures import MeasureKind
 
-    shown = project.measures.of_kind(MeasureKind.EFFECTIVENESS)
+    shown = leading_measures(project)
     print_verdict_counts(project, measured)
-    gaps = _gap_lines(project, measured, judged_measures(project))
-    if gaps:
-        print(*gaps, "", sep="\n")
+    cautions = [*_gap_lines(project, measured, judged_measures(project)), *_substitution_lines(project, measured)]
+    if cautions:
+        print(*cautions, "", sep="\n")
     print_measures(shown, measured)
     _print_stale(project, measured)
 
@@ -196,6 +195,15 @@ def _gap_lines(project: Project, measured: Sequence[VariantMeasures], shown: Con
         )
         lines.append(f"Caution: {in_all}, most in variant {variant}: {gap_sentence(widest)}.")
     return tuple(lines)
+
+
+def _substitution_lines(project: Project, measured: Sequence[VariantMeasures]) -> tuple[str, ...]:
+    """Cautions where another term stands for one that trials do not observe."""
+    from rgss.decision.study_decision import deciding_substitutions
+    from rgss.reports.decision import substitution_sentence
+
+    found = deciding_substitutions(project, measured)
+    return tuple(f"Caution: {substitution_sentence(one, len(measured))}" for one in found)
 
 
 def _print_stale(project: Project, measured: Sequence[VariantMeasures]) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from rgss.assessment import leading_measures
 from rgss.decision.robustness import AssumptionFinding, MeasureEffects, Part, Robustness, leading_factors
 from rgss.decision.study_decision.contenders import Contender, contenders_of
 from rgss.decision.study_decision.limit_moves import LimitMoves, limit_moves
-from rgss.measures import MeasureKind
 from rgss.studies import Project
 from rgss.tradeoff.robustness import Support
 
@@ -101,7 +101,7 @@ def robustness_findings(project: Project, found: Robustness, *, chosen: int | No
         chosen: The choice; None if there is none.
     """
     followed = [one for one in found.assumptions if one.range is not None]
-    shown = {measure.id for measure in project.measures.of_kind(MeasureKind.EFFECTIVENESS)}
+    shown = {measure.id for measure in leading_measures(project)}
     effects = tuple(one for one in found.effects.measures if one.measure in shown)
     return RobustnessFindings(
         analysis=found,

@@ -15,11 +15,12 @@ if TYPE_CHECKING:
     )
     from rgss.reports.decision.json import decision_to_json, elicitation_to_json, screening_to_json, trade_document
     from rgss.reports.decision.markdown import decision_section, text_with_place, with_section
+    from rgss.reports.decision.model_sentences import model_cautions, substitution_sentence
     from rgss.reports.decision.report_conflicts import conflict_part
     from rgss.reports.decision.report_part import decision_part
     from rgss.reports.decision.report_sensitivity import sensitivity_part
     from rgss.reports.decision.sensitivity_sentences import no_rival_clause
-    from rgss.reports.decision.sentences import cautions, certificate_sentence, gap_sentence, model_cautions, reasons
+    from rgss.reports.decision.sentences import cautions, certificate_sentence, gap_sentence, reasons
     from rgss.reports.decision.text import (
         decision_lines,
         question_lines,

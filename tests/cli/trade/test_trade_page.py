@@ -177,9 +177,9 @@ def test_brief_is_the_decision_alone(rgss, with_evidence):
 def test_effects_are_tables_of_levels(page):
     text, document = page
     effects = {one["measure"]: one for one in document["robustness"]["effects"]["measures"]}
-    fingers = next(one for one in effects["P_max"]["effects"] if one["factors"] == ["fingers"])
+    fingers = next(one for one in effects["P_max_simulated"]["effects"] if one["factors"] == ["fingers"])
 
-    assert "Effects on P_max [kg]: mean 1.06 of 72 designs" in text
+    assert "Effects on P_max_simulated [kg]: mean 1.06 of 72 designs" in text
     assert re.search(rf"^fingers +100 % +three +\{fingers['levels'][0]:+.4g}", text, re.MULTILINE)
     assert "without planner=stride" in text
 

@@ -99,7 +99,7 @@ def test_effects_of_few_designs_are_not_computed_rather_than_absent(folder, fill
     assert count < 8
     assert reason == f"{count} of the sampled designs have a value, of at least 8"
     assert f": {reason}." in page
-    assert re.search("^P_max +not computed", page, re.MULTILINE)
+    assert re.search("^P_max_simulated +not computed", page, re.MULTILINE)
     assert "no differences" not in page
     assert {one["measure"]: one["not_computed"] for one in effect_columns(effects)}["P_max"] == reason
 

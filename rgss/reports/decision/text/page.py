@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from rgss.decision.study_decision import StudyDecision
 from rgss.reports.decision.answers_in_words import elicitation_sentences
 from rgss.reports.decision.conclusion import seeds_sentences
-from rgss.reports.decision.sentences import cautions, model_cautions, reading_lines
+from rgss.reports.decision.model_sentences import model_cautions
+from rgss.reports.decision.sentences import cautions, reading_lines
 from rgss.reports.decision.text.decision import certificate_lines, choice_lines, portfolio_lines
 from rgss.reports.decision.text.effects import effects_lines
 from rgss.reports.decision.text.modelling import drivers_lines, modelling_lines
