@@ -8,9 +8,14 @@ import pytest
 
 from rgss.assessment.measuring import measure_variants
 from rgss.decision.choosing import trade_problem
+from rgss.decision.robustness.remeasuring import Remeasuring
 from rgss.decision.study_decision import decide_study
 from rgss.decision.study_decision.substitutions import deciding_substitutions
+from rgss.decision.what_if import assumed_numbers
+from rgss.designs import sources
+from rgss.measures import evaluate
 from rgss.reports.decision import decision_lines, trade_document
+from rgss.tradeoff.problem import tabulated
 
 
 @pytest.fixture(scope="module")
@@ -30,6 +35,22 @@ def with_bench(measured, payload_kg, *, of=range(1, 73)):
         )
         if entry.variant.id in of
         else entry
+        for entry in measured
+    ]
+
+
+def measured_again(project, measured):
+    """The estimates of changed records."""
+    return [
+        replace(
+            entry,
+            estimates=evaluate(
+                project.measures,
+                fixed=sources(entry.variant),
+                trials=[record.metrics for record in entry.records],
+                variant=entry.variant.id,
+            ),
+        )
         for entry in measured
     ]
 
@@ -71,3 +92,16 @@ def test_what_a_bench_shows_is_exact_in_a_decision(shipped, without_bench):
     limits = {one.requirement: one for one in problem.thresholds}
     assert (limits["SYS-012"].value, limits["SYS-004"].value) == (0.8, 43_000.0)
     assert limits["SYS-024"].value == pytest.approx(0.81)
+
+
+@pytest.mark.parametrize(("payload_kg", "follows"), [(None, True), (1.5, False)])
+def test_an_assumed_number_moves_the_equation_and_not_what_a_bench_showed(shipped, without_bench, payload_kg, follows):
+    """Equation 4.8 has the acceleration; the bench was lifted with that of the scene."""
+    seen = without_bench if payload_kg is None else measured_again(shipped, with_bench(without_bench, payload_kg))
+    table = tabulated(trade_problem(shipped, seen).alternatives)
+    (number,) = (one for one in assumed_numbers(shipped) if one.id == "measures.a_m")
+    moved = Remeasuring.of(shipped, seen, table).table_with(number, 5.0)
+
+    was, now = (one.column("P_max_simulated") for one in (table, moved))
+    expected = was * (9.81 + 1.2) / (9.81 + 5.0) if follows else [1.0] * 72
+    assert now == pytest.approx(expected)

@@ -82,7 +82,7 @@ class Remeasuring:
         quantities, samples = self.table.quantities.copy(), dict(self.table.samples)
         rows = self.users(number)
         affected = self.affected(number)
-        wanted = {self.measure_of(column) for column in affected}
+        noisy = {self.measure_of(column) for column in affected if column in self.table.samples}
         observed: list[Mapping[str, tuple[float | None, ...]]] | None = None
         known: dict[int, dict[str, float]] = {}
         for column in affected:
@@ -91,13 +91,11 @@ class Remeasuring:
             if not measures.measure(measure).from_trials:
                 quantities[rows, place] = self._by_design(measures, measure, rows, number, value, known)
                 continue
-            if observed is None:
-                observed = [replicates_of(measures, self._changed(row, number, value), only=wanted) for row in rows]
             if column not in self.table.samples:
-                # All replicates are the same.
-                first = (next((value for value in one[measure] if value is not None), None) for one in observed)
-                quantities[rows, place] = [np.nan if value is None else value for value in first]
+                quantities[rows, place] = [self._exact(measures, measure, row, number, value) for row in rows]
                 continue
+            if observed is None:
+                observed = [replicates_of(measures, self._changed(row, number, value), only=noisy) for row in rows]
             old = self.table.samples[column]
             values = old.values.copy()
             fresh = _padded([one[measure] for one in observed], values.shape[1])
@@ -115,6 +113,12 @@ class Remeasuring:
     def _changed(self, row: int, number: ModelNumber, value: float) -> VariantMeasures:
         entry = self.measured[row]
         return replace(entry, variant=variant_with(entry.variant, number, value))
+
+    def _exact(self, measures: MeasureSet, measure: str, row: int, number: ModelNumber, value: float) -> float:
+        """Quantity that is the same in all trials of a variant; NaN if they give none."""
+        entry = self._changed(row, number, value)
+        first = replicates_of(measures, replace(entry, records=entry.records[:1]), only=(measure,))[measure]
+        return next((one for one in first if one is not None), np.nan)
 
     def _by_design(
         self,
