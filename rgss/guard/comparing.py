@@ -25,6 +25,7 @@ from rgss.regression import (
     Behaviour,
     Candidate,
     ChangedTrial,
+    DecisionChanges,
     Failing,
     FailureCause,
     InputChange,
@@ -126,15 +127,16 @@ class _Comparing:
             for variant, seed in self._records.lost(trials, self._seeds[trials.run.id]):
                 text = f"run {trials.run.id}: the trial of variant {variant} with seed {seed} could not be run"
                 failing.append(Failing(trouble=FailureCause.NOT_RUN, text=text))
-        unstable, notes = self._decision()
+        decision = self._decision()
         inputs = self._changed_inputs()
         return RegressionReport(
             study=self._project.study.label,
             baseline=self._label,
             comparisons=tuple(latest[subject] for subject in sorted(latest, key=self._order)),
             behaviour=self._behaviour(inputs),
-            failing=(*failing, *unstable),
-            notes=(*self._of_the_baseline(), *schema_notes(self._baseline, record_schema(self._project)), *notes),
+            failing=(*failing, *decision.failing),
+            undecided=decision.undecided,
+            notes=(*self._notes_of_the_baseline(), *decision.notes),
             looks=settled.looks,
             trials=dict(self._seeds),
             error_rate=self._guard.error_rate,
@@ -235,11 +237,12 @@ class _Comparing:
         )
         return tuple(one for one in changes if one.kind is not InputKind.FILE or one.name != self._label)
 
-    def _of_the_baseline(self) -> list[str]:
+    def _notes_of_the_baseline(self) -> list[str]:
+        of_schema = schema_notes(self._baseline, record_schema(self._project))
         if self._baseline.has_values:
-            return list(self._paired.notes)
+            return [*self._paired.notes, *of_schema]
         text = "the baseline was written by an earlier rgss and lacks the values of inputs, so that changes of them "
-        return [f"{text}are not named; rewrite it with 'rgss regress --update --reason TEXT'"]
+        return [f"{text}are not named; rewrite it with 'rgss regress --update --reason TEXT'", *of_schema]
 
     def _behaviour(self, inputs: Sequence[InputChange]) -> Behaviour:
         changed: list[ChangedTrial] = []
@@ -259,18 +262,19 @@ class _Comparing:
         only_machine = bool(machines) and all(one.kind in harmless for one in inputs)
         return Behaviour(compared=compared, changed=tuple(changed), machine=machines[0] if only_machine else "")
 
-    def _decision(self) -> tuple[Sequence[Failing], Sequence[str]]:
+    def _decision(self) -> DecisionChanges:
         before, run = self._baseline.decision, self._guard.decision
         if before is None and run is None:
-            return (), ()
+            return DecisionChanges()
         if before is None or run is None or before.run != run:
             was, is_now = ("none" if one is None else one for one in (before.run if before else None, run))
             text = f"the guarded decision was that of run {was} and is that of run {is_now}"
-            return (Failing(trouble=FailureCause.CHANGED_SCHEMA, text=text),), ()
+            return DecisionChanges(failing=(Failing(trouble=FailureCause.CHANGED_SCHEMA, text=text),))
         trials = next(one for one in self._watched if one.run.id == run)
         count = trials.run.replicates
         if self._records.lost(trials, count):
-            return (Failing(trouble=FailureCause.NOT_RUN, text="decision: trials that it needs could not be run"),), ()
+            text = "decision: trials that it needs could not be run"
+            return DecisionChanges(failing=(Failing(trouble=FailureCause.NOT_RUN, text=text),))
         records = self._records.of(trials, count)
         now = decision_of(trials, records)
         explained: Mapping[str, float] = {} if now == before else explained_by_noise(trials, records, before, now)

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     )
     from rgss.regression.comparing import WHOLE_TRIAL, Candidate, Comparison, Guard, Outcome, Subject
     from rgss.regression.comparing_baselines import (
+        DecisionChanges,
         changed_trials,
         decision_changes,
         run_failings,

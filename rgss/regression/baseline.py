@@ -220,12 +220,18 @@ def _add_empty_values(data: dict[str, Any]) -> None:
 
 
 def _check(baseline: Baseline, label: str, again: str) -> None:
-    """Check beyond the types: every row has a value for each seed.
+    """Check beyond the types: a reason, seeds of the first look, and a value of each row for each seed.
 
     Raises:
-        EvidenceError: One has not.
+        EvidenceError: One of these is missing.
     """
+    if not any(each.reason.strip() for each in baseline.history):
+        raise EvidenceError(f"the baseline {label}: its history has no reason", hint=again)
     for name, run in baseline.runs.items():
+        least = 1 if baseline.schema > _WITHOUT_DESIGNS else 0
+        if not least <= run.first_look <= len(run.seeds):
+            problem = f"takes {run.first_look} of {len(run.seeds)} seeds at the first look"
+            raise EvidenceError(f"the baseline {label}: run {name} {problem}", hint=again)
         wrong = [variant for variant in run.fingerprints if not _is_number(variant)]
         if wrong:
             raise EvidenceError(f"the baseline {label}: run {name} has the variant {wrong[0][:20]!r}", hint=again)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from rgss.regression.baseline import Baseline, BaselineRun, DecisionState
 from rgss.regression.comparing import WHOLE_TRIAL
@@ -138,6 +139,21 @@ def unchanged_phases(
     return frozenset(same)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DecisionChanges:
+    """Changes of the decision.
+
+    Attributes:
+        failing: What is unstable.
+        undecided: Another choice and lost verdicts that the seeds neither show nor exclude to be more than chance.
+        notes: What is only reported.
+    """
+
+    failing: tuple[Failing, ...] = ()
+    undecided: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
 def decision_changes(
     before: DecisionState,
     now: DecisionState,
@@ -146,13 +162,13 @@ def decision_changes(
     error_rate: float,
     by_luck: Mapping[str, float] | None = None,
     unmoved: Collection[str] = (),
-) -> tuple[tuple[Failing, ...], tuple[str, ...]]:
+) -> DecisionChanges:
     """Changes of the decision.
 
-    A choice, a place on the Pareto front or a verdict that is gone is unstable, unless what it rests on
-    has not been shown to differ from the baseline by more than the luck of the seeds, or the present
-    evidence's own noise puts it back in more than the error rate's share of its resamples. A verdict may
-    become met.
+    A choice, a place on the Pareto front or a verdict that is gone is unstable. It may be chance if what it rests on
+    has not been shown to differ from the baseline by more than the luck of the seeds, or if the present
+    evidence's own noise puts it back in more than the error rate's share of its resamples: then the choice or the
+    verdict is undecided, and the place on the front is only reported. A verdict may become met.
 
     Args:
         before: The decision of the baseline.
@@ -164,11 +180,9 @@ def decision_changes(
             there being many; without one, what moved is taken to have moved.
         unmoved: Those of them of which every value is that of the baseline. No seed explains that they changed: a
             requirement, a weight or the code that decides did.
-
-    Returns:
-        What fails, and what is only reported.
     """
     failing: list[Failing] = []
+    undecided: list[str] = []
     notes: list[str] = []
     moves: list[tuple[str, str]] = []
     if before.chosen != now.chosen:
@@ -194,18 +208,20 @@ def decision_changes(
                 moves.append((f"verdict {variant} {requirement}", text))
     for what, text in moves:
         rests_on = "pareto" if what.startswith("pareto ") else what
+        # A place on the front is not a loss by itself, and most changes move one.
+        of_chance = notes if rests_on == "pareto" else undecided
         p_value = (by_luck or {}).get(rests_on, 0.0)
         share = explained.get(what, 0.0)
         if rests_on in unmoved:
             why = "every value is that of the baseline, so that a requirement, a weight or what decides has changed"
             failing.append(Failing(trouble=FailureCause.UNSTABLE, text=f"{text}; {why}"))
         elif p_value > error_rate:
-            notes.append(f"{text}; the seeds do not show that it is more than their luck (p = {p_value:.2f})")
+            of_chance.append(f"{text}; the seeds neither show nor exclude more than chance (p = {p_value:.2f})")
         elif share > error_rate:
-            notes.append(f"{text}; within the noise, which has it as it was in {share:.0%} of the resamples")
+            of_chance.append(f"{text}; within the noise, which has it as it was in {share:.0%} of the resamples")
         else:
             failing.append(Failing(trouble=FailureCause.UNSTABLE, text=text))
-    return tuple(failing), tuple(notes)
+    return DecisionChanges(failing=tuple(failing), undecided=tuple(undecided), notes=tuple(notes))
 
 
 def _variant(number: int | None) -> str:

@@ -95,7 +95,12 @@ def _p_values(one: Candidate, pairs: Pairs, mean_of: PairedMean | None) -> PValu
             same=max(
                 mean_of.below(margin),
                 mean_of.above(-margin),
-                unseen_p_value(one.baseline, margin, len(pairs.worsening)),
+                unseen_p_value(
+                    one.baseline,
+                    margin,
+                    len(pairs.worsening),
+                    greatest_move=float(np.max(np.abs(pairs.worsening))),
+                ),
             ),
         )
     seeds, mean = len(pairs.worsening), float(np.mean(pairs.worsening))

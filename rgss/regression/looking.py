@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 
-from rgss.regression.comparing import Candidate, Comparison, Subject
+from rgss.regression.comparing import Candidate, Comparison, Outcome, Subject
 from rgss.regression.error_rates import level_of_look
 from rgss.regression.judging import judge
 
@@ -32,8 +32,9 @@ def settle(
 ) -> Settled:
     """Group-sequential test: repeated looks with more seeds until no comparison is inconclusive or no look is left.
 
-    Decided comparisons are final. Each look tests all comparisons, at its part of the error rate; the probability of
-    any false claim over all looks is at most the sum of the parts.
+    A change that is found is final. That a metric is the same is claimed anew wherever more of its seeds were run, also
+    for another comparison of the run: these seeds may show a change. Each look tests all comparisons, at its part of
+    the error rate; the probability of any false claim over all looks is at most the sum of the parts.
 
     Args:
         candidates_at: Function that returns all comparisons at a look, from 1, for the runs that need more seeds; None
@@ -52,8 +53,13 @@ def settle(
         candidates = candidates_at(look, None if look == 1 else {subject.run for subject in undecided})
         for comparison in judge(candidates, level=level_of_look(look, looks, error_rate), look=look):
             known = latest.get(comparison.subject)
-            if known is None or not known.outcome.is_final:
+            if known is None or not known.outcome.is_final or _has_more_seeds(known, comparison):
                 latest[comparison.subject] = comparison
         if all(one.outcome.is_final for one in latest.values()):
             break
     return Settled(comparisons=latest, looks=look)
+
+
+def _has_more_seeds(known: Comparison, now: Comparison) -> bool:
+    """True if a metric was found the same by fewer seeds than there are now."""
+    return known.outcome is Outcome.SAME and now.seeds > known.seeds

@@ -150,7 +150,14 @@ def _of_mean(
     def power(count: int) -> float:
         return mean_power((MEAN_LOSS - 1.0) * margin, spread, count, levels[-1] * share)
 
-    return Power(loss=MEAN_LOSS * margin, probability=power(seeds[-1]), seeds=seeds[-1], seeds_needed=_least(power))
+    # A loss beyond the margin may be called the same at an earlier look, with at most the part of that look.
+    called_same = math.fsum(levels[:-1])
+    return Power(
+        loss=MEAN_LOSS * margin,
+        probability=max(0.0, power(seeds[-1]) - called_same),
+        seeds=seeds[-1],
+        seeds_needed=_least(power),
+    )
 
 
 def mean_power(beyond: float, spread: float, seeds: int, level: float) -> float:

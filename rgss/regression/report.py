@@ -89,6 +89,7 @@ class RegressionReport:
         inputs: The inputs that differ from those of the baseline.
         powers: The power of the comparisons, by subject.
         accepted: The stated reason for which changed behaviour is accepted in this run; empty if none.
+        undecided: Changes of the decision that may be chance, and are not shown to be.
     """
 
     study: str
@@ -103,6 +104,7 @@ class RegressionReport:
     inputs: tuple[InputChange, ...] = ()
     powers: Mapping[Subject, Power] = field(default_factory=dict, hash=False)
     accepted: str = ""
+    undecided: tuple[str, ...] = ()
 
     def of(self, *outcomes: Outcome) -> tuple[Comparison, ...]:
         """The comparisons with one of some outcomes."""
@@ -112,6 +114,11 @@ class RegressionReport:
     def fails(self) -> bool:
         """True if anything is worse, missing, unstable or otherwise failing."""
         return bool(self.failing or self.of(Outcome.WORSE, Outcome.MISSING))
+
+    @property
+    def is_inconclusive(self) -> bool:
+        """True if the seeds leave a metric, or a change of the decision, open."""
+        return bool(self.undecided or self.of(Outcome.INCONCLUSIVE))
 
     @property
     def incomplete(self) -> bool:
@@ -143,7 +150,9 @@ class RegressionReport:
             return str(Outcome.WORSE.value)
         if self.is_unexplained:
             return "changed"
-        for outcome in (Outcome.INCONCLUSIVE, Outcome.MOVED, Outcome.BETTER):
+        if self.is_inconclusive:
+            return str(Outcome.INCONCLUSIVE.value)
+        for outcome in (Outcome.MOVED, Outcome.BETTER):
             if self.of(outcome):
                 return str(outcome.value)
         return str(Outcome.SAME.value)

@@ -7,22 +7,24 @@ import math
 from rgss.regression.comparing import Series
 
 
-def unseen_p_value(baseline: Series, margin: float, seeds: int) -> float:
+def unseen_p_value(baseline: Series, margin: float, seeds: int, *, greatest_move: float = 0.0) -> float:
     """P-value of a mean that moves by its margin because a few seeds move by much and the others stay.
 
     Tests of a mean know the spread of the compared seeds alone. If a share ψ of all seeds moves, none of these is among
     n with a probability of (1 - ψ)^n, and the mean seems to stay where it is. A single seed is assumed to move by no
-    more than the range R of the baseline's seeds; then the mean moves by the margin m if a share of m / R does.
+    more than the range R of the baseline's seeds, or than the greatest move that was seen; then the mean moves by the
+    margin m if a share of m / R does.
 
     Args:
         baseline: The baseline's values, also those of seeds that are not compared.
         margin: The margin m.
         seeds: The number n of compared seeds.
+        greatest_move: Greatest difference of a compared seed.
 
     Returns:
         (1 - m / R)^n; 0 where no seed moves by more than the margin.
     """
-    span = _range_of_seeds(baseline)
+    span = max(_range_of_seeds(baseline), greatest_move)
     return 0.0 if span <= margin else (1.0 - margin / span) ** seeds
 
 

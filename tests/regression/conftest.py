@@ -75,6 +75,7 @@ def baseline() -> Baseline:
                 },
                 fingerprints={"9": (prints("a"),) * 3, "10": (prints("b"),) * 3},
                 inputs={"9": {"planner": "'RRT'"}, "10": {"planner": "'TRRT'"}},
+                first_look=2,
             )
         },
         decision=DecisionState(

@@ -122,7 +122,21 @@ def test_one_of_schema_4_is_read_without_levels_and_first_look(file, baseline):
         del run["designs"], run["first_look"]
     document["schema"] = 4
     file.write_text(json.dumps(document), "ascii")
-    assert read_baseline(file, label="b") == replace(baseline, schema=4)
+    runs = {name: replace(run, first_look=0) for name, run in baseline.runs.items()}
+    assert read_baseline(file, label="b") == replace(baseline, schema=4, runs=runs)
+
+
+@pytest.mark.parametrize("first_look", [-1, 0, 4])
+def test_a_first_look_of_no_seeds_or_of_more_than_there_are(refusal, first_look):
+    def change(document):
+        document["runs"]["planning"]["first_look"] = first_look
+
+    assert f"run planning takes {first_look} of 3 seeds at the first look" in refusal(change)
+
+
+@pytest.mark.parametrize("history", [[], [{"reason": " ", "revision": ""}]])
+def test_a_history_without_a_reason(refusal, history):
+    assert "its history has no reason" in refusal(lambda document: document.update(history=history))
 
 
 def test_every_schema_that_is_read_is_on_the_page():

@@ -188,6 +188,44 @@ def test_looks_go_on_until_nothing_is_inconclusive(candidate):
     assert by_run["grasp"].look == found.looks
 
 
+@pytest.mark.parametrize(
+    ("moved", "expected"),
+    [([9.0] * 8, Outcome.WORSE), ([4.0] * 4 + [0.1] * 4, Outcome.INCONCLUSIVE), ([0.1] * 8, Outcome.SAME)],
+)
+def test_seeds_that_another_comparison_asks_for_may_refute_the_same(candidate, moved, expected):
+    old = TIMES + TIMES[:2]
+    new = [value + 0.001 for value in old]
+
+    def at(look, _runs):
+        of_all = [
+            candidate(old * 2, new + [value + by for value, by in zip(old, moved, strict=True)]),
+            candidate([0.0, 5.0] * 8, [5.0, 0.0] * 8, metric="open"),
+        ]
+        return [replace(one, seeds=tuple(range(8 * look))) for one in of_all]
+
+    found = settle(at, looks=2, error_rate=0.05)
+    (same, _) = found.comparisons.values()
+    assert (same.outcome, same.look, same.seeds) == (expected, 2, 16)
+
+
+def test_what_was_bit_for_bit_the_same_is_compared_where_it_is_so_no_longer(candidate):
+    def at(look, _runs):
+        first = candidate(TIMES * look, TIMES * look if look == 1 else [9.0] * 12, identical=look == 1)
+        return [first, candidate([0.0, 5.0] * look, [5.0, 0.0] * look, metric="open")]
+
+    found = settle(at, looks=2, error_rate=0.05)
+    (first, _) = found.comparisons.values()
+    assert (first.outcome, first.identical) == (Outcome.WORSE, False)
+
+
+def test_a_seed_that_moved_by_more_than_the_range_tells_by_how_much_others_may(candidate):
+    """One of 64 seeds moved by 24 margins: of such seeds the mean is 1.2 margins worse if every twentieth is one."""
+    old = [1.0 + 0.01 * place for place in range(64)]
+    new = [value + (24.0 if place == 5 else 1e-6) for place, value in enumerate(old)]
+    (found,) = judge([candidate(old, new)], level=0.05, look=1)
+    assert found.p_values["same"] >= (1.0 - 1.0 / 24.0) ** 64
+
+
 def test_the_last_look_may_leave_it_open(candidate):
     found = settle(lambda look, runs: [candidate([0.0, 5.0] * look, [5.0, 0.0] * look)], looks=3, error_rate=0.05)
     assert found.looks == 3

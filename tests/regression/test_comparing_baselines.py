@@ -122,51 +122,52 @@ def test_only_the_whole_differs():
 def test_a_decision_that_moved(baseline):
     before = baseline.decision
     now = replace(before, chosen=10, pareto=(10,), verdicts={"9": {"SYS-1": "not_met"}, "10": {"SYS-1": "met"}})
-    failing, notes = decision_changes(before, now, explained={}, error_rate=0.05)
-    assert texts(failing) == [
+    found = decision_changes(before, now, explained={}, error_rate=0.05)
+    assert texts(found.failing) == [
         "unstable: decision: variant 9 was chosen, now variant 10",
         "unstable: decision: variant 9 left the Pareto front",
         "unstable: decision: variant 10 joined the Pareto front",
         "unstable: variant 9: the verdict on SYS-1 was met and is not_met",
     ]
-    assert notes == ("variant 10: the verdict on SYS-1 was not_met and is met",)
+    assert (found.undecided, found.notes) == ((), ("variant 10: the verdict on SYS-1 was not_met and is met",))
 
 
 def test_noise_explains_a_move(baseline):
     before = baseline.decision
     now = replace(before, chosen=None, pareto=())
-    failing, notes = decision_changes(before, now, explained={"chosen": 0.3, "pareto 9": 0.05}, error_rate=0.05)
-    assert texts(failing) == ["unstable: decision: variant 9 left the Pareto front"]
+    found = decision_changes(before, now, explained={"chosen": 0.3, "pareto 9": 0.05}, error_rate=0.05)
+    assert texts(found.failing) == ["unstable: decision: variant 9 left the Pareto front"]
     said = "within the noise, which has it as it was in 30% of the resamples"
-    assert notes == (f"decision: variant 9 was chosen, now no variant; {said}",)
+    assert (found.undecided, found.notes) == ((f"decision: variant 9 was chosen, now no variant; {said}",), ())
 
 
 @pytest.mark.parametrize(("share", "is_noise"), [(0.05, False), (0.051, True)])
 def test_noise_explains_a_verdict(baseline, share, is_noise):
     now = replace(baseline.decision, verdicts={"9": {"SYS-1": "inconclusive"}, "10": {"SYS-1": "not_met"}})
-    failing, notes = decision_changes(baseline.decision, now, explained={"verdict 9 SYS-1": share}, error_rate=0.05)
+    found = decision_changes(baseline.decision, now, explained={"verdict 9 SYS-1": share}, error_rate=0.05)
     text = "variant 9: the verdict on SYS-1 was met and is inconclusive"
-    assert texts(failing) == ([] if is_noise else [f"unstable: {text}"])
-    assert notes == ((f"{text}; within the noise, which has it as it was in 5% of the resamples",) if is_noise else ())
+    assert texts(found.failing) == ([] if is_noise else [f"unstable: {text}"])
+    said = f"{text}; within the noise, which has it as it was in 5% of the resamples"
+    assert found.undecided == ((said,) if is_noise else ())
 
 
-def test_luck_explains_what_is_not_shown_to_differ(baseline):
+def test_what_is_not_shown_to_differ_is_undecided(baseline):
     now = replace(baseline.decision, chosen=10, pareto=(10,), verdicts={"9": {"SYS-1": "not_met"}, "10": {}})
     by_luck = {"chosen": 0.05, "pareto": 0.2, "verdict 9 SYS-1": 0.06}
-    failing, notes = decision_changes(baseline.decision, now, explained={}, by_luck=by_luck, error_rate=0.05)
-    assert texts(failing) == [
+    found = decision_changes(baseline.decision, now, explained={}, by_luck=by_luck, error_rate=0.05)
+    assert texts(found.failing) == [
         "unstable: decision: variant 9 was chosen, now variant 10",
         "unstable: variant 10: the verdict on SYS-1 was not_met and is none",
     ]
-    said = "the seeds do not show that it is more than their luck"
-    assert notes == (
+    said = "the seeds neither show nor exclude more than chance"
+    assert found.notes == (
         f"decision: variant 9 left the Pareto front; {said} (p = 0.20)",
         f"decision: variant 10 joined the Pareto front; {said} (p = 0.20)",
-        f"variant 9: the verdict on SYS-1 was met and is not_met; {said} (p = 0.06)",
     )
+    assert found.undecided == (f"variant 9: the verdict on SYS-1 was met and is not_met; {said} (p = 0.06)",)
 
 
 def test_a_verdict_that_is_gone(baseline):
     now = replace(baseline.decision, verdicts={"9": {}, "10": {"SYS-1": "not_met"}})
-    failing, _ = decision_changes(baseline.decision, now, explained={}, error_rate=0.05)
-    assert texts(failing) == ["unstable: variant 9: the verdict on SYS-1 was met and is none"]
+    found = decision_changes(baseline.decision, now, explained={}, error_rate=0.05)
+    assert texts(found.failing) == ["unstable: variant 9: the verdict on SYS-1 was met and is none"]

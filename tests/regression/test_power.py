@@ -100,6 +100,15 @@ def test_the_power_of_a_mean_is_what_simulation_finds(candidate, shape):
     assert found / RUNS == pytest.approx(true, abs=0.12)
 
 
+def test_a_mean_may_be_called_the_same_at_an_earlier_look(candidate):
+    """A lower bound of the power over all looks is below that of the last one by the error rates of the others."""
+    baseline = np.random.default_rng(3).normal(size=24).tolist()
+    one = candidate(baseline, baseline, margin=0.8)
+    (power,) = powers([one], {"r": [8, 24]}, error_rate=0.05).values()
+    spread = float(np.std(baseline, ddof=1)) * 2.0**0.5
+    assert power.probability == pytest.approx(mean_power(0.8, spread, 24, 0.0375 * 0.8) - 0.0125)
+
+
 def test_the_seeds_that_are_recommended_reach_the_target_and_fewer_do_not(candidate):
     one = make_success(candidate, np.ones(12), np.ones(12))
     (power,) = powers([one], {"r": [4, 12]}, error_rate=0.05).values()

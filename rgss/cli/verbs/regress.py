@@ -146,7 +146,6 @@ def _compare(
     from rgss.cli.output import print_json
     from rgss.documents import write_output
     from rgss.guard import compare_with_baseline
-    from rgss.regression import Outcome
     from rgss.reports.regression import report_lines, report_to_json, report_to_junit, report_to_markdown
 
     accepted = options.accept_change or ""
@@ -163,7 +162,7 @@ def _compare(
         print(*report_lines(report, everything=options.all), sep="\n")
     if report.incomplete:
         return RUN_FAILED
-    undecided = options.strict and bool(report.of(Outcome.INCONCLUSIVE))
+    undecided = options.strict and report.is_inconclusive
     if report.fails:
         return FINDINGS
     if report.is_unexplained:

@@ -60,6 +60,7 @@ def report_to_json(report: RegressionReport) -> dict[str, Any]:
             {"kind": one.kind.value, "name": one.name, "then": one.then, "now": one.now, "where": one.where}
             for one in report.inputs
         ],
+        "undecided": list(report.undecided),
         "notes": list(report.notes),
     }
 
@@ -91,6 +92,8 @@ def report_to_junit(report: RegressionReport) -> bytes:
         )
         for one in report.failing
     ]
+    inconclusive = Outcome.INCONCLUSIVE.value
+    cases += [("rgss.regress", text, "skipped", inconclusive, text) for text in report.undecided]
     element = "failure" if report.is_unexplained and list(reasons_of(report)) else "system-out"
     said = dict.fromkeys([behaviour_of(report), *reasons_of(report), *inputs_of(report), remedy_of(report)])
     cases.append(("rgss.regress", "behaviour", element, "changed", "; ".join(each for each in said if each)))
@@ -129,6 +132,9 @@ def report_to_markdown(report: RegressionReport) -> str:
     if reasons:
         sign, word = ("✅", "accepted") if report.accepted else ("❗", "changed")
         lines += [*(f"- {sign} **{word}**: {_text(reason)}" for reason in reasons), ""]
+    if report.undecided:
+        word = Outcome.INCONCLUSIVE
+        lines += [*(f"- {_SIGNS[word]} **{word.value}**: {_text(change)}" for change in report.undecided), ""]
     shown = [one for one in listed(report) if one.outcome is not Outcome.SAME]
     if shown:
         lines += ["| | metric | phase | run | baseline | now | finding |", "|---|---|---|---|---:|---:|---|"]

@@ -35,6 +35,8 @@ def report_lines(report: RegressionReport, *, everything: bool = False) -> Itera
         if everything or comparison.outcome is not Outcome.SAME:
             word = comparison.outcome.value.upper()
             yield _safe(f"  {word:<13} {title_of(comparison)}: {detail_of(comparison)}")
+    for change in report.undecided:
+        yield _safe(f"  {Outcome.INCONCLUSIVE.value.upper():<13} {change}")
     yield _safe(counts_of(report))
     if not report.behaviour.is_changed:
         yield _safe(behaviour_of(report))

@@ -154,6 +154,18 @@ def test_the_verdict(report, outcomes, verdict, fails):
     assert (accepted.verdict, accepted.fails) == (outcomes[-1].value if verdict == "changed" else verdict, fails)
 
 
+def test_a_lost_verdict_that_may_be_chance_is_inconclusive(report):
+    lost = "variant 3: the verdict on SYS-1 was met and is inconclusive; the seeds neither show nor exclude more"
+    quiet = replace(report, failing=(), behaviour=Behaviour(compared=8, changed=()), inputs=(), comparisons=())
+    found = replace(quiet, undecided=(lost,), accepted="A new gripper.")
+    assert (found.verdict, found.fails, found.is_inconclusive) == ("inconclusive", False, True)
+    assert f"  INCONCLUSIVE  {lost}" in list(report_lines(found))
+    assert report_to_json(found)["undecided"] == [lost]
+    assert f"- ❔ **inconclusive**: {lost}" in report_to_markdown(found).replace("\\", "")
+    suite = ET.fromstring(report_to_junit(found))  # noqa: S314 - our own text
+    assert suite.get("skipped") == "1"
+
+
 @pytest.mark.parametrize(
     ("inputs", "changed", "verdict"),
     [
