@@ -38,8 +38,8 @@ class ServoProblem:
     """Residuals of a servo, and their derivatives by central differences.
 
     The parameters are those of the servo; under position control the position at the start of each segment follows,
-    and the speed of each that does not start at rest. They are measured with noise as the other samples are, so that
-    taking them as known would make intervals too narrow.
+    and under both the speed of each that does not start at rest. They are measured with noise as the other samples are,
+    so that taking them as known would make intervals too narrow.
 
     Attributes:
         names: The parameters of the servo, which come first.
@@ -62,7 +62,7 @@ class ServoProblem:
             (index, part)
             for part in (0, 1)
             for index, segment in enumerate(self._segments)
-            if self._positions and (part == 0 or _samples_at_rest(segment) == 1)
+            if (self._positions if part == 0 else _samples_at_rest(segment) == 1)
         ]
         ends = [PARAMETER_ENDS[name] for name in self.names]
         ends += [(-math.inf, math.inf, _START_SCALES[part]) for _, part in self._of_starts]

@@ -63,6 +63,21 @@ def test_intervals_contain_the_true_values_nineteen_times_in_twenty(control, noi
         assert 1 / 1.5 < np.mean(width) / (1.96 * np.std(errors[name], ddof=1)) < 1 / 0.55, name
 
 
+def test_a_start_in_motion_is_fitted_since_its_speed_is_measured_with_noise():
+    """Such a segment would begin with the speed of its first sample, and the error would last for 1 / k_v."""
+    motions = [
+        tuple(values[18:] for values in motion) for motion in motions_of(SERVO, (0.3, 1.0), hold_s=0.15, rest_s=0.05)
+    ]
+    for *_, speeds in motions:
+        speeds[0] += 0.1
+
+    fit = fit_joint(recording_of(motions, noise=(0.0, 1e-4)), "j1")
+
+    assert fit.adequate
+    assert fit.servo.delay_s == pytest.approx(SERVO.delay_s, rel=0.01)
+    assert fit.servo.viscous_hz == pytest.approx(SERVO.viscous_hz, rel=0.01)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("commands", list(CommandedPositions))
 def test_set_points_that_are_held_or_interpolated_bias_no_parameter(commands):
