@@ -127,6 +127,7 @@ class Confirmation:
         results: One for each setting, the study's own first.
         trials: Every trial under every setting.
         made: Number of trials that were run now; the others came from evidence.
+        designs: Number of designs of the study.
         arm_is_pybullet: Whether the arm moves by its dynamics in PyBullet under every setting (``control.in_contact``).
     """
 
@@ -138,6 +139,7 @@ class Confirmation:
     results: tuple[SettingResult, ...]
     trials: tuple[ConfirmedTrial, ...]
     made: int
+    designs: int
     arm_is_pybullet: bool = False
 
     @property
@@ -146,18 +148,33 @@ class Confirmation:
         return tuple(trial for trial in self.trials if trial.differing)
 
     @property
+    def reference(self) -> int | None:
+        """The design whose place is compared: the study's choice, if no other is better by these seeds.
+
+        The study may decide by more seeds than are confirmed, so that another design may come first by these. None if
+        no design is feasible under the study's setting.
+        """
+        chosen, own = self.selection.chosen, self.results[0]
+        return chosen if chosen is not None and self.is_as_good(chosen, own) else own.first
+
+    @property
     def differing_decisions(self) -> tuple[int, ...]:
-        """Indices of the settings under which the study's first design is not as good as any.
+        """Indices of the settings under which the reference is not as good as any other design.
 
         It is as good if it is the first there, tied with that, or worse than it by no more than the practical margin. A
         design that ties with it in the study alone replaces it under the setting only if it is no better there: the
         study's first may even be infeasible under it.
         """
-        return tuple(index for index, result in enumerate(self.results) if not self._is_as_good(result))
+        return tuple(index for index, result in enumerate(self.results) if not self.is_as_good(self.reference, result))
 
-    def _is_as_good(self, result: SettingResult) -> bool:
-        """True if the study's first design loses no more than the practical margin under a setting."""
-        values, first = dict(result.ranking), self.results[0].first
+    def is_as_good(self, first: int | None, result: SettingResult) -> bool:
+        """True if a design loses no more than the practical margin under a setting.
+
+        Args:
+            first: The design; None if there is none, which is as good where none is feasible.
+            result: The result under the setting.
+        """
+        values = dict(result.ranking)
         if first == result.first or (first in values and first in result.ties):
             return True
         best = None if result.first is None else values[result.first]

@@ -73,6 +73,7 @@ def confirm(
         ),
         trials=trials,
         made=made,
+        designs=len(project.designs.expand()),
         arm_is_pybullet=study.motion.controller.in_contact,
     )
 

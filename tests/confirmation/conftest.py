@@ -62,14 +62,14 @@ def dropped():
 def confirmation(shipped):
     """A confirmation of variants 28 and 31; by setting, the ranking, the verdict on SYS-012, and the records."""
 
-    def make(*, rankings, step=0.05, verdicts=None, records=None, ties=None, **selection) -> Confirmation:
+    def make(*, rankings, step=0.05, verdicts=None, records=None, ties=None, designs=2, **selection) -> Confirmation:
         count = len(rankings)
         verdicts = verdicts or [Verdict.MET] * count
         rows = records or [[a_record(slip_m=1.0e-5)] * count]
         return Confirmation(
             study="pick_place",
             evidence="evidence.sqlite",
-            selection=Selection(variants=tuple(map(shipped.designs.variant, (28, 31))), chosen=28, **selection),
+            selection=Selection(variants=tuple(map(shipped.designs.variant, (28, 31))), **{"chosen": 28, **selection}),
             seeds=(1,),
             practical_margin=0.01,
             results=tuple(
@@ -87,6 +87,7 @@ def confirmation(shipped):
                 for row in rows
             ),
             made=3,
+            designs=designs,
         )
 
     return make

@@ -86,6 +86,50 @@ def test_another_first_design_that_is_hardly_better_is_no_other_decision(confirm
     assert not confirmation(rankings=[(28, 31), (31,)], step=0.0).holds
 
 
+def test_of_designs_that_are_not_confirmed_nothing_is_said(confirmation):
+    """Another design may be infeasible by the study's physics alone."""
+    found = confirmation(rankings=[(28, 31), (28, 31)], designs=72)
+    assert first_lines(found, 1) == [
+        "Among 2 of 72 designs the decision does not depend on the step: variant 28 is first under both settings."
+    ]
+    assert confirmation_to_json(found)["designs"] == 72
+    found = confirmation(rankings=[(28, 31), (31, 28)], designs=72)
+    assert first_lines(found, 1)[0].startswith("Among 2 of 72 designs the decision depends on the step: variant 28 is")
+
+
+def test_a_choice_that_is_not_the_first_by_the_confirmed_seeds(confirmation):
+    found = confirmation(rankings=[(31, 28), (31, 28)])
+    assert first_lines(found, 2) == [
+        "The decision does not depend on the step: variant 31 is first under both settings.",
+        "The study chooses variant 28; by the one seed of this confirmation variant 31 is first in it.",
+    ]
+    assert confirmation_to_json(found)["choice"] == first_lines(found, 2)[1]
+    assert confirmation_to_json(confirmation(rankings=[(28,), (28,)]))["choice"] == ""
+
+
+def test_the_choice_is_compared_where_another_is_first_by_little_and_it_is_infeasible_elsewhere(confirmation):
+    found = confirmation(rankings=[(31, 28), (31,)], step=0.009)
+    assert not found.holds
+    assert first_lines(found, 2) == [
+        (
+            "The decision depends on the step: variant 28 is first under PyBullet 240 Hz, 20 iterations; variant 31 is "
+            "first under PyBullet 1000 Hz, 20 iterations."
+        ),
+        (
+            "The study chooses variant 28; by the one seed of this confirmation variant 31 is first in it, and variant "
+            "28 is as good."
+        ),
+    ]
+
+
+def test_designs_without_a_verdict(confirmation):
+    found = confirmation(rankings=[(28,), (28,)])
+    results = tuple(dataclasses.replace(one, verdicts={28: {}}) for one in found.results)
+    assert first_lines(dataclasses.replace(found, results=results), 2)[1] == (
+        "No requirement has a criterion, so that there are no verdicts."
+    )
+
+
 def test_a_verdict_that_depends_on_the_setting(confirmation):
     found = confirmation(rankings=[(28,), (28,), (28,)], verdicts=[Verdict.MET, Verdict.MET, Verdict.NOT_MET])
     assert not found.holds

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rgss.confirmation import COMPARED_METRICS, Confirmation, ConfirmedTrial, SettingResult
-from rgss.reports.confirmation.sentences import decision_sentence, outcome_sentence, verdict_sentence
+from rgss.reports.confirmation.sentences import choice_sentence, decision_sentence, outcome_sentence, verdict_sentence
 from rgss.reports.plain_numbers import plain_number
 
 
@@ -20,11 +20,13 @@ def confirmation_to_json(confirmation: Confirmation) -> dict[str, Any]:
         "study": confirmation.study,
         "holds": confirmation.holds,
         "decision": decision_sentence(confirmation),
+        "choice": choice_sentence(confirmation),
         "verdicts": verdict_sentence(confirmation),
         "outcomes": outcome_sentence(confirmation),
         "arm_is_pybullet": confirmation.arm_is_pybullet,
         "chosen": selection.chosen,
         "variants": [variant.id for variant in selection.variants],
+        "designs": confirmation.designs,
         "rivals_left_out": list(selection.left_out),
         "seeds": list(confirmation.seeds),
         "failures": {

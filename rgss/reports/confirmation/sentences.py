@@ -25,6 +25,9 @@ def summary_sentences(confirmation: Confirmation) -> Iterator[str]:
     Of several trials with another outcome each has a line of its own.
     """
     yield decision_sentence(confirmation)
+    choice = choice_sentence(confirmation)
+    if choice:
+        yield choice
     yield verdict_sentence(confirmation)
     differing = confirmation.differing_trials
     if len(differing) > 1:
@@ -48,27 +51,42 @@ def summary_sentences(confirmation: Confirmation) -> Iterator[str]:
 
 
 def decision_sentence(confirmation: Confirmation) -> str:
-    """Sentence on the dependence of the decision on the setting."""
-    results, differing = confirmation.results, confirmation.differing_decisions
-    first = results[0].first
+    """Sentence on the dependence of the decision on the setting, among the confirmed designs."""
+    results, differing, first = confirmation.results, confirmation.differing_decisions, confirmation.reference
+    confirmed = len(confirmation.selection.variants)
+    is_partial = confirmed < confirmation.designs
+    decision = f"Among {confirmed} of {confirmation.designs} designs the decision" if is_partial else "The decision"
     if not differing:
         what = _listed([_WORDS[aspect] for aspect in confirmation.aspects], "or")
         every = f"all {_number(len(results))} settings" if len(results) > 2 else "both settings"
         if first is None:
-            return f"The decision does not depend on {what}: no design meets every requirement under {every}."
+            return f"{decision} does not depend on {what}: no design meets every requirement under {every}."
         others = {result.first for result in results if result.first is not None} - {first}
         as_good = "equally good" if others <= set(results[0].ties) else "better within the practical margin"
         tied = f" (or {_listed([str(one) for one in sorted(others)], 'or')}, {as_good})" if others else ""
-        return f"The decision does not depend on {what}: variant {first}{tied} is first under {every}."
+        return f"{decision} does not depend on {what}: variant {first}{tied} is first under {every}."
     what = _listed([_WORDS[results[index].setting.aspect] for index in differing], "and")
     under: dict[int | None, list[str]] = {}
     for result in results:
-        under.setdefault(result.first, []).append(result.setting.label)
+        shown = first if confirmation.is_as_good(first, result) else result.first
+        under.setdefault(shown, []).append(result.setting.label)
     found = "; ".join(
         f"{'no design' if variant is None else f'variant {variant}'} is first under {_listed(labels, 'and')}"
         for variant, labels in under.items()
     )
-    return f"The decision depends on {what}: {found}."
+    return f"{decision} depends on {what}: {found}."
+
+
+def choice_sentence(confirmation: Confirmation) -> str:
+    """Sentence on a choice of the study that does not come first by the seeds of the confirmation; empty otherwise."""
+    chosen, own = confirmation.selection.chosen, confirmation.results[0]
+    if chosen is None or chosen == own.first:
+        return ""
+    count = len(confirmation.seeds)
+    first = "no design" if own.first is None else f"variant {own.first}"
+    by = f"the {count} seeds" if count > 1 else "the one seed"
+    as_good = f", and variant {chosen} is as good" if confirmation.reference == chosen else ""
+    return f"The study chooses variant {chosen}; by {by} of this confirmation {first} is first in it{as_good}."
 
 
 def verdict_sentence(confirmation: Confirmation) -> str:
@@ -77,6 +95,8 @@ def verdict_sentence(confirmation: Confirmation) -> str:
     total = sum(map(len, study.values()))
     designs = f"{len(study)} design{'' if len(study) == 1 else 's'}"
     differing = confirmation.differing_verdicts
+    if not total:
+        return "No requirement has a criterion, so that there are no verdicts."
     if not differing:
         return f"All {total} verdicts on {designs} are the same under every setting."
     count = len({(one.variant, one.requirement) for one in differing})
