@@ -174,18 +174,25 @@ class _InterruptFlag:
 
 @contextmanager
 def _interrupt_flag() -> Iterator[_InterruptFlag]:
-    """Turn Ctrl-C and termination into a flag, so that the robot is brought to rest before the program ends.
+    """Turn Ctrl-C, termination and the loss of the terminal into a flag: the robot is brought to rest before the end.
 
     The second one interrupts what the program waits for, such as a call of an SDK that does not return, and the robot
     is stopped at once. Further ones are ignored: they must not interrupt that stop.
     """
     flag = _InterruptFlag()
-    previous = {number: signal.signal(number, flag.note) for number in (signal.SIGINT, signal.SIGTERM)}
+    previous = {number: signal.signal(number, flag.note) for number in _ending_signals()}
     try:
         yield flag
     finally:
         for number, handler in previous.items():
             signal.signal(number, handler)
+
+
+def _ending_signals() -> Iterator[signal.Signals]:
+    yield from (signal.SIGINT, signal.SIGTERM)
+    # Under nohup the loss of the terminal is ignored.
+    if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+        yield signal.SIGHUP
 
 
 def _rehearsal_as_json(rehearsal: Rehearsal, limits: RobotLimits) -> dict[str, Any]:

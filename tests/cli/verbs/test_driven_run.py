@@ -204,6 +204,21 @@ def test_ctrl_c_is_a_flag_while_a_robot_moves():
     assert signal.getsignal(signal.SIGINT) is before
 
 
+@pytest.mark.parametrize(("handler", "is_noted"), [(signal.SIG_DFL, True), (signal.SIG_IGN, False)])
+def test_the_loss_of_the_terminal_is_a_flag_but_under_nohup(handler, is_noted):
+    before = signal.signal(signal.SIGHUP, handler)
+    try:
+        with _interrupt_flag() as is_interrupted:
+            if is_noted:
+                os.kill(os.getpid(), signal.SIGHUP)
+            else:
+                assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+            assert is_interrupted() is is_noted
+        assert signal.getsignal(signal.SIGHUP) is handler
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
 def test_the_second_signal_interrupts_and_no_further_one_does():
     with _interrupt_flag() as is_interrupted:
         os.kill(os.getpid(), signal.SIGINT)
