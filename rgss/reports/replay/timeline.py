@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -169,13 +170,20 @@ def _joint_plot(title: str, joints: Sequence[Joint], columns: NDArray[np.float64
         title=title,
         series=tuple(
             Series(
-                name=words(joint.name.removesuffix("_joint")),
+                name=name,
                 unit=("m" if joint.kind is JointKind.PRISMATIC else "rad") + per,
                 values=columns[:, place],
             )
-            for place, joint in enumerate(joints)
+            for place, (joint, name) in enumerate(zip(joints, _joint_names(joints), strict=True))
         ),
     )
+
+
+def _joint_names(joints: Sequence[Joint]) -> list[str]:
+    """Name of each joint in words, without the suffix where that leaves the names different."""
+    short = Counter(joint.name.removesuffix("_joint") for joint in joints)
+    names = ((joint.name, joint.name.removesuffix("_joint")) for joint in joints)
+    return [words(brief if short[brief] == 1 else name) for name, brief in names]
 
 
 def _speeds(trace: TrialTrace) -> NDArray[np.float64]:

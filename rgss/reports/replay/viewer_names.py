@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from itertools import count
 
 from rgss.trials.replay import NodeTrack
 
@@ -29,6 +31,19 @@ def topic_of(title: str) -> str:
     return re.sub(r"\W+", "_", title.lower())
 
 
-def series_key(name: str, unit: str) -> str:
-    """Key of a series: ``finger_1_n`` of "finger 1" in N."""
-    return f"{topic_of(name)}_{_UNIT_SUFFIXES[unit]}"
+def series_keys(named: Iterable[tuple[str, str]]) -> tuple[str, ...]:
+    """Key of each series of a plot: ``finger_1_n`` of "finger 1" in N.
+
+    Names that differ in capitals and signs alone, such as "A-1" and "a 1", would have the same key; the second has
+    ``a_1_2_rad``, or the next number that is free.
+
+    Args:
+        named: Name and unit of each series.
+    """
+    found: dict[str, None] = {}
+    for name, unit in named:
+        topic, suffix = topic_of(name), _UNIT_SUFFIXES[unit]
+        numbered = (f"{topic}_{number}_{suffix}" for number in count(2))
+        key = f"{topic}_{suffix}"
+        found[key if key not in found else next(each for each in numbered if each not in found)] = None
+    return tuple(found)

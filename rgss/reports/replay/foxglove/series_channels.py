@@ -11,7 +11,7 @@ from rgss.evidence import PhaseOutcome
 from rgss.reports.replay.foxglove.channels import Channel, Schema, number_schema, published_schema
 from rgss.reports.replay.foxglove.primitives import timestamp
 from rgss.reports.replay.timeline import Plot, Timeline
-from rgss.reports.replay.viewer_names import series_key, topic_of
+from rgss.reports.replay.viewer_names import series_keys, topic_of
 from rgss.reports.trials import words
 
 _INFO, _WARNING, _ERROR = 2, 3, 4
@@ -49,19 +49,20 @@ def series_channels(timeline: Timeline) -> tuple[Channel, ...]:
 
 def _plot_channel(timeline: Timeline, plot: Plot) -> Channel:
     """Numbers of one plot, each under its name with the unit; unknown ones are absent."""
-    columns = {series_key(series.name, series.unit): series.values.tolist() for series in plot.series}
-    described = {series_key(series.name, series.unit): f"{series.name} [{series.unit}]" for series in plot.series}
+    named = [(series.name, series.unit) for series in plot.series]
+    values = [series.values.tolist() for series in plot.series]
     if plot.limit is not None:
-        unit = plot.series[0].unit
-        key = series_key(plot.limit.name, unit)
-        columns[key] = [plot.limit.value] * len(timeline.time_s)
-        described[key] = f"{plot.limit.name} [{unit}]"
+        named.append((plot.limit.name, plot.series[0].unit))
+        values.append([plot.limit.value] * len(timeline.time_s))
+    keys = series_keys(named)
+    columns = dict(zip(keys, values, strict=True))
+    described = {key: f"{name} [{unit}]" for key, (name, unit) in zip(keys, named, strict=True)}
     topic = topic_of(plot.title)
     return Channel(
         topic=f"/{topic}",
         schema=number_schema(f"rgss.{plot.title.title().replace(' ', '')}", described),
         messages=[
-            (time_s, {key: values[sample] for key, values in columns.items() if math.isfinite(values[sample])})
+            (time_s, {key: column[sample] for key, column in columns.items() if math.isfinite(column[sample])})
             for sample, time_s in enumerate(timeline.time_s.tolist())
         ],
     )

@@ -28,9 +28,9 @@ EACH_SAMPLE = [
 ]
 
 
-def written(*, record=None, trace=None, scene=None) -> bytes:
+def written(*, record=None, trace=None, scene=None, joints=JOINTS) -> bytes:
     return replay_to_viewer_file(
-        ".mcap", record or made_record(), trace or made_trace(), scene or made_scene(), joints=JOINTS
+        ".mcap", record or made_record(), trace or made_trace(), scene or made_scene(), joints=joints
     )
 
 
@@ -246,6 +246,22 @@ def test_names_of_numbers_have_their_units(topics):
         "/finger_forces": ["commanded_n", "finger_1_n", "finger_2_n", "finger_3_n"],
         "/grip_margin": ["grip_margin_1", "slips_below_1"],
     }
+
+
+@pytest.mark.parametrize(
+    ("names", "keys"),
+    [
+        (("x", "x_joint", "y_joint", "z"), ["x_rad", "x_joint_rad", "y_rad", "z_m"]),
+        (("a-1", "A 1", "a_1_2", "z"), ["a_1_rad", "a_1_2_rad", "a_1_2_2_rad", "z_m"]),
+    ],
+)
+def test_joints_of_like_names_have_keys_of_their_own(names, keys):
+    joints = tuple(replace(joint, name=name) for joint, name in zip(JOINTS, names, strict=True))
+    topics = by_topic(written(joints=joints))
+
+    (_, message) = topics["/joint_positions"][1][-1]
+    (_, states) = topics["/joint_states"][1][-1]
+    assert message == dict(zip(keys, [one["position"] for one in states["joints"]], strict=True))
 
 
 def test_numbers_are_those_of_the_trace_and_absent_where_unknown(topics):
