@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Sequence
 
+from rgss.documents import IDENTIFIER_PATTERN
 from rgss.errors import DefinitionError
+from rgss.findings import shown
 from rgss.identification.fitting import FitStatus, ServoFit
 from rgss.identification.recording import Recording
 
@@ -19,8 +22,9 @@ def calibration_text(recording: Recording, fits: Sequence[ServoFit], *, file: st
         file: Name of the recording's file.
 
     Raises:
-        DefinitionError: No joint's velocity gain is determined.
+        DefinitionError: No joint's velocity gain is determined, or a name cannot be one of a robot's file.
     """
+    _require_identifiers(recording, fits)
     usable = [fit for fit in fits if "velocity_gain_hz" in fit.determined()]
     if not usable:
         raise DefinitionError(
@@ -66,6 +70,16 @@ _KEYS = {
     "coulomb_rad_s2": ("coulomb_friction", "rad/s^2"),
 }
 """Key of a calibration file and unit of each parameter."""
+
+
+def _require_identifiers(recording: Recording, fits: Sequence[ServoFit]) -> None:
+    names = [("robot", recording.robot, "line 1"), *(("joint", fit.joint, "the header") for fit in fits)]
+    for what, name, where in names:
+        if not re.fullmatch(IDENTIFIER_PATTERN, name):
+            raise DefinitionError(
+                f"a calibration names the {what} as the robot's file does, which {shown(name)} cannot be",
+                hint=f"write that name in {where} of the recording: a letter, then letters, digits, '_', '.', '-'",
+            )
 
 
 def _quoted(text: str) -> str:

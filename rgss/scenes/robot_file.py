@@ -143,6 +143,10 @@ def _calibration(
     except DocumentError as error:
         findings.extend(error.findings)
         return None
+    if calibration.robot != entry.robot:
+        message = f"the calibration is of robot {shown(calibration.robot)}, not of {shown(entry.robot)}"
+        hint = "its servos are those of the recorded robot; if that is this one, write its id under 'calibration' there"
+        findings.append(document.finding("scene.calibration", message, ("calibration",), hint=hint))
     known = [joint.name for joint in entry.joints]
     for joint, _ in calibration.servos:
         if joint not in known:

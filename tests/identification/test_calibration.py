@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from rgss.errors import DefinitionError, DocumentError
-from rgss.identification import calibration_text, fit_joint
+from rgss.identification import FitStatus, calibration_text, fit_joint
+from rgss.identification.fitting import FittedParameter, ServoFit
 from rgss.scenes import JointServo, ServoControl, load_calibration
 from tests.identification.recordings import motions_of, recording_of
 
@@ -28,6 +31,31 @@ def test_what_is_written_is_read_as_the_fitted_servo(tmp_path):
     assert servo.position_gain_hz2 == 0.0
     assert 'recording: "a \\"b\\".csv"' in text
     assert "# position_gain: not in the recording" in text
+
+
+@pytest.mark.parametrize(
+    ("robot", "joint", "message"),
+    [
+        ("cell 3, UR10e", "j1", "names the robot as the robot's file does, which 'cell 3, UR10e' cannot be"),
+        ("ur10", "1", "names the joint as the robot's file does, which '1' cannot be"),
+        ("ur10", "j1: {}\n#", "cannot be"),
+    ],
+)
+def test_names_that_no_robot_file_has_are_not_written(robot, joint, message):
+    recording = replace(recording_of(motions_of(SERVO), joint=joint), robot=robot)
+    gain = FittedParameter(name="velocity_gain_hz", status=FitStatus.DETERMINED, value=30.0, interval=(29.0, 31.0))
+    fit = ServoFit(
+        joint=joint,
+        servo=SERVO,
+        parameters=(gain,),
+        rms_rad_s={"p": 0.01},
+        samples=9,
+        autocorrelation=0.0,
+        portmanteau=0.0,
+    )
+    with pytest.raises(DefinitionError) as caught:
+        calibration_text(recording, [fit], file="r.csv")
+    assert message in str(caught.value)
 
 
 def test_a_recording_that_determines_no_gain_gives_no_calibration():

@@ -145,6 +145,18 @@ def test_a_study_or_a_design_without_a_calibration_is_told(folder, edit):
     assert caught.value.findings[0].file == STUDY
 
 
+def test_a_calibration_of_another_robot_is_refused(folder, calibrate):
+    """Robots of one maker have joints of the same names."""
+    calibrate()
+    servos = folder / SERVOS
+    servos.write_text(servos.read_text().replace("calibration: ur10", "calibration: ur5"))
+
+    with pytest.raises(DocumentError, match="the calibration is of robot 'ur5', not of 'ur10'") as caught:
+        load_project(folder)
+
+    assert caught.value.findings[0].file == ROBOT
+
+
 def test_a_calibration_that_is_not_there_is_told(folder, edit):
     edit(ROBOT, "payload:", "calibration: none.yaml\npayload:")
 
