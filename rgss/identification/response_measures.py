@@ -13,6 +13,12 @@ from rgss.identification.recording import Recording, Segment
 Array = NDArray[np.float64]
 
 _STEADY_SHARE = 0.25
+_MOST_DRIFT = 0.02
+"""Greatest change of the speed between the halves of that share, over its mean, if it has settled."""
+
+_DEVIATIONS = 3.0
+"""So many standard errors of the noise are no change."""
+
 _LEVEL = 1.0e-9
 
 
@@ -20,11 +26,15 @@ _LEVEL = 1.0e-9
 class Response:
     """Response of the excited joint in one segment; None where the signal does not define a measure.
 
+    A speed that has not settled in the last quarter of the first step has no steady value, and so neither rise time nor
+    overshoot nor steady error.
+
     Attributes:
         pose: Name of the pose.
         joint: The excited joint.
         signal: Name of the signal.
-        rise_s: Time from 10 % to 90 % of the steady speed after the first step; of steps alone.
+        rise_s: Time from 10 % to 90 % of the steady speed after the first step; of steps alone, and None if it passes
+            between two samples.
         overshoot: Greatest speed after the first step over the steady speed, minus one; of steps alone. Noise of the
             measured speed adds to it.
         steady_error_rad_s: Commanded minus measured speed, mean over the last quarter of the first step.
@@ -57,8 +67,9 @@ def _response(segment: Segment) -> Response:
         level = float(wanted[first])
         tail = got[last - max(1, int(_STEADY_SHARE * (last - first))) : last]
         steady = float(tail.mean())
-        steady_error = level - steady
-        if steady * level > 0.0:
+        if _is_settled(tail):
+            steady_error = level - steady
+        if steady_error is not None and steady * level > 0.0:
             # The response to the sample that begins the step is measured from the next one on.
             course = got[first : last + 1] / steady
             rise_s = _crossing(times_s[first : last + 1], course, 0.9, 0.1)
@@ -110,14 +121,28 @@ def _first_step(wanted: Array) -> tuple[int, int] | None:
     return (first, last) if last - first >= 4 else None
 
 
+def _is_settled(tail: Array) -> bool:
+    """True if the speed changes no more between the halves of the end of a step than its noise does."""
+    half = len(tail) // 2
+    if not half:
+        return True
+    noise = float(np.sqrt(np.mean(np.diff(tail) ** 2) / 2))
+    change = abs(float(tail[half:].mean() - tail[:half].mean()))
+    return change <= _MOST_DRIFT * abs(float(tail.mean())) + _DEVIATIONS * noise * math.sqrt(2.0 / half)
+
+
 def _crossing(times_s: Array, course: Array, high: float, low: float) -> float | None:
-    """Time between the first crossings of two levels, each interpolated; None if one is not crossed."""
-    found = []
+    """Time between the first crossings of two levels, each interpolated.
+
+    None if one is not crossed, or if both are between the same samples, which do not resolve it.
+    """
+    found, places = [], []
     for level in (low, high):
         above = np.flatnonzero(course >= level)
         if not len(above) or above[0] == 0:
             return None
         index = int(above[0])
+        places.append(index)
         share = (level - course[index - 1]) / (course[index] - course[index - 1])
         found.append(float(times_s[index - 1] + share * (times_s[index] - times_s[index - 1])))
-    return found[1] - found[0]
+    return found[1] - found[0] if places[0] < places[1] else None

@@ -43,6 +43,32 @@ def test_the_overshoot_of_a_second_order_system(damping):
     assert found.overshoot == pytest.approx(np.exp(-np.pi * damping / np.sqrt(1 - damping**2)), abs=2e-3)
 
 
+@pytest.mark.parametrize(
+    "course",
+    [
+        lambda since: -np.expm1(-since / 0.5),
+        lambda since: 1 - np.exp(-since) * np.cos(20.0 * since),
+    ],
+)
+def test_a_speed_that_has_not_settled_has_no_steady_value(course):
+    """By the mean of the last quarter the first would rise in three quarters of its time, and overshoot by 6 %."""
+    found = response_of(course)
+
+    assert found.rise_s is found.overshoot is found.steady_error_rad_s is None
+
+
+def test_noise_does_not_count_as_a_change_of_the_steady_speed():
+    noise = 0.1 * np.random.default_rng(1).standard_normal((40, len(TIMES_S)))
+
+    settled = [response_of(lambda since, each=each: -np.expm1(-since / 0.04) + each) for each in noise]
+
+    assert sum(each.overshoot is not None for each in settled) >= 38
+
+
+def test_a_rise_between_two_samples_is_not_resolved():
+    assert response_of(lambda since: (since > 0.0) * 1.0).rise_s is None
+
+
 def test_the_lag_of_a_sine_that_is_late_by_a_share_of_a_sample():
     # Cycles that fill a window, so that the ends do not move the greatest correlation.
     window = np.sin(np.pi * TIMES_S / TIMES_S[-1]) ** 2
