@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from rgss.confirmation.selection import Selection
+from rgss.confirmation.selection import PLANNED_FAILURES, Selection
 from rgss.confirmation.settings import Aspect, ConfirmationSetting
 from rgss.evidence import Metric, TrialRecord
 from rgss.measures import Verdict
@@ -146,6 +146,11 @@ class Confirmation:
     def differing_trials(self) -> tuple[ConfirmedTrial, ...]:
         """The trials whose outcome depends on the setting."""
         return tuple(trial for trial in self.trials if trial.differing)
+
+    @property
+    def before_physics(self) -> int:
+        """Number of trials of the confirmed designs that end before physics, which are the same under every setting."""
+        return sum(trial.records[0].failure in PLANNED_FAILURES for trial in self.trials if not trial.is_sample)
 
     @property
     def reference(self) -> int | None:

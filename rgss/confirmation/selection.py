@@ -15,7 +15,7 @@ from rgss.tradeoff import Decision
 MOST_RIVALS = 5
 """Most rivals of the chosen design that are confirmed."""
 
-_PLANNED = frozenset(
+PLANNED_FAILURES = frozenset(
     {
         Failure.PLANNING_LIMIT,
         Failure.PATH_NOT_VERIFIED,
@@ -117,7 +117,7 @@ def _with_sample(measured: Sequence[VariantMeasures], confirmed: Collection[int]
         for record in entry.records:
             if record.failure is None:
                 continue
-            if record.failure in _PLANNED:
+            if record.failure in PLANNED_FAILURES:
                 planned += 1
                 continue
             physical += 1

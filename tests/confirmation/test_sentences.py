@@ -122,6 +122,24 @@ def test_the_choice_is_compared_where_another_is_first_by_little_and_it_is_infea
     ]
 
 
+@pytest.mark.parametrize(
+    ("planned", "told"),
+    [
+        ((True,), "No trial of these designs reaches physics, so that nothing of it is confirmed."),
+        ((True, False, False), "1 of 3 trials of these designs ends before physics, which no setting changes."),
+        ((True, True, False), "2 of 3 trials of these designs end before physics, which no setting changes."),
+    ],
+)
+def test_trials_that_end_before_physics_confirm_nothing_of_it(confirmation, record, planned, told):
+    rows = [
+        [record(seed=seed, failure=Failure.UNREACHABLE_WAYPOINT if each else None, phase=Phase.MOVE_TO_PLACE)] * 2
+        for seed, each in enumerate(planned, start=1)
+    ]
+    found = confirmation(rankings=[(28,), (28,)], records=rows)
+    assert told in first_lines(found, 4)
+    assert confirmation_to_json(found)["trials_before_physics"] == sum(planned)
+
+
 def test_designs_without_a_verdict(confirmation):
     found = confirmation(rankings=[(28,), (28,)])
     results = tuple(dataclasses.replace(one, verdicts={28: {}}) for one in found.results)

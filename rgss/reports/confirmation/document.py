@@ -29,6 +29,7 @@ def confirmation_to_json(confirmation: Confirmation) -> dict[str, Any]:
         "designs": confirmation.designs,
         "rivals_left_out": list(selection.left_out),
         "seeds": list(confirmation.seeds),
+        "trials_before_physics": confirmation.before_physics,
         "failures": {
             "before_physics": selection.planned_failures,
             "in_physics": selection.physical_failures,

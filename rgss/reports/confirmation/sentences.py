@@ -35,6 +35,8 @@ def summary_sentences(confirmation: Confirmation) -> Iterator[str]:
         yield from (f"  {trial_sentence(confirmation, trial)}." for trial in differing)
     else:
         yield outcome_sentence(confirmation)
+    if confirmation.before_physics:
+        yield _before_physics_sentence(confirmation)
     if confirmation.arm_is_pybullet and Aspect.ENGINE in confirmation.aspects:
         yield ARM_IN_PYBULLET
     selection = confirmation.selection
@@ -87,6 +89,16 @@ def choice_sentence(confirmation: Confirmation) -> str:
     by = f"the {count} seeds" if count > 1 else "the one seed"
     as_good = f", and variant {chosen} is as good" if confirmation.reference == chosen else ""
     return f"The study chooses variant {chosen}; by {by} of this confirmation {first} is first in it{as_good}."
+
+
+def _before_physics_sentence(confirmation: Confirmation) -> str:
+    """Sentence on trials of the confirmed designs of which no setting can say anything."""
+    total = sum(not trial.is_sample for trial in confirmation.trials)
+    ended = confirmation.before_physics
+    if ended == total:
+        return "No trial of these designs reaches physics, so that nothing of it is confirmed."
+    verb = "ends" if ended == 1 else "end"
+    return f"{ended} of {total} trials of these designs {verb} before physics, which no setting changes."
 
 
 def verdict_sentence(confirmation: Confirmation) -> str:

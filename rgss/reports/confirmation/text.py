@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 
 from rgss.confirmation import Confirmation
+from rgss.counted import counted
 from rgss.findings import printable
 from rgss.reports.confirmation.sentences import summary_sentences
 from rgss.reports.confirmation.tables import confirmation_tables
@@ -51,7 +52,7 @@ def _origin(confirmation: Confirmation) -> str:
     settings = len(confirmation.results)
     total = len(confirmation.trials) * settings
     return (
-        f"{len(confirmation.trials)} trials under {settings} settings: {confirmation.made} run, "
+        f"{counted(len(confirmation.trials), 'trial')} under {settings} settings: {confirmation.made} run, "
         f"{total - confirmation.made} from evidence. Evidence: {confirmation.evidence}"
     )
 
