@@ -134,7 +134,9 @@ class XarmDriver:
 
     def stop(self) -> None:
         """The controller's own stop; the gripper keeps its state."""
-        self._set_timeout(_STOP_TIMEOUT_S)
+        # Without a longer time limit it may not be confirmed, but it is sent.
+        with contextlib.suppress(DriverError):
+            self._set_timeout(_STOP_TIMEOUT_S)
         self._call("set_state", _STOP_STATE)
 
     def disconnect(self) -> None:

@@ -257,9 +257,12 @@ def test_joint_states_that_are_none_are_an_error_of_the_driver(states):
         driver.read()
 
 
-def test_an_arm_that_was_enabled_is_stopped_if_the_connection_fails():
+@pytest.mark.parametrize("takes_time_limit", [True, False])
+def test_an_arm_that_was_enabled_is_stopped_if_the_connection_fails(takes_time_limit):
     api = Api()
     api.codes["set_mode"] = 9
+    if not takes_time_limit:
+        api.set_timeout = None
     with pytest.raises(DriverError, match="refused set_mode with code 9"):
         _stream(api)
 
