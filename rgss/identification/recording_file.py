@@ -89,7 +89,7 @@ def read_recording(path: Path) -> Recording:
     """
     try:
         content = b"".join(chunks_of(path, largest=LARGEST_RECORDING_BYTES))
-        text = content.decode("utf-8")
+        text = content.decode("utf-8-sig")
     except OSError as error:
         raise _wrong(path, 1, f"the file cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:

@@ -59,6 +59,12 @@ def test_commanded_positions_are_held_unless_the_file_states_otherwise(path):
     assert read_recording(path).commands is CommandedPositions.HELD
 
 
+def test_a_byte_order_mark_is_no_part_of_it(path):
+    """Spreadsheets write one."""
+    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
+    assert read_recording(path).robot == "r"
+
+
 def test_times_in_milliseconds_are_refused(path):
     head, lines = path.read_text().splitlines()[:4], path.read_text().splitlines()[4:]
     rows = [line.split(",") for line in lines]
