@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-from itertools import product
 
 import pytest
 from selenium.webdriver.common.action_chains import ActionChains
@@ -129,53 +128,6 @@ def test_the_keyboard_brushes_too(reader, page):
 
     reader.until("return document.getElementById('shown').textContent === '36 of 72 variants are shown'")
     assert slider.get_attribute("aria-valuetext") == "2"
-
-
-def test_a_weight_ranks_the_variants_anew_as_the_figures_say(reader, page, study):
-    reader.open(page)
-    document = study.document
-    ids, feasible = document["variants"]["id"], document["variants"]["feasible"]
-    weighted = document["weights"]["measures"]
-    ranked = sorted((rank, one) for rank, one in zip(document["variants"]["rank"], ids, strict=True) if rank)
-
-    before = [int(row[1]) for row in reader.rows("#ranking-table")]
-    assert before == [variant for _, variant in ranked[:10]]
-    assert reader.text("#weight-winner") == f"Variant {document['decision']['chosen']} stays the best."
-
-    def worth(row, raw):
-        worths = [one["worth"][row] if isinstance(one["worth"], list) else one["worth"] for one in weighted]
-        return sum(share / sum(raw) * worth for share, worth in zip(raw, worths, strict=True) if share)
-
-    def ranking(moved, to):
-        # What one weight gains the others lose in proportion.
-        rest = sum(one["weight"] for at, one in enumerate(weighted) if at != moved)
-        raw = [to if at == moved else (1.0 - to) * one["weight"] / rest for at, one in enumerate(weighted)]
-        return sorted((-round(worth(row, raw), 9), ids[row]) for row in range(len(ids)) if feasible[row])
-
-    # A weight that changes the first place.
-    chosen = document["decision"]["chosen"]
-    moves = product(range(len(weighted)), (0.0, 0.25, 0.5, 0.75, 0.9))
-    moved, to = next(move for move in moves if ranking(*move)[0][1] != chosen)
-    expected = ranking(moved, to)
-    reader.script(
-        "const [id, to] = arguments; const slider = document.getElementById(id);"
-        "slider.value = String(to); slider.dispatchEvent(new Event('input'))",
-        f"weight-{moved}",
-        to,
-    )
-    shares = reader.script("return Array.from(document.querySelectorAll('#weight-rows output'), (one) => one.value)")
-    assert sum(map(float, shares)) == pytest.approx(1.0, abs=0.003)
-    assert float(shares[moved]) == to
-    sliders = reader.script("return Array.from(document.querySelectorAll('#weight-rows input'), (one) => one.value)")
-    assert [float(one) for one in sliders] == pytest.approx([float(one) for one in shares], abs=0.006)
-    after = reader.rows("#ranking-table")
-    assert [int(row[1]) for row in after] == [variant for _, variant in expected[:10]]
-    assert [float(row[2]) for row in after] == pytest.approx([-one for one, _ in expected[:10]], abs=5e-5)
-    assert [int(row[1]) for row in after] != before
-    assert f"Variant {expected[0][1]} would be the best" in reader.text("#weight-winner")
-
-    reader.driver.find_element(By.ID, "weight-reset").click()
-    assert [int(row[1]) for row in reader.rows("#ranking-table")] == before
 
 
 def test_a_variant_leads_to_its_trials_and_the_commands_that_run_them_again(reader, page, study):

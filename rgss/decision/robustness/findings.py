@@ -80,8 +80,7 @@ class Robustness:
         weights: Their weights.
         values: Values of each alternative in them, shape (n, m); NaN where unknown.
         feasible: Mask of the alternatives that are feasible by their estimates.
-        surpassed: Mask of the feasible alternatives that another of the same values surpasses in quantities beyond the
-            ends of value functions, so that it is chosen before them.
+        more_is_better: Whether more of each of these measures is worth more; None of one with a target.
         front: The Pareto front of the feasible ones.
         weighting: Effects of other weights; None if `refused` has the reason.
         assumptions: Range of each assumed number that keeps the choice; empty if `refused` has the reason.
@@ -103,7 +102,7 @@ class Robustness:
     weights: NDArray[np.float64]
     values: NDArray[np.float64]
     feasible: NDArray[np.bool_]
-    surpassed: NDArray[np.bool_]
+    more_is_better: tuple[bool | None, ...]
     front: ParetoFront
     weighting: WeightRobustness | None
     assumptions: tuple[AssumptionFinding, ...]

@@ -23,7 +23,7 @@ from rgss.decision.robustness.remeasuring import Remeasuring
 from rgss.errors import TradeoffError
 from rgss.studies import Project
 from rgss.tradeoff import AdditiveValue, Decision, TradeProblem
-from rgss.tradeoff.problem import FEWEST_REPLICATES, EvidenceTable, Resamples, bootstrap, surpassed_within_classes
+from rgss.tradeoff.problem import FEWEST_REPLICATES, EvidenceTable, Resamples, bootstrap
 from rgss.tradeoff.programs import (
     enumerate_alternatives,
     orderings_of,
@@ -154,7 +154,7 @@ def analyse_robustness(
         weights=weights,
         values=values,
         feasible=feasible,
-        surpassed=surpassed_within_classes(table, problem.deciding_functions, values, feasible),
+        more_is_better=tuple(function.more_is_better for function in problem.deciding_functions),
         front=parts.compute(Part.PARETO, lambda: pareto_front(values, feasible), ParetoFront(points=())),
         weighting=weighting,
         assumptions=assumed[0],

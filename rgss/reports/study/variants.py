@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from rgss.assessment import VariantMeasures, requirements_with_criteria
 from rgss.decision import unweighted_measures
 from rgss.decision.robustness import Robustness
@@ -130,6 +128,8 @@ def requirement_columns(project: Project, measured: Sequence[VariantMeasures], d
 def weight_columns(project: Project, found: Robustness) -> Plain:
     """The weights, and the value of each variant in each measure: the inputs of a ranking.
 
+    With the direction of each measure, for equals are compared by their quantities.
+
     Args:
         project: The project with the value functions.
         found: The robustness, which has weights and values.
@@ -142,13 +142,13 @@ def weight_columns(project: Project, found: Robustness) -> Plain:
                 "weight": float(weight),
                 "worst": plain_number(anchors[measure].worst) if measure in anchors else None,
                 "best": plain_number(anchors[measure].best) if measure in anchors else None,
+                "more_is_better": found.more_is_better[place],
                 "worth": condensed(plain_numbers(found.values[:, place].tolist(), WORTH_DIGITS)),
             }
             for place, (measure, weight) in enumerate(zip(found.measures, found.weights.tolist(), strict=True))
         ],
         "practical_margin": project.study.trade_off.practical_margin,
         "unweighted": list(unweighted_measures(project)),
-        "surpassed": np.flatnonzero(found.surpassed).tolist(),
         "of_equals": "last" if project.study.trade_off.last_of_equals else "first",
     }
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
         replicates_of,
     )
     from rgss.tradeoff.problem.dominance import nondominated
-    from rgss.tradeoff.problem.equals import chosen_of_equals, surpassed_equals, surpassed_within_classes
+    from rgss.tradeoff.problem.equals import chosen_of_equals, surpassed_equals
     from rgss.tradeoff.problem.evidence_table import Alternative, EvidenceTable, Samples, check_evidence, tabulated
     from rgss.tradeoff.problem.hierarchy import CriterionNode, weighting_of, weights_of_criteria
     from rgss.tradeoff.problem.level_space import Incompatibility, LevelFactor, LevelSpace, LevelStructure

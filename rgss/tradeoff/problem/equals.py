@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.tradeoff.problem.alternatives import Array, Mask, classes
+from rgss.tradeoff.problem.alternatives import Array
 from rgss.tradeoff.problem.dominance import nondominated
 from rgss.tradeoff.problem.evidence_table import EvidenceTable
 from rgss.tradeoff.problem.values import ValueFunction
@@ -77,27 +77,3 @@ def _places(quantities: Array) -> Array:
     places = np.empty(len(quantities))
     places[order] = np.concatenate([[0.0], np.cumsum(steps)])
     return places
-
-
-def surpassed_within_classes(
-    table: EvidenceTable, value_functions: Sequence[ValueFunction], values: Array, feasible: Mask
-) -> NDArray[np.bool_]:
-    """Mask of the feasible alternatives that a feasible one of the same value in every measure surpasses, shape (n,).
-
-    Such alternatives have the same weighted value under all weights.
-
-    Args:
-        table: The alternatives.
-        value_functions: The value functions of the measures that decide.
-        values: Values in these measures, shape (n, m).
-        feasible: Mask of the feasible alternatives, shape (n,).
-    """
-    found = np.zeros(len(feasible), dtype=np.bool_)
-    rows = np.flatnonzero(feasible)
-    if not len(rows) or not values.shape[1]:
-        return found
-    _, membership = classes(values[rows])
-    for kind in np.flatnonzero(np.bincount(membership) > 1):
-        members = rows[membership == kind]
-        found[members] = surpassed_equals(table, value_functions, members)
-    return found

@@ -26,9 +26,44 @@ const worth = (place, weights) => {
   }
   return value;
 };
+// Quantities that differ by less are equal: those of the page have seven digits.
+const SAME = 1.5e-6, NOTHING = 1e-9;
+// The place of each number among those that differ, from the least.
+const placesOf = (numbers) => {
+  const order = numbers.map((_, index) => index).sort((one, other) => numbers[one] - numbers[other]);
+  const places = new Array(numbers.length);
+  let place = 0;
+  order.forEach((index, rank) => {
+    const [before, now] = [numbers[order[Math.max(0, rank - 1)]], numbers[index]];
+    if (now - before > Math.max(SAME * Math.max(Math.abs(now), Math.abs(before)), NOTHING)) place += 1;
+    places[index] = place;
+  });
+  return places;
+};
+// Of variants of the same value those that another surpasses: at least as good in the quantity of every measure that
+// has a weight now, and better in one. A measure with a target counts by its value.
+const surpassedOf = (tied, weights) => {
+  const columns = [];
+  weighted.forEach((one, index) => {
+    if (weights[index] === 0) return;
+    const quantities = tied.map(({ place }) => at(one.more_is_better === null ? one.worth : measureOf.get(one.id).value, place));
+    const scale = quantities.every(known) ? Math.max(...quantities.map(Math.abs)) : 0;
+    if (scale > 0) columns.push(placesOf(quantities.map((quantity) => (one.more_is_better === false ? -quantity : quantity) / scale)));
+  });
+  const rows = tied.map((one, index) => ({ place: one.place, places: columns.map((column) => column[index]) }));
+  const sum = ({ places }) => places.reduce((before, place) => before + place, 0);
+  const best = new Map();
+  const found = new Set();
+  // What surpasses another has a greater sum of places, and comes before it.
+  for (const row of rows.sort((one, other) => sum(other) - sum(one))) {
+    const surpasses = (other) => sum(other) > sum(row) && other.places.every((place, index) => place >= row.places[index]);
+    if ([...best.values()].some(surpasses)) found.add(row.place);
+    else best.set(row.places.join(), row);
+  }
+  return found;
+};
 // Same ranking as the trade-off: ties with the best first, of these what an equal surpasses last, by smallest or largest
 // id, then the rest.
-const surpassed = new Set(data.weights.surpassed);
 const ranked = (weights, places) => {
   const found = [];
   for (const place of places) {
@@ -40,8 +75,11 @@ const ranked = (weights, places) => {
     let end = first + 1;
     while (end < found.length && found[first].value - found[end].value <= TIE) end += 1;
     const tied = found.slice(first, end).sort((one, other) => variants.id[one.place] - variants.id[other.place]);
-    if (first === 0 && data.weights.of_equals === "last") tied.reverse();
-    if (first === 0) tied.sort((one, other) => surpassed.has(one.place) - surpassed.has(other.place));
+    if (first === 0 && tied.length > 1) {
+      if (data.weights.of_equals === "last") tied.reverse();
+      const surpassed = surpassedOf(tied, weights);
+      tied.sort((one, other) => surpassed.has(one.place) - surpassed.has(other.place));
+    }
     tied.forEach((one, index) => { found[first + index] = one; });
     first = end;
   }
