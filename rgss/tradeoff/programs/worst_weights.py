@@ -54,13 +54,12 @@ class WeightProgram:
         """
         import highspy
 
-        if not self._solver:
-            self._solver.append(self._prepared(highspy))
-        solver = self._solver[0]
-        size = len(objective)
-        solver.changeColsCost(size, np.arange(size, dtype=np.int32), np.asarray(-objective, dtype=np.float64))
-        solver.run()
-        status = solver.getModelStatus()
+        is_first = not self._solver
+        solver, status = self._run(highspy, objective)
+        if status != highspy.HighsModelStatus.kOptimal and not is_first:
+            # The start from another optimum can end without an answer, where a run from scratch has one.
+            self._solver.clear()
+            solver, status = self._run(highspy, objective)
         if status == highspy.HighsModelStatus.kInfeasible:
             raise TradeoffError("no weights satisfy all the elicited bounds and orders", hint="widen a bound")
         if status != highspy.HighsModelStatus.kOptimal:
@@ -73,6 +72,16 @@ class WeightProgram:
         weights = weights / weights.sum()
         multipliers = np.clip(-np.array(solution.row_dual, dtype=np.float64)[1:], 0.0, None)
         return WorstWeights(weights=weights, value=float(objective @ weights), multipliers=multipliers)
+
+    def _run(self, highspy: Any, objective: Array) -> tuple[Any, Any]:
+        """The solver after a run with an objective, and the status of its answer."""
+        if not self._solver:
+            self._solver.append(self._prepared(highspy))
+        solver = self._solver[0]
+        size = len(objective)
+        solver.changeColsCost(size, np.arange(size, dtype=np.int32), np.asarray(-objective, dtype=np.float64))
+        solver.run()
+        return solver, solver.getModelStatus()
 
     def _prepared(self, highspy: Any) -> Any:
         solver = highspy.Highs()

@@ -228,3 +228,47 @@ def test_regions_and_acceptability_of_many_bounded_measures(monkeypatch, count):
         assert region.share == pytest.approx(first, abs=0.08)
         assert region.centre is not None or first == 0.0
     assert shifts[0].distance == 0.0
+
+
+INTERVALS = {
+    0: (0.06, 0.25),
+    1: (0.04, 0.16),
+    2: (0.02, 0.2),
+    3: (0.01, 0.24),
+    6: (0.03, 0.2),
+    7: (0.09, 0.15),
+    8: (0.05, 0.12),
+    9: (0.06, 0.19),
+    10: (0.01, 0.24),
+}
+"""Bounds of nine of eleven weights."""
+
+LEADS = (
+    (-0.5432006867, -2.59e-08, -0.2161272711, 0.0, -0.4739758204, -1.149e-07, 0.0, 0.0, 0.0, 0.4364198097, 0.0),
+    (-0.5432006867, -2.07938e-05, -0.1817484786, 0.0, -0.4739758204, 2.375e-07, 0.0, 2 / 3, 0.0, 1.0, 0.0),
+    (-0.5432006867, -0.0016196023, -0.0802721993, 0.0, -0.4739758204, 2.379e-07, 0.0, 1 / 3, 0.0, 0.0, 0.0),
+    (-0.5432006867, -0.003436011, -0.1453775692, 0.0, -0.4739758204, -0.7314088865, 0.0, 1 / 3, 0.0, 0.0, 0.0),
+    (-0.5432006867, -0.0875714598, -0.0095579735, 0.0, -0.3307315826, 2.378e-07, 0.0, 0.0, 0.0, 1.0, 0.0),
+    (-0.5842165931, 0.0, -0.0368526109, 0.0, -0.4739758204, -4.46406e-05, 0.0, 0.0, 0.0, 0.0, 0.0),
+    (-0.5842165931, 0.0, -0.1308787113, 0.0, -0.4739758204, 2.379e-07, 0.0, 0.0, 0.0, 1.0, 2e-10),
+    (-0.5842165931, 0.0, -0.2088579505, 0.0, -0.4739758204, -2.789e-06, 0.0, -1 / 3, 0.0, 0.0, 0.0),
+    (-0.5842165931, 0.0, -0.0263464864, 0.0, -0.3332410836, 2.379e-07, 0.0, -1 / 3, 0.0, 0.8087108581, 2e-10),
+    (-0.5842165931, 0.0, -0.2992061875, 0.0, -0.1809149163, 1.793e-07, 0.0, 2 / 3, 0.0, 1.0, 0.0),
+)
+"""Leads of one design after another, the last of which HiGHS 1.15 does not solve from the optimum of those before."""
+
+
+def test_a_program_that_ends_without_an_answer_is_solved_from_scratch():
+    rows = np.array([sign * np.eye(11)[place] for place in INTERVALS for sign in (1.0, -1.0)])
+    limits = np.array([end for least, most in INTERVALS.values() for end in (most, -least)])
+    least = np.array([INTERVALS.get(place, (0.0, 1.0))[0] for place in range(11)])
+    most = np.array([INTERVALS.get(place, (0.0, 1.0))[1] for place in range(11)])
+    program = WeightProgram(rows, limits)
+    for lead in map(np.array, LEADS):
+        # What is left beyond the least weights goes to the greatest leads first.
+        weights, rest = least.copy(), 1.0 - least.sum()
+        for place in np.argsort(-lead):
+            more = min(rest, most[place] - least[place])
+            weights[place] += more
+            rest -= more
+        assert program.maximise(lead).value == pytest.approx(float(lead @ weights), abs=1e-9)
