@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import re
 from collections.abc import Sequence
+from html import escape
 from importlib import resources
 from typing import Any
 
 from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible
+
+_OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
+"""Option of a command, between whose hyphens a browser would break the line."""
 
 
 def render_page(
@@ -55,6 +60,7 @@ def render_page(
         # Markup is a str too, and its methods return Markup; invisible characters are escaped where it is made.
         finalize=lambda value: visible(value) if type(value) is str else value,
     )
+    environment.filters["whole_options"] = lambda text: Markup(options_to_html(text))  # noqa: S704 - it is escaped
     own = [_text("page/page.js"), *([_text("page/diagram_pages.js")] if context.get("drawings") else []), *scripts]
     return environment.get_template(template).render(
         style=Markup(_text("page/page.css") + "".join(styles)),  # noqa: S704 - this package's own files
@@ -65,6 +71,11 @@ def render_page(
         connects=connects,
         **context,
     )
+
+
+def options_to_html(text: str) -> str:
+    """A text as HTML in which no line breaks between the hyphens of an option, such as ``--what-if``."""
+    return _OPTION.sub(r'<span class="option">\g<0></span>', escape(visible(text)))
 
 
 def script_hash(script: str) -> str:

@@ -12,7 +12,13 @@ from rgss.decision.robustness import robustness
 from rgss.decision.study_decision import Conclusion, DesignStanding, Feasibility, decide_study
 from rgss.decision.study_decision.conclusion import conclusion_of
 from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
-from rgss.reports.decision.conclusion import headline, rule_sentence, standing_sentence, uncertainty_sentences
+from rgss.reports.decision.conclusion import (
+    headline,
+    rule_sentence,
+    share_of_draws,
+    standing_sentence,
+    uncertainty_sentences,
+)
 from rgss.trace.evidence import FailedVerifications
 from rgss.tradeoff.robustness import Rival
 
@@ -278,6 +284,8 @@ def test_a_tie_by_feasibility_names_no_number_of_replicates(made):
         "settle the open verdicts break the tie."
     )
     assert "would separate them" not in tie
+    two = with_rivals(made, rival, dataclasses.replace(rival, row=row + 1))
+    assert "by value alone they would not be tied" in list(uncertainty_sentences(two))[1]
 
 
 def test_probabilities_from_few_trials_have_a_caution(made):
@@ -358,3 +366,27 @@ def test_the_probability_that_is_stated_is_that_of_being_within_the_margin(made)
     assert next(uncertainty_sentences(dataclasses.replace(stated, practical_margin=0.0))).startswith(
         f"Probability that variant {chosen} is feasible and best: 75 %"
     )
+
+
+def test_draws_that_all_agree_are_no_certainty(made):
+    # exp(-3) is 0.05: of 1,000 draws none is seen of what has a probability of 0.3 % in one of twenty cases.
+    texts = [share_of_draws(share, 1_000) for share in (1.0, 0.0, 0.999, 0.001, 0.25)]
+    assert texts == ["> 99.7 %", "< 0.3 %", "99.9 %", "0.1 %", "25 %"]
+    assert [share_of_draws(share, 20_000) for share in (1.0, 0.0)] == ["> 99.985 %", "< 0.015 %"]
+    weighting = made.robustness.analysis.weighting
+    one = dataclasses.replace(weighting.uncertainty, good=1.0, none_feasible=0.0)
+    weighting = dataclasses.replace(weighting, uncertainty=one)
+    analysis = dataclasses.replace(made.robustness.analysis, weighting=weighting, draws=1_000)
+    certain = dataclasses.replace(made, robustness=dataclasses.replace(made.robustness, analysis=analysis))
+    first = next(uncertainty_sentences(certain))
+    assert ": > 99.7 %; that it is feasible: " in first
+    assert first.endswith("that no variant is feasible: < 0.3 %.")
+
+
+def test_without_noise_a_report_has_no_probability_of_being_feasible(made):
+    for with_noise in (True, False):
+        weighting = dataclasses.replace(made.robustness.analysis.weighting, with_noise=with_noise)
+        analysis = dataclasses.replace(made.robustness.analysis, weighting=weighting)
+        other = dataclasses.replace(made, robustness=dataclasses.replace(made.robustness, analysis=analysis))
+        rows = decision_part(other)["acceptability"]["variants"]
+        assert [one["feasible"] is not None for one in rows] == [with_noise] * len(rows)

@@ -17,6 +17,9 @@ MOST_TIES = 4
 MOST_NAMED = 8
 """Most requirements of one verdict that are named."""
 
+_UNSEEN = 3.0
+"""Expected number of draws of which none is seen with a probability of 5 %, as exp(-3) is 0.05: the rule of three."""
+
 
 def headline(made: StudyDecision) -> str:
     """Sentences on the choice, and on which designs are shown to meet every requirement.
@@ -173,16 +176,18 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
     good = "best"
     if made.practical_margin:
         good = f"the best, or worth less than it by at most the practical margin of {made.practical_margin:g}"
+    draws = found.analysis.draws
     yield (
-        f"Probability that variant {made.decision.chosen} is feasible and {good}: {share_in_words(one.good)}; that it "
-        f"is feasible: {share_in_words(float(one.feasible[one.chosen]))}; that no variant is feasible: "
-        f"{share_in_words(one.none_feasible)}."
+        f"Probability that variant {made.decision.chosen} is feasible and {good}: {share_of_draws(one.good, draws)}; "
+        f"that it is feasible: {share_of_draws(float(one.feasible[one.chosen]), draws)}; that no variant is feasible: "
+        f"{share_of_draws(one.none_feasible, draws)}."
     )
     if made.tolerance:
         yield (
             "Feasible is here what misses no threshold on what varies from trial to trial by more than "
             f"{share_text(made.tolerance)} of it, the tolerance of the choice; verdicts have none. Probability that "
-            f"variant {made.decision.chosen} meets every requirement without it: {share_in_words(one.as_required)}."
+            f"variant {made.decision.chosen} meets every requirement without it: "
+            f"{share_of_draws(one.as_required, draws)}."
         )
     if one.scarce:
         yield (
@@ -209,6 +214,21 @@ def share_text(share: float) -> str:
     return f"{100.0 * share:.3g} %"
 
 
+def share_of_draws(share: float, draws: int) -> str:
+    """Probability by the share of random draws, such as 94 %; where all or none agree, its 95 % bound.
+
+    Of n draws that all agree, at least 1 - 3/n of the distribution do, with a confidence of 95 %.
+
+    Args:
+        share: The share, from 0 to 1.
+        draws: Number of draws.
+    """
+    if 0.0 < share < 1.0 or draws <= 0:
+        return share_in_words(share)
+    unseen = 100.0 * _UNSEEN / draws
+    return f"> {100.0 - unseen:.6g} %" if share >= 1.0 else f"< {unseen:.2g} %"
+
+
 def _ties(found: RobustnessFindings, one: ChoiceUncertainty) -> Iterator[str]:
     groups: dict[tuple[object, ...], list[Rival]] = {}
     for rival in one.rivals:
@@ -232,8 +252,9 @@ def _tie(found: RobustnessFindings, members: list[Rival]) -> str:
     if not any(found.analysis.feasible[one.row] for one in members):
         return f"{tied}; not feasible by the estimates, which more replicates could change."
     if rival.by_feasibility:
+        pronoun = "it" if len(members) == 1 else "they"
         return (
-            f"{tied}; by value alone it would not be tied, being as good with the choice feasible in less than "
+            f"{tied}; by value alone {pronoun} would not be tied, being as good with the choice feasible in less than "
             f"{share_text(TIE_PROBABILITY)}: replicates that settle the open verdicts break the tie."
         )
     if rival.measure is None:

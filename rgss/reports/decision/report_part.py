@@ -184,7 +184,7 @@ def _acceptability(found: RobustnessFindings) -> Plain | None:
                 "first": plain_number(one.first),
                 "error": plain_number(one.first_error),
                 "confidence": plain_number(one.confidence) if weighting.with_noise else None,
-                "feasible": plain_number(one.feasible_share),
+                "feasible": plain_number(one.feasible_share) if weighting.with_noise else None,
                 "region": plain_number(one.region),
             }
             for one in itertools.islice(first, MOST_CONTENDERS)

@@ -110,7 +110,7 @@ def cautions(made: StudyDecision) -> Iterator[str]:
     else:
         for flat in made.decision.flat_measures:
             among = "feasible variants" if flat.among_feasible else "variants"
-            yield f"{flat.measure} is worth the same for all {among}, so its weight of {flat.weight:g} has no effect."
+            yield f"{flat.measure} is worth the same for all {among}, so its weight of {flat.weight:.3g} has no effect."
     for gap in made.gaps:
         yield f"{gap_sentence(gap)}."
     yield from model_cautions(made)

@@ -62,9 +62,9 @@ def worst_failure(measured: Sequence[VariantMeasures], chosen: int | None) -> Wo
         why = f"{spared}the only failed trial of {whose}"
     else:
         kind = "one of the most frequent kinds" if others else "the most frequent kind"
-        aside = f" (planning limits, {limits}, are not counted)" if limits else ""
+        apart = f", apart from planning limits ({limits})," if limits else ""
         why = (
-            f"{spared}of {len(pool)} failed trials of {whose}, {kind}, {first.value.replace('_', ' ')}, {most}{aside}, "
-            "and of it the smallest seed"
+            f"{spared}{len(pool)} trials of {whose} failed; {kind}{apart} is {first.value.replace('_', ' ')} ({most}), "
+            "and this is the one with the smallest seed"
         )
     return WorstFailure(key=key, record=record, failure=first, why=f"{why[0].upper()}{why[1:]}.")

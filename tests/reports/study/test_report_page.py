@@ -11,7 +11,7 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible_throughout
-from rgss.reports.page import render_page, script_hash
+from rgss.reports.page import options_to_html, render_page, script_hash, template_text
 from rgss.reports.study import embedded_json, packed_json, parted
 from rgss.reports.study_page import plotting_library
 
@@ -97,3 +97,10 @@ def test_a_held_script_is_carried_but_not_run():
     assert f"'{script_hash('one();')}' '{script_hash('two();')}'" in page
     assert "b { }</style>" in page
     assert "img-src" not in page
+
+
+def test_a_browser_cannot_break_an_option_between_its_hyphens():
+    assert options_to_html('rgss trade --what-if "a<b--c" --run, -- 5') == (
+        'rgss trade <span class="option">--what-if</span> &quot;a&lt;b--c&quot; <span class="option">--run</span>, -- 5'
+    )
+    assert "\n.option { white-space: nowrap; }\n" in template_text("page/page.css")

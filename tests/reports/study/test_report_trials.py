@@ -95,8 +95,8 @@ def test_the_worst_failure_is_the_most_frequent_of_the_choice_that_is_no_plannin
     )
     assert found.key == "2/6"
     assert found.why == (
-        "Of 7 failed trials of variant 2, the most frequent kind, arm collision, 2 (planning limits, 4, are not "
-        "counted), and of it the smallest seed."
+        "7 trials of variant 2 failed; the most frequent kind, apart from planning limits (4), is arm collision (2), "
+        "and this is the one with the smallest seed."
     )
 
 
@@ -111,16 +111,17 @@ def test_equally_frequent_kinds_and_a_choice_that_never_failed():
     found = worst_failure(measured(*records), 3)
     assert found.key == "2/2"
     assert found.why == (
-        "No trial of variant 3 failed; of 4 failed trials of all variants, one of the most frequent kinds, arm "
-        "collision, 2, and of it the smallest seed."
+        "No trial of variant 3 failed; 4 trials of all variants failed; one of the most frequent kinds is arm "
+        "collision (2), and this is the one with the smallest seed."
     )
-    assert worst_failure(measured(*records), None).why.startswith("Of 4 failed trials of all variants, one of")
+    assert worst_failure(measured(*records), None).why.startswith("4 trials of all variants failed; one of the")
 
 
 def test_planning_limits_alone_have_a_worst_failure_too():
     found = worst_failure(measured(trial(2, 3, Failure.PLANNING_LIMIT), trial(2, 2, Failure.PLANNING_LIMIT)), 2)
     assert found.key == "2/2"
     assert found.why == (
-        "Of 2 failed trials of variant 2, the most frequent kind, planning limit, 2, and of it the smallest seed."
+        "2 trials of variant 2 failed; the most frequent kind is planning limit (2), and this is the one with the "
+        "smallest seed."
     )
     assert worst_failure(measured(trial(1, 1)), 1) is None

@@ -44,7 +44,7 @@ const startCompare = () => {
   const draw = () => {
     const places = compared();
     const lacking = wanted().filter((text) => !placeOf.has(Number(text)));
-    note.textContent = lacking.length ? `Unknown variant ${lacking.join(", ")}.` : places.length < 2 ? "Name two variants or more." : wanted().length > MOST_COMPARED ? `The first ${MOST_COMPARED} are shown.` : "★ is the best of these, where they differ.";
+    note.textContent = lacking.length ? `Unknown variant ${lacking.join(", ")}.` : places.length < 2 ? "Name two variants or more." : wanted().length > MOST_COMPARED ? `The first ${MOST_COMPARED} are shown.` : "★ is the best of these by the estimates, where they differ.";
     if (!places.length) { host.replaceChildren(); return; }
     specification = {
       label: "Variants side by side", size: 200,

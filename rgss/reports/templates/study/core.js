@@ -44,6 +44,8 @@ const estimate = (measure, place) => {
   return show(at(measure.value, place), measure.unit) + (spread ? ` (${spread})` : "");
 };
 
+// A line does not break between the hyphens of an option of a command in a <code>.
+const withWholeOptions = (child) => (typeof child !== "string" ? [child] : child.split(/((?<![\w-])--[a-z][a-z-]*)/).map((part, index) => (index % 2 === 0 ? part : element("span", { class: "option" }, document.createTextNode(part)))));
 // Texts are inserted as text nodes, never as markup.
 const element = (tag, attributes = {}, ...children) => {
   const made = document.createElement(tag);
@@ -51,7 +53,7 @@ const element = (tag, attributes = {}, ...children) => {
     if (value === false || value === null) continue;
     made.setAttribute(name, value === true ? "" : String(value));
   }
-  made.append(...children);
+  made.append(...(tag === "code" ? children.flatMap(withWholeOptions) : children));
   return made;
 };
 // The text of a node as it is read: the cells of a row, and what is on lines of its own, do not run together.

@@ -234,15 +234,16 @@ const startAcceptability = () => {
   }
   const rows = () => (found === null ? [] : found.variants.filter((one) => shownMask[placeOf.get(one.variant)]));
   plot("acceptability", () => {
-    const bars = rows();
-    if (!bars.length) return null;
+    const all = rows();
+    if (!all.length) return null;
+    // As many bars as have room for their numbers; the chosen variant is one of them.
+    const most = Math.max(4, Math.floor((byId("acceptability-plot").clientWidth - 100) / (12 + 8 * Math.max(...all.map((one) => String(one.variant).length)))));
+    const bars = all.slice(0, most);
+    const chosen = all.find((one) => one.variant === data.decision.chosen);
+    if (chosen && !bars.includes(chosen)) bars.splice(-1, 1, chosen);
     const ink = getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
-    // Where not every bar has room for its number, the chosen one keeps it.
-    const step = Math.ceil((30 * bars.length) / Math.max(1, byId("acceptability-plot").clientWidth - 100));
-    const own = bars.findIndex((one) => one.variant === data.decision.chosen);
-    const named = bars.filter((one, index) => index === own || (index % step === 0 && (own < 0 || Math.abs(index - own) >= step)));
     return { traces: [{ type: "bar", x: bars.map((one) => String(one.variant)), y: bars.map((one) => one.first), error_y: { type: "data", symmetric: false, color: ink, thickness: 1, array: bars.map((one) => Math.min(1 - one.first, 1.96 * one.error)), arrayminus: bars.map((one) => Math.min(one.first, 1.96 * one.error)) }, marker: { color: bars.map((one) => KINDS[kindOf[placeOf.get(one.variant)]].colour), pattern: { shape: bars.map((one) => (kindOf[placeOf.get(one.variant)] === INFEASIBLE ? "/" : "")), fillmode: "replace", bgcolor: "#8a8a8a", fgcolor: "#ffffff", size: 7, solidity: 0.15 } }, hoverinfo: "text", text: bars.map((one) => plotText(`variant ${one.variant}: first in ${percent(one.first)}`)), textposition: "none", meta: bars.map((one) => one.variant) }],
-      layout: { xaxis: { type: "category", title: { text: own < 0 ? "variant" : "variant (chosen: bold)" }, tickmode: "array", tickangle: 0, tickvals: named.map((one) => String(one.variant)), ticktext: named.map((one) => (one.variant === data.decision.chosen ? `<b>${one.variant}</b>` : String(one.variant))) }, yaxis: { title: { text: "share of draws, higher is better" }, rangemode: "tozero", tickformat: ".0%" } } };
+      layout: { xaxis: { type: "category", title: { text: `variant${chosen ? " (chosen: bold)" : ""}${bars.length < all.length ? `, ${bars.length} of ${all.length}` : ""}` }, tickmode: "array", tickangle: 0, tickvals: bars.map((one) => String(one.variant)), ticktext: bars.map((one) => (one.variant === data.decision.chosen ? `<b>${one.variant}</b>` : String(one.variant))) }, yaxis: { title: { text: "share of draws, higher is better" }, rangemode: "tozero", tickformat: ".0%" } } };
   });
   onShown(tableIn("acceptability-table", {
     label: "Acceptability of the shown variants",

@@ -196,5 +196,5 @@ const finds = (place, word) => {
 const variantColumns = [
   { head: "Variant", cell: (place) => variantLink(variants.id[place]), sort: (place) => variants.id[place] },
   { head: "rank", number: true, cell: (place) => show(variants.rank[place]), sort: (place) => variants.rank[place], to: (place) => figureAddress(variants.id[place], "value") },
-  { head: "stands", cell: (place) => element("span", { class: "stands" }, KINDS[kindOf[place]].name), sort: (place) => -kindOf[place] },
+  { head: "role", cell: (place) => element("span", { class: "stands" }, KINDS[kindOf[place]].name), sort: (place) => -kindOf[place] },
 ];

@@ -60,9 +60,10 @@ const startFailures = () => {
   plot("failures", () => {
     const { rows } = counted();
     if (!rows.length) return null;
-    const kinds = [...new Set(rows.map((row) => row.failure))];
+    const trialsOf = (kind, phase = null) => rows.filter((row) => row.failure === kind && (phase === null || row.phase === phase)).reduce((sum, row) => sum + row.count, 0);
+    const kinds = [...new Set(rows.map((row) => row.failure))].sort((one, other) => trialsOf(other) - trialsOf(one) || one - other);
     const phases = [...new Set(rows.map((row) => row.phase))].sort((one, other) => one - other);
-    return { traces: phases.map((phase, index) => ({ type: "bar", orientation: "h", name: plotText(trials.phases[phase] ?? "no phase"), y: kinds.map((kind) => plotText(trials.failures[kind])), x: kinds.map((kind) => rows.filter((row) => row.failure === kind && row.phase === phase).reduce((sum, row) => sum + row.count, 0)), marker: filling(PALETTE[index % PALETTE.length], index), hovertemplate: "%{x} trials<extra>%{fullData.name}</extra>" })),
+    return { traces: phases.map((phase, index) => ({ type: "bar", orientation: "h", name: plotText(trials.phases[phase] ?? "no phase"), y: kinds.map((kind) => plotText(trials.failures[kind])), x: kinds.map((kind) => trialsOf(kind, phase)), marker: filling(PALETTE[index % PALETTE.length], index), hovertemplate: "%{x} trials<extra>%{fullData.name}</extra>" })),
       layout: { barmode: "stack", height: 200 + 46 * kinds.length, yaxis: { type: "category", autorange: "reversed" }, xaxis: { title: { text: "trials" }, rangemode: "tozero" } } };
   });
   const update = tableIn("failures-table", {
