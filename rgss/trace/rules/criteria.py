@@ -10,7 +10,7 @@ from rgss.quantities import possible_magnitudes, same_dimension
 from rgss.requirements import Criterion, Requirement, VerificationMethod
 from rgss.trace.model import MeasureTrace, TraceModel
 from rgss.trace.rules.rule import ModelRule, Violation
-from rgss.trace.sentences import TextQuantity, bound_of, quantities_in, response_start
+from rgss.trace.sentences import TextQuantity, bound_of, is_in_trailing_condition, quantities_in, response_start
 
 
 def _without_method(model: TraceModel) -> Iterator[Violation]:
@@ -92,7 +92,8 @@ def _contradicting_comparisons(model: TraceModel) -> Iterator[Violation]:
         # A quantity in a condition, such as 'If the force exceeds 10 N', is not a required value.
         start = response_start(requirement.text)
         for quantity in quantities_in(requirement.text):
-            if quantity.start < start or not same_dimension(quantity.unit, criterion.unit):
+            in_condition = quantity.start < start or is_in_trailing_condition(requirement.text, quantity, start)
+            if in_condition or not same_dimension(quantity.unit, criterion.unit):
                 continue
             bound = bound_of(requirement.text, quantity) if _equal(quantity, criterion) else None
             if bound is not None and bound.is_lower is not is_lower_bound:

@@ -26,6 +26,8 @@ _QUOTED = re.compile(r"\"[^\"]*\"|“[^”]*”|`[^`]*`")
 _SENTENCE_END = re.compile(
     r"[.!?](?<!\be\.g\.)(?<!\bi\.e\.)(?<!\betc\.)(?<!\bNo\.)(?<!\bFig\.)(?<![A-Z]\.)\s+(?=[A-Z\"“])"
 )
+# "1. Name 2. Size": a number that labels an item of a list, as texts of other tools have them.
+_LABEL = re.compile(r"(?<!\S)(\d{1,2})\.\s+(?=[A-Z\"“])")
 _OTHER_MODALS = frozenset({"should", "must", "will", "may", "might", "can", "could", "would"})
 _NO_SUBJECTS = frozenset({"a", "an", "and", "any", "each", "every", "or", "the", "then", "there"})
 _NO_VERBS = re.compile(r"a|an|the|of|to|in|on|at|by|with|for|from|and|or|each|its|their")
@@ -135,7 +137,7 @@ def read_sentence(text: str) -> Sentence:
         words=words,
         quantities=tuple(quantities_in(flat)),
         shalls=shalls,
-        sentences=1 + len(_SENTENCE_END.findall(flat)),
+        sentences=1 + len(_SENTENCE_END.findall(flat)) - _labels(flat),
         conditions=conditions,
         subject=subject,
         response=response,
@@ -143,6 +145,12 @@ def read_sentence(text: str) -> Sentence:
         flaw=flaw,
         departure=departure or _late_condition(tokens, shalls),
     )
+
+
+def _labels(text: str) -> int:
+    """Number of items of a list that is numbered from 1; 0 where the numbers before full stops are no labels."""
+    found = [int(number) for number in _LABEL.findall(text)]
+    return len(found) if len(found) > 1 and found == list(range(1, len(found) + 1)) else 0
 
 
 def words_of(text: str) -> tuple[str, ...]:

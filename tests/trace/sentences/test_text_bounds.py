@@ -112,3 +112,36 @@ def test_what_stands_behind_one_number_may_be_about_the_next():
 
     assert bound_of(sentence, first) is None
     assert bound_of(sentence, second).is_lower
+
+
+@pytest.mark.parametrize(
+    ("sentence", "is_lower"),
+    [
+        ("The force shall not at any time exceed 5 N.", False),
+        ("The force shall under no circumstances exceed 5 N.", False),
+        ("The force shall not, under any circumstances, exceed 5 N.", False),
+        ("The force shall be kept from exceeding 5 N.", False),
+        ("The force shall be kept from falling below 5 N.", True),
+        ("The gripper shall avoid exceeding 5 N.", False),
+        ("The gripper shall not have a mass exceeding 5 kg.", False),
+        ("No finger shall exceed 5 N.", False),
+        ("The gripper shall not slip, and exceed 5 N.", True),
+    ],
+)
+def test_distant_negators(sentence, is_lower):
+    bound = only_bound(sentence)
+
+    assert bound is not None
+    assert bound.is_lower is is_lower
+
+
+def test_a_negator_that_may_be_about_something_else_leaves_the_side_open():
+    assert only_bound("The robot shall not drop cups of more than 5 N.") is None
+
+
+def test_both_ends_of_a_range():
+    low, high = quantities_in("The speed shall lie between 0.5 m/s and 1 m/s.")
+    sentence = "The speed shall lie between 0.5 m/s and 1 m/s."
+
+    assert bound_of(sentence, low).is_lower
+    assert not bound_of(sentence, high).is_lower

@@ -36,6 +36,9 @@ RULES: tuple[SentenceRule, ...] = (
             "The gripper shall open, while the arm shall stay.",
             "The gripper shall open. Fingers are slow.",
         ),
-        passing=("If the cup slips and the force is at the bound, then the arm shall stop.",),
+        passing=(
+            "If the cup slips and the force is at the bound, then the arm shall stop.",
+            "The message shall have the fields 1. Name 2. Size 3. Owner.",
+        ),
     ),
 )
