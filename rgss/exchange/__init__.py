@@ -12,5 +12,6 @@ if TYPE_CHECKING:
     from rgss.exchange.content import Content, content_of, part_of
     from rgss.exchange.foreign_measures import with_measures_compared
     from rgss.exchange.journal import contents_of, has_journal, importing, undone, was_interrupted
+    from rgss.exchange.verification_records import record_cells, with_records_compared
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

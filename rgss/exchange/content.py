@@ -47,8 +47,10 @@ class Row:
 class Content:
     """Elements of a file.
 
-    Attributes: rows: The elements, in the file's order.
+    Attributes:
+        rows: The elements, in the file's order.
         measures: Id and definition of each measure.
+        records: Attributes of the verification record of each requirement that has one, by its id.
         whole: Parts of which the file has every element, so that a missing one was removed.
         notes: Content of the file that is not imported, since it has no counterpart here.
         losses: Content of elements that is not imported, though it may change their meaning.
@@ -57,6 +59,7 @@ class Content:
 
     rows: tuple[Row, ...]
     measures: tuple[tuple[str, str], ...] = ()
+    records: Mapping[str, Mapping[str, str]] = field(default_factory=lambda: MappingProxyType({}))
     whole: frozenset[Part] = frozenset(Part)
     notes: tuple[str, ...] = ()
     losses: tuple[Finding, ...] = ()
@@ -68,18 +71,23 @@ def part_of(element: Element) -> Part:
     return _PARTS[type(element)]
 
 
-def content_of(requirements: RequirementSet, measures: Mapping[str, str] | None = None) -> Content:
+def content_of(
+    requirements: RequirementSet,
+    measures: Mapping[str, str] | None = None,
+    records: Mapping[str, Mapping[str, str]] | None = None,
+) -> Content:
     """Content of a project.
 
     Args:
         requirements: Its requirements and architecture, as loaded.
         measures: The definition of each measure by id.
+        records: Attributes of the verification record of each requirement that has one, by its id.
     """
     rows = tuple(
         Row(part=part_of(element), cells=cells_of(part_of(element), full_entry(part_of(element), entry)))
         for element, entry in _entries(requirements)
     )
-    return Content(rows=rows, measures=tuple((measures or {}).items()))
+    return Content(rows=rows, measures=tuple((measures or {}).items()), records=records or {})
 
 
 def full_entry(part: Part, entry: Mapping[str, Any]) -> dict[str, Any]:

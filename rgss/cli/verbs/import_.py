@@ -69,12 +69,15 @@ def _imported(folder: Path, options: argparse.Namespace) -> int:
         content_of,
         contents_of,
         planned,
+        record_cells,
         rehearsed,
         with_absent_links,
         with_measures_compared,
+        with_records_compared,
         written,
     )
     from rgss.studies import FOLDERS, load_project
+    from rgss.trace.evidence import evidence_of_records
 
     contents = contents_of(folder)
     project = load_project(folder, options.study)
@@ -84,6 +87,7 @@ def _imported(folder: Path, options: argparse.Namespace) -> int:
     if options.format == "reqif":
         foreign = with_absent_links(own, foreign, remove=options.remove)
         foreign = with_measures_compared(foreign, {one.id: one.definition for one in project.measures.measures})
+        foreign = with_records_compared(foreign, record_cells(evidence_of_records(project.requirements, folder)))
     changes = compare(own, foreign, assumed)
     files: Sequence[FileChange] = planned(
         folder, project.requirements, changes, remove=options.remove, contents=contents

@@ -22,8 +22,11 @@ def model_counts(project: Project) -> dict[str, int]:
 
 
 def requirements_content(project: Project) -> Content:
-    """The requirements with the measures that they name."""
+    """The requirements with the measures that they name, and with their verification records."""
     from rgss.exchange.content import content_of
+    from rgss.exchange.verification_records import record_cells
+    from rgss.trace.evidence import evidence_of_records
 
     measures = {measure.id: measure.definition for measure in project.measures.measures}
-    return content_of(project.requirements, measures)
+    records = record_cells(evidence_of_records(project.requirements, project.folder))
+    return content_of(project.requirements, measures, records)

@@ -16,8 +16,10 @@ if TYPE_CHECKING:
 def _write(project: Project, path: Path, evidence: str) -> Mapping[str, int]:  # noqa: ARG001
     from rgss.documents import write_output
     from rgss.exchange.sysml import sysml_text
+    from rgss.trace.evidence import evidence_of_records
 
-    text = sysml_text(project.requirements, project.measures, title=project.study.id)
+    records = evidence_of_records(project.requirements, project.folder)
+    text = sysml_text(project.requirements, project.measures, title=project.study.id, records=records)
     write_output(path, text.encode("utf-8"))
     return model_counts(project)
 

@@ -12,9 +12,11 @@ from rgss.exchange.attributes import ATTRIBUTES, Form, Part
 from rgss.exchange.reqif.identifiers import type_identifier
 from rgss.exchange.reqif.prose import from_xhtml
 from rgss.exchange.reqif.vocabulary import MEASURE, TOOL, TYPE_NAMES, attribute_name
+from rgss.exchange.verification_records import RECORD_ATTRIBUTES
 from rgss.findings import shown
 
 _MOST_NAMED = 8
+_OF_RECORDS = frozenset(attribute.name for attribute in RECORD_ATTRIBUTES)
 
 _ESCAPES_BREAKS = "strictdoc"
 r"""Line break in a string of StrictDoc: ``\n``, since XML would turn a real one into a blank."""
@@ -76,6 +78,8 @@ class ObjectReader:
         self._unused: dict[str, None] = {}
         self.lost: list[tuple[int, str]] = []
         """Line and message of all content that texts lose with their markup."""
+        self.records: dict[str, dict[str, str]] = {}
+        """Attributes of the verification record of each requirement that has one."""
         self.own_parts = [kind for kind in Part if type_identifier(kind.value) in self._types]
 
     def read(self, objects: Sequence[Any]) -> dict[str, ForeignObject]:
@@ -150,6 +154,9 @@ class ObjectReader:
                 self.lost += [(where, f"{element_id}: {long}: {phrase}") for phrase in phrases]
                 if names and names[name].form is Form.FLAG and cells[name] == "false":
                     cells[name] = ""
+            elif is_ours and part is Part.SYSTEM and name in _OF_RECORDS:
+                if values.get(long, ""):
+                    self.records.setdefault(element_id, {})[name] = values[long]
             elif values.get(long, "").strip():
                 self._unused.setdefault(long)
         return ForeignObject(

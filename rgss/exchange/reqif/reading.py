@@ -52,6 +52,7 @@ def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Par
     return Content(
         rows=tuple(replace(row, file=each.file) for _, each in read for row in each.rows),
         measures=tuple({measure[0]: measure for _, each in read for measure in each.measures}.values()),
+        records=ChainMap({}, *(dict(each.records) for _, each in read)),
         whole=frozenset(kind for _, each in read for kind in each.whole),
         notes=tuple(f"{name}: {note}" if len(read) > 1 else note for name, each in read for note in each.notes),
         losses=tuple(loss for _, each in read for loss in each.losses),
@@ -123,6 +124,7 @@ def _content(
     return Content(
         rows=tuple(_row(each, links, parents, relations.stated) for each in rows),
         measures=tuple((each.id, each.cells.get("text", "")) for each in found if each.type_name == MEASURE),
+        records=one.reader.records,
         whole=frozenset(one.reader.own_parts),
         notes=(*one.reader.notes(), *relations.notes()),
         losses=tuple(

@@ -36,6 +36,7 @@ from rgss.exchange.reqif.vocabulary import (
     is_string,
     long_name,
 )
+from rgss.exchange.verification_records import RECORD_ATTRIBUTES
 from rgss.requirements import LinkKind
 
 # A quarter of the file is indentation. Texts have no line break before a "<", see `as_xhtml`.
@@ -65,7 +66,10 @@ def reqif_text(content: Content, *, title: str) -> str:
     measures = dict(content.measures)
     for row in content.rows:
         measures |= dict.fromkeys(ids_in(row.cells.get("measure", "")), "") | measures
-    objects = [(_part(row).value, row.id, ATTRIBUTES[_part(row)], row.cells) for row in content.rows]
+    objects = [
+        (_part(row).value, row.id, _attributes_of(_part(row)), {**row.cells, **content.records.get(row.id, {})})
+        for row in content.rows
+    ]
     objects += [(MEASURE, name, _MEASURE_ATTRIBUTES, {"id": name, "text": text}) for name, text in measures.items()]
     bundle = models.ReqIFBundle(
         namespace_info=models.ReqIFNamespaceInfo(
@@ -127,6 +131,11 @@ def _part(row: Row) -> Part:
     return row.part
 
 
+def _attributes_of(part: Part) -> tuple[Attribute, ...]:
+    """The attributes of a type of objects; system requirements have those of their verification records too."""
+    return (*ATTRIBUTES[part], *(RECORD_ATTRIBUTES if part is Part.SYSTEM else ()))
+
+
 def _data_types(models: Any) -> Iterator[Any]:
     yield models.ReqIFDataTypeDefinitionString(
         identifier=identifier(*STRING), last_change=NO_TIME, long_name="String", max_length=_LONGEST_STRING
@@ -135,8 +144,8 @@ def _data_types(models: Any) -> Iterator[Any]:
         identifier=identifier(*XHTML), last_change=NO_TIME, long_name="XHTML", is_self_closed=True
     )
     yield models.ReqIFDataTypeDefinitionBoolean(identifier=identifier(*FLAG), last_change=NO_TIME, long_name="Boolean")
-    for part, attributes in ATTRIBUTES.items():
-        for attribute in attributes:
+    for part in ATTRIBUTES:
+        for attribute in _attributes_of(part):
             if attribute.form is Form.CHOICE:
                 yield models.ReqIFDataTypeDefinitionEnumeration(
                     identifier=identifier("data", part.value, attribute.name),
@@ -157,7 +166,7 @@ def _data_types(models: Any) -> Iterator[Any]:
 
 def _spec_types(models: Any) -> Iterator[Any]:
     for part, name in TYPE_NAMES.items():
-        yield _object_type(models, part.value, name, ATTRIBUTES[part])
+        yield _object_type(models, part.value, name, _attributes_of(part))
     yield _object_type(models, MEASURE, MEASURE, _MEASURE_ATTRIBUTES)
     for relation in RELATIONS:
         yield models.ReqIFSpecRelationType(
@@ -212,7 +221,7 @@ def _object(models: Any, type_name: str, name: str, attributes: Sequence[Attribu
                 value=_value(type_name, attribute, cells[attribute.name], f"{name}: {attribute.name}"),
             )
             for attribute in attributes
-            if not is_relation(attribute) and cells[attribute.name]
+            if not is_relation(attribute) and cells.get(attribute.name)
         ],
     )
 

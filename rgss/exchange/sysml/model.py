@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from rgss.exchange.sysml.behaviour import BEHAVIOUR, behaviour
 from rgss.exchange.sysml.measures import MEASURES, calculations
@@ -12,6 +12,7 @@ from rgss.exchange.sysml.relations import NEEDS, SYSTEM, Relations
 from rgss.exchange.sysml.structure import PARTS, STRUCTURE, Parts
 from rgss.measures import MeasureSet
 from rgss.requirements import RequirementSet
+from rgss.trace.evidence import RecordEvidence
 
 LIBRARIES = (
     "ScalarValues::*",
@@ -20,11 +21,18 @@ LIBRARIES = (
     "ControlFunctions::*",
     "RequirementDerivation::*",
     "ModelingMetadata::*",
+    "VerificationCases::*",
 )
 """Imported libraries of the language."""
 
 
-def sysml_text(requirements: RequirementSet, measures: MeasureSet, *, title: str) -> str:
+def sysml_text(
+    requirements: RequirementSet,
+    measures: MeasureSet,
+    *,
+    title: str,
+    records: Mapping[str, RecordEvidence] | None = None,
+) -> str:
     """Write requirements, architecture and measures in the textual notation of SysML v2.
 
     Every id is the name, or the short name, of its element; the same model gives the same text.
@@ -33,6 +41,7 @@ def sysml_text(requirements: RequirementSet, measures: MeasureSet, *, title: str
         requirements: Stakeholder and system requirements, structure and behaviour.
         measures: The measures, which become calculations.
         title: The name of the package.
+        records: The verification records by id of the requirement.
     """
     parts = Parts(requirements.architecture)
     lines = [
@@ -48,7 +57,7 @@ def sysml_text(requirements: RequirementSet, measures: MeasureSet, *, title: str
             (line for each in requirements.architecture.behaviours for line in behaviour(each, parts)),
         ),
         *_package(MEASURES, calculations(measures)),
-        *_package("Relations", Relations(requirements, parts).lines()),
+        *_package("Relations", Relations(requirements, parts, records or {}).lines()),
     ]
     return "\n".join(body(f"package {name(title)}", lines)) + "\n"
 

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
 
 from rgss.exchange.sysml.behaviour import reference
 from rgss.exchange.sysml.notation import body, documentation, name
 from rgss.exchange.sysml.structure import Parts
+from rgss.exchange.verification_records import evidence_lines
+from rgss.measures import Verdict
 from rgss.requirements import Behaviour, BehaviourKind, Block, LinkKind, Requirement, RequirementSet, StakeholderNeed
+from rgss.trace.evidence import RecordEvidence
+
+_VERDICTS: Mapping[Verdict, str] = MappingProxyType(
+    {Verdict.MET: "pass", Verdict.NOT_MET: "fail", Verdict.INCONCLUSIVE: "inconclusive"}
+)
+"""The verdicts of SysML; a record that no longer holds gives none."""
 
 NEEDS = "Stakeholder requirements"
 SYSTEM = "System requirements"
@@ -16,15 +25,17 @@ SYSTEM = "System requirements"
 class Relations:
     """Writer of the links of a set of requirements, between qualified names of elements."""
 
-    def __init__(self, requirements: RequirementSet, parts: Parts) -> None:
+    def __init__(self, requirements: RequirementSet, parts: Parts, records: Mapping[str, RecordEvidence]) -> None:
         """Index the elements.
 
         Args:
             requirements: The requirements and the architecture.
             parts: The paths of the blocks' parts.
+            records: The verification records by id of the requirement.
         """
         self._requirements = requirements
         self._parts = parts
+        self._records = records
 
     def lines(self) -> Iterator[str]:
         """Derivations, satisfactions, refinements, allocations, traces, inclusions, verifications."""
@@ -51,15 +62,22 @@ class Relations:
                     head = f"dependency {name(f'include {behaviour.id} {other}')}"
                     yield f"{head} from {reference(behaviour.id)} to {reference(other)};"
         for requirement in self._requirements.system:
-            if requirement.verification is not None:
+            if requirement.verification is not None or requirement.id in self._records:
                 yield from self._verification(requirement)
 
     def _verification(self, requirement: Requirement) -> list[str]:
         text = f"By {requirement.verification.value}." if requirement.verification is not None else ""
         text += f" Facility: {requirement.facility}." if requirement.facility else ""
         text += f" Phase: {requirement.phase.value}." if requirement.phase is not None else ""
-        objective = f"objective {{ verify {self._name(requirement.id)}; }}"
-        return body(f"verification {name(f'verify {requirement.id}')}", [documentation(text), objective])
+        lines = [f"objective {{ verify {self._name(requirement.id)}; }}"]
+        found = self._records.get(requirement.id)
+        if found is not None:
+            result = found.record.result.value.replace("_", " ")
+            evidence = "; ".join(evidence_lines(found))
+            text += f" Recorded {result} by {found.record.by} on {found.record.date}{': ' * bool(evidence)}{evidence}"
+            verdict = _VERDICTS.get(found.verdict)
+            lines += [] if verdict is None else [f"return verdict : VerdictKind = VerdictKind::{verdict};"]
+        return body(f"verification {name(f'verify {requirement.id}')}", [documentation(text.strip()), *lines])
 
     def _name(self, element_id: str) -> str:
         element = self._requirements.element(element_id)

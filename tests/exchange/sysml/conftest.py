@@ -11,7 +11,10 @@ import pytest
 from antlr4.atn.ParserATNSimulator import ParserATNSimulator
 
 from rgss.exchange.sysml import sysml_text
+from rgss.measures import StaleCause
+from rgss.requirements import RecordedResult, VerificationRecord
 from rgss.studies.project import load_project
+from rgss.trace.evidence import RecordEvidence
 
 WIDE_RULES = frozenset({"identification", "usageDeclaration", "featureSpecializationPart", "multiplicityPart"})
 """Rules of the grammar that almost anything may follow, with all of whose followers a prediction begins otherwise."""
@@ -54,9 +57,27 @@ def shipped():
     return load_project(Path(__file__).resolve().parents[3])
 
 
+def recorded(name, result, *causes):
+    record = VerificationRecord(
+        result=result, by="A. Reader", date="2026-05-12", note="*/ Ten of ten.", files={}, requirement="0" * 64
+    )
+    return RecordEvidence(requirement=name, record=record, causes=causes)
+
+
 @pytest.fixture(scope="session")
-def written(shipped):
-    return sysml_text(shipped.requirements, shipped.measures, title=shipped.study.id)
+def records():
+    """Verification records: one that holds, one that says not met, and one that no longer holds."""
+    found = [
+        recorded("SYS-001", RecordedResult.MET),
+        recorded("SYS-002", RecordedResult.NOT_MET),
+        recorded("SYS-003", RecordedResult.MET, StaleCause.REQUIREMENT),
+    ]
+    return {each.requirement: each for each in found}
+
+
+@pytest.fixture(scope="session")
+def written(shipped, records):
+    return sysml_text(shipped.requirements, shipped.measures, title=shipped.study.id, records=records)
 
 
 @pytest.fixture(scope="session")

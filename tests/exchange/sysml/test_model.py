@@ -143,6 +143,15 @@ def test_every_verified_requirement_has_a_verification(elements, shipped):
     assert sorted(found) == sorted(r.id for r in shipped.requirements.system if r.verification is not None)
 
 
+def test_a_record_that_holds_gives_its_verification_a_verdict(elements):
+    verdicts = [each for each in elements if getattr(each, "name", None) == "verdict"]
+    found = {each.owner.name for each in verdicts if each.owner.name.startswith("verify ")}
+
+    assert sorted(found) == ["verify SYS-001", "verify SYS-002"]
+    documents = {each.name: documented(each) for each in usages(elements, "verification") if each.name in found}
+    assert "Recorded met by A. Reader on 2026-05-12: * / Ten of ten." in documents["verify SYS-001"]
+
+
 @pytest.mark.parametrize(
     ("kind", "keyword"),
     [
@@ -188,8 +197,8 @@ def test_calculations_compute_what_the_measures_compute(model, shipped):
         assert found == pytest.approx(expected, rel=1e-12), each
 
 
-def test_the_same_model_gives_the_same_text(written, shipped):
-    assert sysml_text(shipped.requirements, shipped.measures, title=shipped.study.id) == written
+def test_the_same_model_gives_the_same_text(written, shipped, records):
+    assert sysml_text(shipped.requirements, shipped.measures, title=shipped.study.id, records=records) == written
 
 
 def test_texts_that_try_to_break_out_of_where_they_stand_stay_texts(read, shipped):
