@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
+import re
 from collections.abc import Iterable
 from contextlib import ContextDecorator
 from types import TracebackType
@@ -25,6 +26,8 @@ TERMS = (
 
 
 _LONGEST_SHOWN = 60
+_SWEEP_OF = re.compile(r"'rgss sweep [^']*' first")
+"""A sweep of the trials that a study was loaded with."""
 
 
 class ErrorsNameArguments(ContextDecorator):
@@ -49,6 +52,7 @@ def in_arguments(text: str) -> str:
     Args:
         text: A message or a hint.
     """
+    text = _SWEEP_OF.sub("'rgss sweep' first", text)
     for option, argument in TERMS:
         text = text.replace(option, argument)
     return text

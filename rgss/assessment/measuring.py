@@ -131,8 +131,12 @@ def record_of(
     return VerdictRecord(studies=MappingProxyType({**recorded.studies, key: MappingProxyType(book)}))
 
 
-def require_complete(measured: Sequence[VariantMeasures]) -> None:
+def require_complete(measured: Sequence[VariantMeasures], *, sweep: str = "rgss sweep") -> None:
     """Check that every trial of the study has evidence.
+
+    Args:
+        measured: Every variant with its evidence.
+        sweep: The command that makes the evidence.
 
     Raises:
         EvidenceError: Some have none.
@@ -144,7 +148,7 @@ def require_complete(measured: Sequence[VariantMeasures]) -> None:
         old = f"; {outdated} of them have evidence of an earlier model, code or engine" if outdated else ""
         raise EvidenceError(
             f"{missing} of {total} trials have no evidence for the project as it is now{old}",
-            hint="run 'rgss sweep' first",
+            hint=f"run '{sweep}' first",
         )
 
 

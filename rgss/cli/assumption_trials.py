@@ -40,7 +40,7 @@ def scenario_measures(
     from rgss.assessment import require_complete
     from rgss.decision.what_if import ScenarioEvidenceReader
 
-    require_complete(measured)
+    require_complete(measured, sweep=project.command("sweep"))
     found = ScenarioEvidenceReader(project, measured, store).read(scenario)
     if found.missing and options.run:
         _run(options, project, found.missing, store)
@@ -67,7 +67,7 @@ def known_assumptions(
     from rgss.assessment import require_complete
     from rgss.decision.assumptions import assumption_outcomes, missing_trials
 
-    require_complete(measured)
+    require_complete(measured, sweep=project.command("sweep"))
     if options.run:
         _run(options, project, missing_trials(project, measured, store), store)
     return assumption_outcomes(project, measured, store)

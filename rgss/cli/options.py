@@ -113,12 +113,17 @@ def sweep_words(options: argparse.Namespace, *names: str) -> list[str]:
         options: The command's options.
         names: The options with a value that are named beside the study, such as ``fidelity``.
     """
+    from rgss.studies import TrialChoice
+
+    given = {name: getattr(options, name, None) for name in names}
     words = ["rgss", "sweep", *([options.study] if getattr(options, "study", None) else [])]
-    for name in names:
-        value = getattr(options, name, None)
-        if value is not None:
-            words += [f"--{name}", str(value)]
-    return [*words, "--nominal"] if getattr(options, "nominal", False) else words
+    words += ["--project", str(given["project"])] if given.get("project") is not None else []
+    chosen = TrialChoice(
+        fidelity=given.get("fidelity"),
+        replicates=given.get("replicates"),
+        is_nominal=getattr(options, "nominal", False),
+    )
+    return [*words, *chosen.words]
 
 
 def with_sweep_options(hint: str, options: argparse.Namespace) -> str:

@@ -53,7 +53,7 @@ def trade_problem(
         DefinitionError: A criterion has a comparison that a program does not support, or levels are to
             be chosen of designs that are not combinations of levels.
     """
-    require_complete(measured)
+    require_complete(measured, sweep=project.command("sweep"))
     criteria = {
         requirement.id: _demanded(project, requirement.criterion)
         for requirement in requirements_with_criteria(project)

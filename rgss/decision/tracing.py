@@ -44,6 +44,7 @@ def trace_evidence(
         else f"{choice}; {entry.missing} of its trials were not run",
         variants=len(measured),
         state=state,
+        sweep=project.command("sweep"),
     )
 
 

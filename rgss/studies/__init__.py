@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from rgss.studies.schema_headers import write_headers, write_schemas
     from rgss.studies.source_text import invisible_findings
     from rgss.studies.study import value_anchors
+    from rgss.studies.trial_choice import TrialChoice
     from rgss.studies.unread_files import unread_findings
     from rgss.studies.unused_parameters import uncounted_mass_findings, unused_findings
 else:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -25,6 +25,7 @@ from rgss.studies.motion import motion_findings, neutral_findings
 from rgss.studies.planning import resolution_findings
 from rgss.studies.project_folders import REQUIREMENTS, measures_of, requirements_named, study_file, words_of_study
 from rgss.studies.study import StudyDefinition, named_file, read_study
+from rgss.studies.trial_choice import TrialChoice
 from rgss.studies.uncertainty_findings import uncertainty_findings
 from rgss.studies.value_symbols import symbol_findings
 from rgss.tasks import default_task, task_findings
@@ -50,6 +51,7 @@ class Project:
         grippers: The gripper file of each gripper component, by its name.
         study: The study.
         measure_traces: The measures as traceability sees them.
+        chosen: The trials that were chosen in place of those of the study's file, for the commands that are named.
     """
 
     folder: Path
@@ -60,6 +62,7 @@ class Project:
     grippers: dict[str, GripperFile]
     study: StudyDefinition
     measure_traces: tuple[MeasureTrace, ...]
+    chosen: TrialChoice = field(default=TrialChoice(), compare=False)
 
     @property
     def evidence(self) -> Path:
@@ -67,12 +70,12 @@ class Project:
         return self.folder / EVIDENCE
 
     def command(self, verb: str) -> str:
-        """The command of a verb on this study, such as ``rgss sweep nominal_world``.
+        """The command of a verb on this study and its chosen trials: ``rgss sweep nominal_world --replicates 4``.
 
         Args:
             verb: The verb.
         """
-        return f"rgss {verb}{words_of_study(self.study.label)}"
+        return " ".join([f"rgss {verb}{words_of_study(self.study.label)}", *self.chosen.words])
 
     def check(self) -> tuple[Finding, ...]:
         """Findings on traceability, without a simulation."""
@@ -87,7 +90,8 @@ class Project:
         known = [choice.value for choice in Fidelity]
         if fidelity not in known:
             raise DefinitionError(f"unknown fidelity {fidelity!r}", hint=f"fidelities: {', '.join(known)}")
-        return replace(self, study=replace(self.study, fidelity=Fidelity(fidelity), screening=None))
+        study = replace(self.study, fidelity=Fidelity(fidelity), screening=None)
+        return replace(self, study=study, chosen=replace(self.chosen, fidelity=fidelity))
 
     @property
     def uncertainty(self) -> Uncertainty:
@@ -103,11 +107,13 @@ class Project:
 
     def nominal(self) -> Project:
         """The same project without uncertainty and workload: everything as the files say."""
-        return replace(self, study=replace(self.study, is_nominal=True))
+        chosen = replace(self.chosen, is_nominal=True)
+        return replace(self, study=replace(self.study, is_nominal=True), chosen=chosen)
 
     def with_replicates(self, replicates: int) -> Project:
         """The same project with a fixed number of replicates, the same for every variant."""
-        return replace(self, study=replace(self.study, replicates=replicates, is_sequential=False))
+        study = replace(self.study, replicates=replicates, is_sequential=False)
+        return replace(self, study=study, chosen=replace(self.chosen, replicates=replicates))
 
 
 def load_project(folder: Path, study: str | None = None) -> Project:

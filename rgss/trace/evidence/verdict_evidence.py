@@ -87,12 +87,14 @@ class TraceEvidence:
         choice: Reason for this variant, or for none.
         variants: Number of variants of the study.
         state: Verdicts of all variants, and test results.
+        sweep: The command that makes the evidence of these trials.
     """
 
     shown: VariantEvidence | None = None
     choice: str = "no evidence was read"
     variants: int = 0
     state: EvidenceState = field(default_factory=EvidenceState)
+    sweep: str = "rgss sweep"
 
     def tests(self, requirement_id: str) -> tuple[TestEvidence, ...]:
         """The tests that verify a requirement, each with how it ended."""

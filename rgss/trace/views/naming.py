@@ -71,7 +71,7 @@ def _where(evidence: TraceEvidence, variant: int) -> str:
         return f"{held}; --variant {variant} shows those of variant {variant}"
     seeds = sorted(trial.seed for trial in shown.trials)
     if not seeds:
-        return f"variant {variant} has no evidence of this fidelity; run 'rgss sweep' first"
+        return f"variant {variant} has no evidence of this fidelity; run '{evidence.sweep}' first"
     return f"variant {variant} has trials of seeds {seeds[0]} to {seeds[-1]}; --replicates shows others"
 
 
