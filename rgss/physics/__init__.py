@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rgss.physics.settings import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ, MOST_ITERATIONS, PhysicsSettings
     from rgss.physics.shape_surfaces import object_surfaces
     from rgss.physics.stage import Posture, SeenSolid, Stage
+    from rgss.physics.suction_seal import seal_margin
     from rgss.physics.torque_arm import TorqueArm
     from rgss.physics.world import World
 else:

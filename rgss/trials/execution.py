@@ -369,7 +369,7 @@ class Execution:
         return PhaseResult(
             phase=step.name,
             failure=monitor.failure,
-            detail=monitor.detail,
+            detail=self._objects.named(monitor.detail),
             duration_s=steps * self._step_s,
             metrics=metrics,
         )

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import re
 
 from rgss.evidence import Failure
 from rgss.physics import ContactWorld
 from rgss.scenes import ObjectPlacement, Pose, Scene, initial_placements, scene_about
 from rgss.tasks import HandAction, Stage, TaskProgram, stages_of
 from rgss.trials.object_checks import moved_by_itself
+
+_PRESENT_OBJECT = re.compile(r"\bthe (?:placed )?object\b")
 
 
 class TaskObjects:
@@ -75,6 +78,16 @@ class TaskObjects:
                 place = next(one.place for one in self._scene.objects if one.workpiece.id == name)
                 return moved_by_itself(name, before, now, largest_m, place.largest_tilt_rad)
         return None
+
+    def named(self, detail: str) -> str:
+        """Detail of a failure with the id of the present object, if the scene has several.
+
+        Args:
+            detail: The detail, in which it is "the object".
+        """
+        if not self._scene.others:
+            return detail
+        return _PRESENT_OBJECT.sub(self._world.scene.workpiece.id, detail)
 
     def resting_on(self, stage: Stage) -> str:
         """Body that the object of a stage may touch; empty for none.

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from rgss.documents import Document
 from rgss.evidence import Fidelity
@@ -15,6 +16,9 @@ from rgss.studies.checks.object_limit_check import mass_location, unborne_object
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
 
+if TYPE_CHECKING:
+    from rgss.trials import HeldLoad
+
 _PADS = (
     "slides or turns between the pads of {variants}: they bear",
     "grip it nearer to its centre of mass, or with more force or friction",
@@ -25,8 +29,34 @@ _CUP = (
 )
 
 
+@dataclass(frozen=True, slots=True)
+class _Failing:
+    """Way in which an object leaves the hand.
+
+    Attributes:
+        includes: True for a load that does.
+        hand: What it leaves, with the variants, and the hint.
+        load: What the hand bears, with the most that a variant bears.
+        borne_1: That, divided by what it needs.
+    """
+
+    includes: Callable[[HeldLoad], bool]
+    hand: tuple[str, str]
+    load: str
+    borne_1: Callable[[HeldLoad], float]
+
+
+_LIFT = "{one.factor:.3g} times its weight at most, and a lift at full acceleration takes {one.needed:.3g} times"
+_ASIDE = "{one.aside_1:.3g} times the load of a move aside at full acceleration at most"
+_WAYS = (
+    _Failing(lambda one: not one.is_borne and not one.has_cup, _PADS, _LIFT, lambda one: one.factor / one.needed),
+    _Failing(lambda one: not one.is_borne and one.has_cup, _CUP, _LIFT, lambda one: one.factor / one.needed),
+    _Failing(lambda one: one.is_borne and not one.is_carried, _CUP, _ASIDE, lambda one: one.aside_1),
+)
+
+
 def held_load_findings(project: Project, document: Document) -> Iterator[Finding]:
-    """Warn of objects that no hand can lift at the tool's full acceleration; a note if some designs can.
+    """Warn of objects that no hand can lift or carry at the tool's full acceleration; a note if some designs can.
 
     Args:
         project: The project with its study.
@@ -34,7 +64,7 @@ def held_load_findings(project: Project, document: Document) -> Iterator[Finding
     """
     if project.study.fidelity is not Fidelity.CONTACT:
         return
-    from rgss.trials import HeldLoad, held_loads
+    from rgss.trials import held_loads
 
     loads: dict[tuple[Gripper, float], tuple[HeldLoad, ...]] = {}
     unborne: dict[str, list[tuple[HeldLoad, int]]] = {}
@@ -45,7 +75,7 @@ def held_load_findings(project: Project, document: Document) -> Iterator[Finding
             stated = replace(spec, uncertainty=NOTHING_UNCERTAIN, workload=ONE_WORKLOAD)
             loads[alike] = tuple(held_loads(stated))
         for load in loads[alike]:
-            if not load.is_borne:
+            if not (load.is_borne and load.is_carried):
                 unborne.setdefault(load.object, []).append((load, spec.variant))
     unborne_at_rest = unborne_objects(project)
     for index, object_ in enumerate(project.scene.objects):
@@ -54,17 +84,16 @@ def held_load_findings(project: Project, document: Document) -> Iterator[Finding
         if not of_object or name in unborne_at_rest:
             continue
         is_of_all = len(of_object) == len(specs)
-        for has_cup in (False, True):
-            failing = [(load, variant) for load, variant in of_object if load.has_cup is has_cup]
+        for way in _WAYS:
+            failing = [(load, variant) for load, variant in of_object if way.includes(load)]
             if not failing:
                 continue
-            best = max((load for load, _ in failing), key=lambda load: load.factor / load.needed)
-            hand, hint = _CUP if has_cup else _PADS
+            best = max((load for load, _ in failing), key=way.borne_1)
+            hand, hint = way.hand
             of_designs = hand.format(variants=variants_text([variant for _, variant in failing]))
             yield document.finding(
                 "scene.grip-load",
-                f"{name} {of_designs} {best.factor:.3g} times its weight at most, and a lift at full acceleration "
-                f"takes {best.needed:.3g} times",
+                f"{name} {of_designs} {way.load.format(one=best)}",
                 mass_location(document, index),
                 severity=Severity.WARNING if is_of_all else Severity.INFO,
                 hint=hint if is_of_all else "these designs fail once it is lifted, and the others do not",

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from rgss.grasping import load_factor
 from rgss.grasping.candidates import contact_points, weight_share
+from rgss.physics import seal_margin
 from rgss.scenes import (
     Gripper,
     PadPatch,
@@ -24,6 +28,8 @@ from rgss.tasks import HandAction, stages_of
 from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.workcell import cell_of, with_grasp_of
 
+_LINES = 8
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeldLoad:
@@ -34,17 +40,25 @@ class HeldLoad:
         factor: Greatest multiple of its weight that they bear with their whole force, as it rests.
         needed: Multiple with which a lift at the tool's full acceleration loads them.
         has_cup: True for a suction cup.
+        aside_1: Factor by which the load of a move aside at the tool's full acceleration could grow before it breaks
+            the seal of a cup; infinite for fingers.
     """
 
     object: str
     factor: float
     needed: float
     has_cup: bool = False
+    aside_1: float = math.inf
 
     @property
     def is_borne(self) -> bool:
         """True if the lift leaves the object in place in the hand."""
         return self.factor >= self.needed
+
+    @property
+    def is_carried(self) -> bool:
+        """True if a move aside leaves the object on the cup."""
+        return self.aside_1 >= 1.0
 
 
 def held_loads(spec: TrialSpec) -> Iterator[HeldLoad]:
@@ -62,17 +76,19 @@ def held_loads(spec: TrialSpec) -> Iterator[HeldLoad]:
     needed = 1.0 + scene.robot.tool_acceleration_m_s2 / scene.gravity_m_s2
     stages = stages_of(spec.task, scene.workpiece.id)
     for name in dict.fromkeys(stage.object for stage in stages if stage.step.hand is HandAction.CLOSES):
-        factor = None
-        if name not in cell.ungrasped:
-            factor = _factor(spec, scene_about(scene, name, place="", placements=placements))
-        if factor is not None:
-            yield HeldLoad(object=name, factor=factor, needed=needed, has_cup=spec.gripper.suction is not None)
+        if name in cell.ungrasped:
+            continue
+        view = scene_about(scene, name, place="", placements=placements)
+        load = HeldLoad(object=name, factor=math.inf, needed=needed)
+        if spec.gripper.suction is not None:
+            if not unsealed(spec.gripper.geometry, view):
+                yield _on_cup(load, spec.gripper, spec.gripper.suction, view)
+        elif (factor := _factor(spec, view)) is not None:
+            yield replace(load, factor=factor)
 
 
 def _factor(spec: TrialSpec, view: Scene) -> float | None:
     geometry, workpiece = spec.gripper.geometry, view.workpiece
-    if spec.gripper.suction is not None:
-        return _of_seal(spec.gripper, spec.gripper.suction, view)
     tool_in_object = workpiece.pose.inverse() @ view.grasp
     patches = pad_patches(workpiece.shape, tool_in_object, geometry)
     if patches is None:
@@ -90,15 +106,44 @@ def _factor(spec: TrialSpec, view: Scene) -> float | None:
     )
 
 
-def _of_seal(gripper: Gripper, suction: Suction, view: Scene) -> float | None:
-    """Multiple that the seal of a cup bears by its axial and tangential forces and at the edge of its lip."""
+def _on_cup(load: HeldLoad, gripper: Gripper, suction: Suction, view: Scene) -> HeldLoad:
+    """Load that the seal of a cup bears by its axial and tangential forces and at the edge of its lip."""
     workpiece, cup = view.workpiece, gripper.geometry.cup
-    if cup is None or unsealed(gripper.geometry, view):
-        return None
+    radius_m = 0.0 if cup is None else cup.radius_m
     ratio_1 = suction.tangential_force_n / gripper.finger_force_n
-    share = weight_share(suction_point_of(view), centre_of_mass(workpiece), cup.radius_m, ratio_1)
+    share = weight_share(suction_point_of(view), centre_of_mass(workpiece), radius_m, ratio_1)
     held_n = (1.0 - suction.leak) * gripper.finger_force_n
-    return share * held_n / (workpiece.mass_kg * view.gravity_m_s2)
+    return replace(
+        load,
+        factor=share * held_n / (workpiece.mass_kg * view.gravity_m_s2),
+        has_cup=True,
+        aside_1=_aside(view, radius_m, held_n, ratio_1 * held_n),
+    )
+
+
+def _aside(view: Scene, radius_m: float, held_n: float, across_n: float) -> float:
+    """Margin of a seal while the tool accelerates and brakes along a horizontal line, on the best of some lines."""
+    workpiece, point = view.workpiece, suction_point_of(view)
+    gravity, most = view.gravity_m_s2, view.robot.tool_acceleration_m_s2
+    normal = np.array(point.normal)
+    arm_m = np.array(centre_of_mass(workpiece)) - np.array(point.position_m)
+
+    def margin(x: float, y: float) -> float:
+        force_n = workpiece.mass_kg * np.array(workpiece.pose.inverse_rotate((-most * x, -most * y, -gravity)))
+        moment = np.cross(arm_m, force_n)
+        tension_n = -float(force_n @ normal)
+        bending_n_m = float(np.linalg.norm(moment - (moment @ normal) * normal))
+        found = seal_margin(
+            held_n,
+            across_n,
+            lifting_n=tension_n + bending_n_m / radius_m,
+            tangential_n=float(np.linalg.norm(force_n + tension_n * normal)),
+        )
+        return math.inf if found is None else found
+
+    turns = (math.pi * turn / _LINES for turn in range(_LINES))
+    lines = ((math.cos(turn), math.sin(turn)) for turn in turns)
+    return max(min(margin(x, y), margin(-x, -y)) for x, y in lines)
 
 
 def _inset(patch: PadPatch, radius_m: float) -> PadPatch:

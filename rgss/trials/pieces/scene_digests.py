@@ -2,7 +2,8 @@
 
 All objects are treated alike, the first and the further ones: planning uses their ids, shapes, perceived poses,
 supports and places; the choice of a grasp also their friction and centre of mass; only the execution uses the other
-numbers, the true and the assumed ones. The name of the scene and all colours are no inputs.
+numbers, the true and the assumed ones. Of a mesh, planning reads the corners; the digest of its file is an input of the
+execution alone. The name of the scene and all colours are no inputs.
 
 Planning reads the joints and the collision shapes of the robot and of a linkage, not the inertias of their links: these
 are inputs of the execution. A named frame is an input of a task that moves to it, and of no other.
@@ -15,7 +16,7 @@ from functools import lru_cache
 from typing import Any
 
 from rgss.documents import digest
-from rgss.scenes import GripperGeometry, ObjectShape, PlaceRegion, Robot, Scene, Workpiece, centre_of_mass
+from rgss.scenes import GripperGeometry, MeshShape, ObjectShape, PlaceRegion, Robot, Scene, Workpiece, centre_of_mass
 from rgss.trials.conditions import Conditions
 from rgss.trials.pieces.plain_values import to_plain, without
 
@@ -137,6 +138,8 @@ def physics_digest(scene: Scene) -> str:
         physics["others"] = [
             [_strength(one.workpiece), _tolerances(one.place), _stated_inertia(one.workpiece)] for one in scene.others
         ]
+    if meshes := [one.workpiece.shape.sha256 for one in scene.objects if isinstance(one.workpiece.shape, MeshShape)]:
+        physics["meshes"] = meshes
     if scene.places:
         physics["places"] = [_tolerances(one.region) for one in scene.places]
     return digest(physics)
@@ -205,4 +208,5 @@ def _waypoints(scene: Scene) -> dict[str, Any]:
 
 
 def _shape(shape: ObjectShape) -> dict[str, Any]:
-    return {"kind": type(shape).__name__, **to_plain(shape)}
+    """Plain shape; of a mesh the corners alone, without the digest of its file."""
+    return {"kind": type(shape).__name__, **without(to_plain(shape), ("sha256",))}

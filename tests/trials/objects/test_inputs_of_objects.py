@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from rgss.evidence import Fidelity
-from rgss.scenes import Cylinder, NamedPlace
+from rgss.scenes import Cylinder, MeshShape, NamedPlace, corners_of
 from rgss.scenes.uncertainty import Constant, Uncertainty, UncertainValue
 from rgss.trials.code.piece_versions import ENTRIES
 from rgss.trials.pieces import execution_from_json
@@ -91,6 +91,17 @@ def test_a_number_of_any_object_is_an_input_of_the_same_pieces(with_two, name):
         of = one.workpiece.id
         assert changed(spec, with_object(spec, of, **changes)) == of_chosen, of
         assert changed(stated(spec), with_object(stated(spec), of, **changes)) == of_stated, of
+
+
+def test_of_a_mesh_the_corners_are_planned_and_the_rest_of_its_file_is_not(with_two):
+    """As of the meshes of the robot: a comment in the file plans nothing anew."""
+    mesh = MeshShape(parts_m=corners_of(CARTON), sha256="one")
+    for make in (with_two(), stated(with_two())):
+        spec = with_object(make, make.scene.workpiece.id, shape=mesh)
+        of = spec.scene.workpiece.id
+        assert changed(spec, with_object(spec, of, shape=replace(mesh, sha256="other"))) == LAST
+        moved = tuple((x, y, z + 0.001) for x, y, z in mesh.parts_m[0])
+        assert changed(spec, with_object(spec, of, shape=replace(mesh, parts_m=(moved,)))) == PLANNED
 
 
 def test_the_friction_of_an_object_is_not_an_input_of_the_choice_of_a_cup(with_two, tmp_path):
