@@ -24,7 +24,7 @@ from rgss.scenes import (
 )
 from rgss.tasks import TaskProgram
 from rgss.trials.grasp_choice import GraspSearch, with_stated_suction
-from rgss.trials.planning import GoalReason, infeasible_waypoints
+from rgss.trials.planning import GoalReason, infeasible_waypoints, objects_served_turned
 from rgss.trials.workcell import Workcell, grasp_searches_of
 
 TOUCHING_M = 1e-3
@@ -70,6 +70,7 @@ class SceneProblem:
         other problems.
         is_at_place: True if it is a waypoint at the place, of which `second` is the name, if it has one.
         reason: The reason; None for other problems.
+        serves_turned: True if the hand turned by 180 deg, which holds the object alike, has no unserved waypoint of it.
         detail: Numbers of grasp candidates rejected by each filter, or the kind of a foot; empty for other problems.
     """
 
@@ -81,6 +82,7 @@ class SceneProblem:
     is_at_place: bool = False
     reason: GoalReason | None = None
     detail: str = ""
+    serves_turned: bool = False
 
 
 def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
@@ -131,6 +133,8 @@ def reach_problems(
     if ungrasped:
         return (*found, *_without_grasp(ungrasped, cell))
     found += _closing_contacts(scene, geometry)
+    unserved = infeasible_waypoints(cell)
+    turned = objects_served_turned(scene, geometry, unserved, clearance_m=clearance_m, task=task)
     found += [
         SceneProblem(
             kind=SceneProblemKind.UNSERVED,
@@ -139,8 +143,9 @@ def reach_problems(
             waypoint=stop.name,
             is_at_place=stop.is_at_place,
             reason=reason,
+            serves_turned=(stop.object or scene.workpiece.id) in turned,
         )
-        for stop, reason in infeasible_waypoints(cell).items()
+        for stop, reason in unserved.items()
     ]
     return tuple(found)
 

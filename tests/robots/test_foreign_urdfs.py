@@ -94,6 +94,11 @@ def test_a_robot_without_a_name_has_that_of_its_file(draft):
         ("</robot>", '<xacro:property name="width" value="0.2"/></robot>', None),
         ('<child link="link_1"/>', '<child link="nowhere"/>', "has the child link 'nowhere', which the URDF has not"),
         ("</robot>", '<link name="left"/></robot>', "2 links that nothing carries: base, left"),
+        (
+            "</robot>",
+            '<joint name="rod" type="fixed"><parent link="base"/><child link="link_2"/></joint></robot>',
+            "the URDF has a link that 2 joints carry: link_2, by joint_2, rod",
+        ),
         ('effort="100"', 'effort="much"', "has effort='much' in <limit>"),
     ],
 )

@@ -11,6 +11,7 @@ import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 import pytest
+import trimesh
 
 from rgss.cli.main import main
 from rgss.guard.schema import record_schema
@@ -192,6 +193,19 @@ def test_an_arm_that_cannot_turn_its_tool_down(tmp_path, capsys):
     error = " ".join(capsys.readouterr().err.split())
     assert "r does not turn any axis of tip down: in 2048 configurations the nearest, " in error
     assert "deg from the vertical on a level base (name the link that carries the gripper" in error
+
+
+def test_an_arm_with_meshes_in_millimetres_and_no_scale(tmp_path, capsys):
+    """An arm of a kilometre has no place at a table: the hint is the unit, and not another flange."""
+    trimesh.creation.box((90.0, 90.0, 400.0)).export(tmp_path / "link.stl")
+    shape = '<collision><geometry><mesh filename="link.stl"/></geometry></collision></link>'
+    text = serial_urdf(FOUR).replace("</link>", shape, 1)
+    urdf = tmp_path / "arm.urdf"
+    urdf.write_text(text, encoding="utf-8")
+    assert main(["init", "--robot", str(urdf), "--tool-axis", "z", str(tmp_path / "new")]) == 2
+    error = " ".join(capsys.readouterr().err.split())
+    assert "no layout was found in which serial grasps a cup" in error
+    assert re.search(r'\(the mesh \S+ is 400 m long: is it in millimetres\? write scale="0.001 0.001 0.001"; ', error)
 
 
 @pytest.fixture

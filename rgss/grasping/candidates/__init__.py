@@ -1,5 +1,6 @@
 """Grasp candidates of an object, from its shape or its file, with contacts and quality."""
 
+from rgss.grasping.candidates.hand_symmetry import has_opposed_fingers
 from rgss.grasping.candidates.ranked_grasp import RankedGrasp
 from rgss.grasping.candidates.ranking import OPEN_GAP_M, FrameRejection, RankedGrasps, ranked_grasps
 from rgss.grasping.candidates.scoring import contact_points

@@ -35,6 +35,8 @@ def remedy(problem: SceneProblem) -> str:
     """Hint for a waypoint that the arm does not serve."""
     from rgss.trials import Obstacle
 
+    if problem.serves_turned:
+        return "add 180 deg to 'grasp_yaw' and 'place_yaw': the hand so turned holds it alike and serves every waypoint"
     if problem.reason is not None and problem.reason.obstacle is Obstacle.ORIENTATION:
         return "move it, turn the tool otherwise there, or change the task's heights"
     if problem.reason is None or problem.reason.obstacle is Obstacle.OUT_OF_REACH:

@@ -20,6 +20,7 @@ from rgss.studies.robot_project.descent_search import (
     UNMENDED,
     angles_from_vertical_rad,
 )
+from rgss.studies.robot_project.description import description_findings
 from rgss.studies.robot_project.draft import DraftedRobot, drafted_robot
 from rgss.studies.robot_project.drafted_gripper import DraftedGripper
 from rgss.studies.robot_project.first_trial import carries_object, has_scene_errors
@@ -157,9 +158,16 @@ def _write_files(
     )
     raise UnfitShapesError(
         f"no layout was found in which {id_} grasps a cup on a table with its tool pointing down: {found}",
-        hint=_layout_hint(set(reasons.values()), drafted.flange),
+        hint=_units_hint(drafted) or _layout_hint(set(reasons.values()), drafted.flange),
         is_concave=is_any_mesh_concave(project),
     )
+
+
+def _units_hint(drafted: DraftedRobot) -> str:
+    """Hint for an arm with lengths that no arm has, such as those of a mesh in millimetres; empty without one."""
+    found = description_findings(drafted.robot, drafted.file.with_suffix(".urdf"), drafted.file.name)
+    wrong = [one for one in found if one.rule == "robot.units"]
+    return f"{wrong[0].message} {wrong[0].hint}; rgss robot lists all findings" if wrong else ""
 
 
 def _layout_hint(reasons: Set[str], flange: str) -> str:

@@ -166,9 +166,17 @@ def _check_tree(root: ET.Element, links: list[str]) -> None:
         twice = next((name for name, count in Counter(names).items() if count > 1), None)
         if twice is not None:
             raise DefinitionError(f"the URDF has two {kind} of the name {twice!r}", hint="give each a name of its own")
-    carried = {_end(joint, "child") for joint in joints}
+    carried = Counter(_end(joint, "child") for joint in joints)
     bases = [name for name in links if name not in carried]
-    if len(bases) != 1 or len(carried) != len(joints):
+    link, parents = max(carried.items(), key=lambda item: item[1], default=("", 0))
+    if parents > 1:
+        carrying = ", ".join(joint.get("name", "") for joint in joints if _end(joint, "child") == link)
+        raise DefinitionError(
+            f"the URDF has a link that {parents} joints carry: {link}, by {carrying}",
+            hint="arms are serial: each link has one joint. A parallelogram is described by one of its chains, with "
+            "<mimic>; a delta or another parallel robot is not simulated",
+        )
+    if len(bases) != 1:
         found = f"{len(bases)} links that nothing carries: {', '.join(bases[:4])}" if bases else "a loop of links"
         raise DefinitionError(f"the URDF has {found}", hint="join all links to one base, each by one joint")
 
