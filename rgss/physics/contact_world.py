@@ -32,6 +32,10 @@ class ContactWorld(Protocol):
         """Reason why a switched-on suction cup does not hold the workpiece; empty if it does, and for fingers."""
 
     @property
+    def slipped_follower(self) -> str:
+        """Name of a follower of the arm whose coupling does not transmit what it needs; empty if none."""
+
+    @property
     def seal_margin(self) -> float | None:
         """Factor by which the load of a suction cup could grow before its seal breaks; None if it is unknown."""
 

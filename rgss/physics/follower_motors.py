@@ -5,7 +5,7 @@ arm, and so do motors where two joints turn against each other about a light lin
 wrist level: with 1000 iterations a joint lags by 8 mrad. So the efforts that the motors found in a step act as torques
 in the next one, which leaves the solver the difference alone; it converges over some steps, as with a warm start. The
 effort of a follower acts on its driven joint in the same way, so that the driven joint's motor carries it within its
-own limit: one step later than in a rigid coupling.
+own limit: one step later than in a rigid coupling. A follower that needs more than its own effort slips.
 
 That converges if no link beside a follower is too light (`steady_light_links`).
 """
@@ -16,6 +16,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rgss.physics.light_links import steady_light_links
+from rgss.physics.slipping import slipped
 from rgss.scenes import Robot
 
 _FOLLOWER_EFFORT = 1.0e5
@@ -51,7 +52,8 @@ class FollowerMotors:
         self._followers = [joints[one.name] for one in robot.followers]
         self._driven = [joints[joint.name] for joint in robot.joints]
         self._gain, self._step_s = gain, step_s
-        self._limits = [joint.torque_n_m for joint in robot.joints] + [_FOLLOWER_EFFORT] * len(self._followers)
+        self._limits = [joint.torque_n_m for joint in robot.joints]
+        self._limits += [min(one.effort, _FOLLOWER_EFFORT) for one in robot.followers]
         self._carried = [0.0] * len(self._limits)
         if self._followers:
             steady_light_links(engine, client, body, robot, joints)
@@ -112,6 +114,13 @@ class FollowerMotors:
             motors: What the engine reports of their motors, shape (n,).
         """
         return tuple(own + motor for own, motor in zip(self._carried, motors, strict=False))
+
+    @property
+    def slipped(self) -> str:
+        """Name of a follower whose coupling has given way; empty if none has."""
+        states = self._engine.getJointStates(self._body, (*self._driven, *self._followers), self._client)
+        positions, count = [state[0] for state in states], len(self._driven)
+        return slipped(self._robot, positions[:count], positions[count:])
 
     @property
     def largest_error(self) -> float:

@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rgss.physics.light_links import steady_light_links
+from rgss.physics.slipping import slipped
 from rgss.scenes import Robot
 
 _GEAR_FORCE = 1.0e4
 _GEAR_CORRECTION = 0.2
 
 
-def add_gear(engine: Any, client: int, body: int, *, leading: int, following: int, ratio: float, shift: float) -> None:
+def add_gear(
+    engine: Any,
+    client: int,
+    body: int,
+    *,
+    leading: int,
+    following: int,
+    ratio: float,
+    shift: float,
+    effort: float = math.inf,
+) -> None:
     """Tie a joint to another one as a constraint of the solver: q_following = ratio (q_leading - shift).
 
     Args:
@@ -23,6 +35,7 @@ def add_gear(engine: Any, client: int, body: int, *, leading: int, following: in
         following: Id of the joint that follows it.
         ratio: Displacement of the following joint per displacement of the leading one.
         shift: Position of the leading joint where the following one is at zero.
+        effort: Greatest torque in N·m or force in N on the following joint.
     """
     gear = engine.createConstraint(
         body, leading, body, following, engine.JOINT_GEAR, [1, 0, 0], [0, 0, 0], [0, 0, 0], physicsClientId=client
@@ -31,7 +44,8 @@ def add_gear(engine: Any, client: int, body: int, *, leading: int, following: in
         gear,
         gearRatio=-1.0 / ratio,
         relativePositionTarget=shift,
-        maxForce=_GEAR_FORCE,
+        # The force of the constraint acts on the leading joint.
+        maxForce=min(_GEAR_FORCE, effort * abs(ratio)),
         erp=_GEAR_CORRECTION,
         physicsClientId=client,
     )
@@ -68,6 +82,7 @@ class ArmGears:
                 following=joint,
                 ratio=one.multiplier,
                 shift=-one.offset / one.multiplier,
+                effort=one.effort,
             )
 
     def reset(self, driven: Sequence[float]) -> None:
@@ -78,6 +93,14 @@ class ArmGears:
         """
         for joint, position in zip(self._followers, self._robot.follower_positions(driven), strict=True):
             self._engine.resetJointState(self._body, joint, position, 0.0, physicsClientId=self._client)
+
+    @property
+    def slipped(self) -> str:
+        """Name of a follower whose gear has given way; empty if none has."""
+        if not self._followers:
+            return ""
+        driven = [self._position(joint) for joint in self._driven]
+        return slipped(self._robot, driven, [self._position(joint) for joint in self._followers])
 
     @property
     def largest_error(self) -> float:

@@ -126,6 +126,11 @@ class TorqueArm(ClientOwner):
         return tuple(s[0] for s in states), tuple(s[1] for s in states)
 
     @property
+    def slipped_follower(self) -> str:
+        """Name of a follower whose coupling does not transmit what it needs; empty if none."""
+        return self._gears.slipped
+
+    @property
     def follow_error(self) -> float:
         """Greatest deviation of a follower of the arm from its driven joint in rad or m; 0 without followers."""
         return self._gears.largest_error

@@ -302,6 +302,11 @@ class World(ClientOwner):
         return (self._flange_pose() @ self.gripper.geometry.lip).position_m, pull_n
 
     @property
+    def slipped_follower(self) -> str:
+        """Name of a follower whose coupling does not transmit what it needs; empty if none."""
+        return self._followers.slipped
+
+    @property
     def follow_error(self) -> float:
         """Greatest deviation of a following joint, of a linkage or the arm, from its ratio in rad or m; 0 without."""
         return max(0.0 if self._linkage is None else self._linkage.largest_error, self._followers.largest_error)

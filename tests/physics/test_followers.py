@@ -98,6 +98,47 @@ def test_a_driven_joint_is_limited_by_what_its_follower_needs(three_fingers, rob
             assert abs(torques[1]) == pytest.approx(shoulder if holds else share * shoulder, rel=0.02)
 
 
+def with_effort(robot, effort):
+    """The arm whose first parallelogram, which carries the forearm, transmits an effort at most."""
+    first, second = robot.followers
+    return replace(robot, followers=(replace(first, effort=effort), second))
+
+
+@pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
+@pytest.mark.parametrize(("share", "slipped"), [(1.1, ""), (0.9, "shoulder_level")])
+def test_a_coupling_that_does_not_transmit_what_its_follower_needs_slips(three_fingers, robot, engine, share, slipped):
+    still = np.zeros(4)
+    needed = abs(float(dynamics_of(three_fingers, robot).follower_torques(START, still, still)[0]))
+    assert needed > 10.0
+    scene = replace(three_fingers.scene, robot=with_effort(robot, share * needed))
+    if engine == "pybullet":
+        opened = World(scene, three_fingers.gripper, PhysicsSettings())
+    else:
+        opened = mujoco_settings().open(scene, three_fingers.gripper)
+    with opened as world:
+        world.reset_arm(START.tolist())
+        assert world.slipped_follower == ""
+        for _ in range(round(0.3 * world.settings.rate_hz)):
+            world.command_arm(START.tolist(), STILL)
+            world.step()
+        assert world.slipped_follower == slipped
+
+
+@pytest.mark.parametrize(("share", "slipped"), [(1.1, ""), (0.9, "shoulder_level")])
+def test_a_gear_that_does_not_transmit_what_its_follower_needs_slips(three_fingers, robot, share, slipped):
+    dynamics, still = dynamics_of(three_fingers, robot), np.zeros(4)
+    needed = abs(float(dynamics.follower_torques(START, still, still)[0]))
+    limited, settings = with_effort(robot, share * needed), PhysicsSettings()
+    with TorqueArm(limited, three_fingers.gripper, settings, gravity_m_s2=three_fingers.scene.gravity_m_s2) as machine:
+        machine.reset(START.tolist(), 0.0)
+        for _ in range(round(0.3 * settings.rate_hz)):
+            # Joints at rest of a rigid coupling; where it slips the arm sags.
+            q, dq = machine.state()
+            wanted = 1600.0 * (START - np.array(q)) - 80.0 * np.array(dq)
+            machine.step(dynamics.torques(q, dq, wanted).tolist())
+        assert machine.slipped_follower == slipped
+
+
 def test_torques_accelerate_the_coupled_arm(three_fingers, robot):
     dynamics, rate_hz = dynamics_of(three_fingers, robot), 960.0
     wanted = np.array([0.5, -0.8, 0.6, 1.0])

@@ -165,6 +165,7 @@ class _Builder:
             ET.SubElement(self._actuator, "motor", motor)
         for follower in robot.followers:
             coupling = {
+                "name": follower.name,
                 "joint1": follower.name,
                 "joint2": robot.joints[follower.driver].name,
                 "polycoef": f"{number(follower.offset)} {number(follower.multiplier)} 0 0 0",

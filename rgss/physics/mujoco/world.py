@@ -140,6 +140,11 @@ class MujocoWorld:
         return (self._pose_of(self._flange) @ self.gripper.geometry.lip).position_m, pull_n
 
     @property
+    def slipped_follower(self) -> str:
+        """Name of a follower whose coupling does not transmit what it needs; empty if none."""
+        return self._followers.slipped
+
+    @property
     def follow_error(self) -> float:
         """Greatest deviation of a following joint, of a linkage or the arm, from its ratio in rad or m; 0 without."""
         return max(0.0 if self._linkage is None else self._linkage.largest_error, self._followers.largest_error)
@@ -182,6 +187,7 @@ class MujocoWorld:
         self._fingers.before_step()
         engine.mj_step2(model, data)
         engine.mj_kinematics(model, data)
+        self._followers.after_step()
         if data.warning.number.any():
             names = [str(engine.mjtWarning(index).name) for index in np.flatnonzero(data.warning.number).tolist()]
             raise SimulationError(f"MuJoCo warned: {', '.join(names)}", hint="use a higher rate")
@@ -189,10 +195,7 @@ class MujocoWorld:
             self._seal.after_step(self._pose_of(self._flange), self.workpiece_pose())
 
     def bend(self, arc_m: Sequence[float]) -> None:
-        """Second-order correction of a carried workpiece's position; see `ContactWorld.bend`.
-
-        Like PyBullet, this engine integrates with the velocity at the end of the step, with the same error.
-        """
+        """Second-order correction of a carried workpiece's position, as PyBullet needs it; see `ContactWorld.bend`."""
         at = self._workpiece_at
         self._data.qpos[at : at + 3] += arc_m
         self._data.xpos[self._workpiece] += arc_m

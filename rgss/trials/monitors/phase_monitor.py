@@ -14,7 +14,7 @@ from rgss.trials.monitors.arm_monitor import ArmMonitor, Array, ToolKinematics
 from rgss.trials.monitors.force_sensor import ForceSensor
 from rgss.trials.monitors.grasp_monitor import GraspMonitor
 from rgss.trials.monitors.release_monitor import PlacedObjectMonitor, Violation
-from rgss.trials.plants import ControlSettings
+from rgss.trials.plants import ControlSettings, slip_detail
 
 _FEWEST_FINGERS = 2
 _TILT_ALLOWANCE_RAD = math.radians(2.0)
@@ -64,7 +64,7 @@ class PhaseMonitor:
         self.robot_touched_object = False
         self._world = world
         self._control = control
-        self._resting_on = resting_on
+        self._resting_on, self._has_followers = resting_on, bool(world.scene.robot.followers)
         self._has_cup = world.gripper.geometry.cup is not None
         self._friction = world.gripper.grip_coefficient(world.scene.workpiece.friction)
         self._mass_kg = world.scene.workpiece.mass_kg
@@ -109,6 +109,8 @@ class PhaseMonitor:
                 self.note(self._placed.after_step(contacts))
             if is_standing:
                 self._sensor.clear()
+        if self._has_followers and (slipped := world.slipped_follower):
+            self.fail(Failure.TRACKING_ERROR, slip_detail(world.scene.robot, slipped))
         if target_rad is None:
             self._arm.note(world.arm_state())
         elif (stray := self._arm.follow(world.arm_state(), target_rad)) is not None:

@@ -11,6 +11,7 @@ are inputs of the execution. A named frame is an input of a task that moves to i
 
 from __future__ import annotations
 
+import math
 import xml.etree.ElementTree as ET
 from functools import lru_cache
 from typing import Any
@@ -41,7 +42,7 @@ def geometry_digest(scene: Scene, *, frames: frozenset[str] = frozenset(), has_i
     if not has_inertias:
         robot["urdf"] = _without_inertias(scene.robot.urdf)
     robot["joints"] = [without(joint, (*ARM_RATES, "torque_n_m")) for joint in robot["joints"]]
-    # No trial uses the effort of a follower.
+    # The effort of a follower limits the execution alone.
     robot["followers"] = [without(one, ("effort",)) for one in robot["followers"]]
     if not robot["followers"]:
         del robot["followers"]
@@ -138,6 +139,8 @@ def physics_digest(scene: Scene) -> str:
         physics["others"] = [
             [_strength(one.workpiece), _tolerances(one.place), _stated_inertia(one.workpiece)] for one in scene.others
         ]
+    if followers := scene.robot.followers:
+        physics["follower_efforts"] = [one.effort if math.isfinite(one.effort) else None for one in followers]
     if meshes := [one.workpiece.shape.sha256 for one in scene.objects if isinstance(one.workpiece.shape, MeshShape)]:
         physics["meshes"] = meshes
     if scene.places:

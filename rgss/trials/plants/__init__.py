@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from rgss.trials.plants.calibrated_law import is_stable
     from rgss.trials.plants.control import ControlSettings
     from rgss.trials.plants.dynamic_plant import DynamicPlant
+    from rgss.trials.plants.follower_slip import slip_detail
     from rgss.trials.plants.grip_sequence import GripSequence
     from rgss.trials.plants.joint_controller import (
         ControlMode,

@@ -21,6 +21,7 @@ from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
+from rgss.trials.plants.follower_slip import slip_detail
 from rgss.trials.plants.grip_sequence import GripSequence
 from rgss.trials.plants.joint_controller import ControlLaw, JointController, control_law, stated_in_step
 from rgss.trials.reference import Array, Reference
@@ -78,6 +79,7 @@ class DynamicPlant:
         self._model = self._empty
         self._at_rad: Array = np.zeros(len(scene.robot.joints))
         self._followed: dict[str, list[Array]] = {}
+        self._has_followers, self._slipped = bool(scene.robot.followers), ""
 
     @property
     def followed(self) -> Mapping[str, Array]:
@@ -188,6 +190,8 @@ class DynamicPlant:
         self, phase: str, log: _Log, failure: Failure | None, detail: str, metrics: dict[str, Metric]
     ) -> PhaseResult:
         observed = log.arm.metrics() if log.steps else {}
+        if self._slipped and failure in (None, Failure.TRACKING_ERROR):
+            failure, detail = Failure.TRACKING_ERROR, slip_detail(self._scene.robot, self._slipped)
         return PhaseResult(
             phase=phase,
             failure=failure,
@@ -206,6 +210,8 @@ class DynamicPlant:
         self._machine.step(np.clip(torques, -self._limits, self._limits).tolist())
         reached_rad, speeds_rad_s = (np.array(values) for values in self._machine.state())
         log.arm.note_steps(torques[None], speeds_rad_s[None])
+        if self._has_followers and not self._slipped:
+            self._slipped = self._machine.slipped_follower
         log.positions_rad.append(reached_rad)
         return reached_rad
 
