@@ -8,6 +8,7 @@ from dataclasses import fields, replace
 import pytest
 
 from rgss.evidence import Fidelity
+from rgss.scenes import JointKind
 from rgss.scenes.uncertainty import (
     QUANTITIES,
     Case,
@@ -174,6 +175,19 @@ def test_what_was_drawn_is_told_beside_what_is_nominal(spec_of):
     # Both act on one mass, the factor on what was drawn.
     assert told["workpiece.mass_factor"] == ("kg", 0.25, pytest.approx(0.6))
     assert len(told) == 9
+
+
+def test_an_angle_is_no_offset_of_a_sliding_joint(spec_of):
+    """Of an arm on a rail, 0.5 deg were 8.7 mm along the rail."""
+    spec = with_constant(spec_of(65), "robot.joint_offset", 0.009)
+    joints = spec.scene.robot.joints
+    rail = replace(joints[0], kind=JointKind.PRISMATIC)
+    on_rail = replace(spec, scene=replace(spec.scene, robot=replace(spec.scene.robot, joints=(rail, *joints[1:]))))
+    assert conditions_of(spec).joint_offsets_rad == (0.009,) * 6
+    assert conditions_of(on_rail).joint_offsets_rad == (0.0, *(0.009,) * 5)
+    assert "robot.joint_offset.1" not in conditions_of(on_rail).draws
+    assert conditions_of(on_rail).draws["robot.joint_offset.2"] == 0.009
+    assert [one.name for one in drawn_values(on_rail)] == [f"robot.joint_offset.{at}" for at in range(2, 7)]
 
 
 def test_the_tool_speed_is_of_the_timing(spec_of):

@@ -152,7 +152,7 @@ _ALL = (
     UncertainQuantity(
         name="robot.joint_offset",
         unit="rad",
-        meaning="True minus reported angle of a joint: the zero error of its encoder, drawn for each joint.",
+        meaning="True minus reported angle of a joint: the zero error of its encoder, drawn for each turning joint.",
         field="joint_offsets_rad",
         application=Application.ADD,
         enters=EntersAt.EXECUTION,

@@ -12,7 +12,7 @@ from functools import lru_cache
 from types import MappingProxyType
 
 from rgss.errors import DefinitionError
-from rgss.scenes import Cylinder, Gripper, Scene, Workpiece, with_raised_stack
+from rgss.scenes import Cylinder, Gripper, JointKind, Scene, Workpiece, with_raised_stack
 from rgss.scenes.uncertainty import Application, Case, UncertainQuantity, draws_of, in_order
 from rgss.trials.conditions.inputs import ConditionInputs, condition_inputs
 from rgss.trials.conditions.object_conditions import (
@@ -175,8 +175,7 @@ def conditions_from(inputs: ConditionInputs) -> Conditions:
         inputs: The inputs of the conditions.
     """
     nominal = _nominal(inputs)
-    joints = len(inputs.scene.robot.joints)
-    draws = draws_of(inputs.uncertainty, inputs.seed, joints=joints) if inputs.uncertainty.values else _NO_DRAWS
+    draws = _draws(inputs) if inputs.uncertainty.values else _NO_DRAWS
     quantities = in_order(inputs.uncertainty.names)
     own = _changes([one for one in quantities if not one.object], draws, nominal)
     drawn = {one.object for one in quantities if one.object}
@@ -186,6 +185,17 @@ def conditions_from(inputs: ConditionInputs) -> Conditions:
         changes = _changes([one for one in quantities if one.object == known.id], draws, before)
         others.append(replace(before, **changes))  # type: ignore[arg-type]
     return replace(nominal, draws=draws, others=tuple(others), **own)  # type: ignore[arg-type]
+
+
+def _draws(inputs: ConditionInputs) -> Mapping[str, float]:
+    """Draws of the trial, of the quantities of each joint those of turning joints alone: their unit is an angle."""
+    joints = inputs.scene.robot.joints
+    draws = draws_of(inputs.uncertainty, inputs.seed, joints=len(joints))
+    each = [one for one in in_order(inputs.uncertainty.names) if one.count > 1]
+    sliding = {
+        one.draw_names[at] for one in each for at, joint in enumerate(joints) if joint.kind is JointKind.PRISMATIC
+    }
+    return MappingProxyType({name: value for name, value in draws.items() if name not in sliding}) if sliding else draws
 
 
 def _nominal(inputs: ConditionInputs) -> Conditions:
@@ -211,12 +221,12 @@ def _changes(
     """Values of the fields changed by draws."""
     changes: dict[str, float | tuple[float, ...]] = {}
     for quantity in quantities:
-        drawn = [draws[name] for name in quantity.draw_names if name in draws]
         if quantity.count > 1:
-            changes[quantity.field] = tuple(drawn)
+            joints = 0 if isinstance(nominal, ObjectConditions) else len(nominal.scene.robot.joints)
+            changes[quantity.field] = tuple(draws.get(name, 0.0) for name in quantity.draw_names_for(joints))
             continue
         present = changes.get(quantity.field, getattr(nominal, quantity.field))
-        changes[quantity.field] = _applied(quantity, present, drawn[0])
+        changes[quantity.field] = _applied(quantity, present, draws[quantity.name])
     return changes
 
 
