@@ -223,7 +223,7 @@ class Execution:
         """Open to the initial position and wait until the object is at rest."""
         stage = self._enter(step)
         world, gripper, control = self._world, self._world.gripper, self._control
-        monitor, landing = self._phase_monitor(None, world.scene.place_support), LandingMonitor(world)
+        monitor, landing = self._phase_monitor(None, self._objects.resting_on(stage)), LandingMonitor(world)
         drag = DragMonitor(world, control)
         travel_s = self._hand.longest_travel_s
         world.drive_fingers(-gripper.finger_velocity_m_s, gripper.finger_force_n)

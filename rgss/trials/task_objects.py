@@ -95,7 +95,8 @@ class TaskObjects:
         Args:
             stage: The stage.
         """
-        if stage.step.hand is HandAction.OPENS or stage.is_placed:
+        is_brought = stage.step.hand is HandAction.OPENS and not stage.is_standing
+        if is_brought or stage.is_placed:
             return self._world.scene.place_support
         if not stage.is_held or stage.is_standing:
             return self._supports[stage.object]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from rgss.scenes import GripperGeometry, Pose, Scene, Workpiece, corners_of, least_height_m, suction_point_of
 from rgss.tasks import HandAction, MoveStep, TaskProgram, stages_of
 from rgss.trials.grasp_choice import with_stated_suction
-from rgss.trials.route import Leg, Route, Stop, route_of
+from rgss.trials.route import Leg, Route, route_of
 from rgss.trials.workcell import grasp_searches_of
 
 _EXACT_M = 1e-6
@@ -67,10 +67,10 @@ def hand_step_problems(
 def _problems(
     route: Route, geometry: GripperGeometry, task: TaskProgram, first: Workpiece
 ) -> Iterator[HandStepProblem]:
-    legs, last = iter(route.legs), None
+    legs, last, place_of_last = iter(route.legs), None, ""
     for index, stage in enumerate(stages_of(task, first.id)):
         if isinstance(stage.step, MoveStep):
-            last = next(legs)
+            last, place_of_last = next(legs), stage.place
             continue
         if last is None or last.scene.workpiece.id != stage.object:
             continue
@@ -85,8 +85,11 @@ def _problems(
                     step=index, hand=stage.step.hand, object=stage.object, distance_m=beside_m, has_cup=cup
                 )
         elif stage.step.hand is HandAction.OPENS:
+            if stage.is_standing and stage.place != place_of_last:
+                continue
             place = last.scene.place
-            aside_m, height_m = _aside(last, stop), _height(last, stop)
+            released = last.scene.workpiece.pose if stage.is_standing else _released(last, stop.pose)
+            aside_m, height_m = _aside(last, released), _height(last, released)
             is_aside = aside_m > place.radius_m + _EXACT_M
             if is_aside or height_m > place.largest_drop_m + _EXACT_M:
                 yield HandStepProblem(
@@ -120,17 +123,19 @@ def _unsealed(scene: Scene, tool: Pose, geometry: GripperGeometry, first: Workpi
     return 0.0 if gap_m <= largest_gap_m + _EXACT_M else gap_m
 
 
-def _height(leg: Leg, stop: Stop) -> float:
-    """Height in m of a carried object above its place at the end of a move; 0 if it is not carried."""
-    if leg.context.carried is None or stop.pose is None:
-        return 0.0
-    pose = stop.pose @ leg.context.carried
-    lowest_m = least_height_m(leg.scene.workpiece.shape, pose.inverse_rotate((0.0, 0.0, 1.0)))
-    return pose.position_m[2] + lowest_m - leg.scene.place.centre_m[2]
+def _released(leg: Leg, tool: Pose) -> Pose | None:
+    """Pose of a carried object at the end of a move; None if it is not carried."""
+    return None if leg.context.carried is None else tool @ leg.context.carried
 
 
-def _aside(leg: Leg, stop: Stop) -> float:
-    """Horizontal distance in m of a carried object from its place at the end of a move; 0 if it is not carried."""
-    if leg.context.carried is None or stop.pose is None:
+def _height(leg: Leg, released: Pose | None) -> float:
+    """Height in m of an object above its place; 0 if it is not carried."""
+    if released is None:
         return 0.0
-    return math.dist((stop.pose @ leg.context.carried).position_m[:2], leg.scene.place.centre_m[:2])
+    lowest_m = least_height_m(leg.scene.workpiece.shape, released.inverse_rotate((0.0, 0.0, 1.0)))
+    return released.position_m[2] + lowest_m - leg.scene.place.centre_m[2]
+
+
+def _aside(leg: Leg, released: Pose | None) -> float:
+    """Horizontal distance in m of an object from its place; 0 if it is not carried."""
+    return 0.0 if released is None else math.dist(released.position_m[:2], leg.scene.place.centre_m[:2])
