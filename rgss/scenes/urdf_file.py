@@ -39,6 +39,7 @@ _NUMBERS: Mapping[str, Mapping[str, int]] = {
     "mesh": {"scale": 3},
 }
 _COMPLETE = frozenset({"mass", "inertia", "box", "cylinder", "sphere"})
+_SHAPES = frozenset({"box", "cylinder", "sphere", "mesh"})
 _AXES = 3
 _TURNING = frozenset({"revolute", "continuous", "prismatic"})
 _POSITIVE = frozenset({"mass", "box", "cylinder", "sphere"})
@@ -192,6 +193,16 @@ def _problems(root: ET.Element, entry: RobotDocument) -> Iterable[tuple[str, Loc
         hint = "give it an <inertial> with both; a frame that is fixed and has no collision shape needs none"
         yield f"has no mass or no inertia for link {shown(name)}", ("description",), hint
     yield from number_problems(root)
+    for link in (one for name, one in links.items() if name not in gone):
+        for shape in link.findall("collision/geometry/*"):
+            if shape.tag not in _SHAPES:
+                # Planning would silently do without it.
+                hint = "write box, cylinder, sphere or mesh; a capsule is a cylinder with a sphere at each end"
+                yield (
+                    f"has a collision shape {shown(shape.tag)} for link {shown(link.get('name', ''))}",
+                    ("description",),
+                    hint,
+                )
 
 
 def number_problems(root: ET.Element) -> Iterable[tuple[str, Location, str]]:

@@ -10,9 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
+from rgss.counted import counted
 from rgss.documents import open_regular
 from rgss.errors import DefinitionError
 from rgss.scenes import number_problems
+from rgss.studies.robot_project.urdf.capsules import divide_capsules
 from rgss.studies.robot_project.urdf.xacro import expanded, needs_expansion
 
 _LARGEST_URDF_BYTES = 1024 * 1024
@@ -58,6 +60,9 @@ def read_arm_urdf(urdf: Path, xacro: Mapping[str, str] = NO_ARGUMENTS) -> tuple[
     if not root.get("name", "").strip():
         root.set("name", urdf.stem)
     notes = [*_rename(root), *_drop_empty_shapes(root)]
+    if divided := tuple(dict.fromkeys(divide_capsules(root))):
+        parts = "a cylinder with a sphere at each end"
+        notes.append(Note(about="description", rationale=f"Capsules are written as {parts}, of {', '.join(divided)}."))
     _complete_limits(root)
     problems = [
         f"{urdf.name} {problem}"
@@ -65,7 +70,7 @@ def read_arm_urdf(urdf: Path, xacro: Mapping[str, str] = NO_ARGUMENTS) -> tuple[
         if "in <mass>" not in problem and "in <inertia>" not in problem
     ]
     if problems:
-        more = f", and {len(problems) - 1} problems more" if len(problems) > 1 else ""
+        more = f", and {counted(len(problems) - 1, 'more problem')}" if len(problems) > 1 else ""
         raise DefinitionError(f"{problems[0]}{more}", hint="correct the numbers of the URDF")
     return root, notes
 
