@@ -99,10 +99,10 @@ class ServoFit:
 def fit_joint(recording: Recording, joint: str) -> ServoFit:
     """Fit the servo of one joint to all segments in which it is excited.
 
-    Under velocity control measured speeds are compared, under position control positions too, each weighted with
-    the deviation of its residuals in a first fit. The intervals are those of the linearised problem, from
-    (J^T J)^-1 with Student's t, widened by sqrt((1 + r) / (1 - r)) for neighbouring residuals correlated by r > 0
-    (first-order autoregression).
+    Under velocity control measured speeds are compared, under position control positions too, each weighted with the
+    deviation of its residuals in a first fit. The intervals are those of the linearised problem, with derivatives over
+    the deviations of the parameters, from (J^T J)^-1 with Student's t, widened by sqrt((1 + r) / (1 - r)) for
+    neighbouring residuals correlated by r > 0 (first-order autoregression).
 
     Args:
         recording: The recording.
@@ -122,7 +122,9 @@ def fit_joint(recording: Recording, joint: str) -> ServoFit:
     found = problem.solved(found)
     jacobian, residuals = problem.jacobian(found), problem.residuals(found)
     correlation = problem.autocorrelation(residuals)
-    half, alike = _half_widths(jacobian, residuals, correlation, problem.least)
+    half, _ = _half_widths(jacobian, residuals, correlation, problem.least)
+    # Two deviations are the half-width of a 95 % interval, nearly.
+    half, alike = _half_widths(problem.slopes(found, half / 2), residuals, correlation, problem.least)
     parameters = [_parameter(problem.names, index, found, half, alike) for index in range(len(problem.names))]
     if recording.control is ServoControl.VELOCITY:
         reason = "under velocity control the position gain has no effect"

@@ -89,6 +89,19 @@ class ServoProblem:
         """Derivatives of the residuals, shape (residuals, parameters)."""
         return self._linearised(values)[1]
 
+    def slopes(self, values: Array, deviations: Array) -> Array:
+        """Mean derivatives of the residuals over the deviations of the parameters, shape (residuals, parameters).
+
+        A response has kinks: where a delayed step arrives at a sample, and where friction stops a joint. A derivative
+        at a point misses those next to it, with which the estimates vary more than by the derivative.
+
+        Args:
+            values: The parameters.
+            deviations: Their standard deviations; infinite where they are unknown. A tenth of a value is the most.
+        """
+        most = 0.1 * np.maximum(np.abs(values), self.least)
+        return self._both(values, np.maximum(np.minimum(deviations, most), self._steps(values)))[1]
+
     def solved(self, begin: Array | None = None) -> Array:
         """The best parameters from several starts, or from one that is given."""
         from scipy.optimize import least_squares
@@ -151,11 +164,14 @@ class ServoProblem:
         """Residuals and their derivatives; both are computed at once, and kept for the next call."""
         key = values.tobytes()
         if self._last is None or self._last[0] != key:
-            self._last = key, *self._both(values)
+            self._last = key, *self._both(values, self._steps(values))
         return self._last[1], self._last[2]
 
-    def _both(self, values: Array) -> tuple[Array, Array]:
-        steps = 1.0e-4 * np.maximum(np.abs(values), self.least)
+    def _steps(self, values: Array) -> Array:
+        steps: Array = 1.0e-4 * np.maximum(np.abs(values), self.least)
+        return steps
+
+    def _both(self, values: Array, steps: Array) -> tuple[Array, Array]:
         groups = self._independent()
         ahead, behind = (
             [np.clip(values + sign * np.where(group, steps, 0.0), self._lower, self._upper) for group in groups]

@@ -9,6 +9,7 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.identification import CommandedPositions, FitStatus, fit_joint
+from rgss.identification.servo_problem import ServoProblem
 from rgss.scenes import JointServo, ServoControl
 from tests.identification.recordings import NOISE_RAD, NOISE_RAD_S, motions_of, recording_of
 
@@ -61,6 +62,21 @@ def test_intervals_contain_the_true_values_nineteen_times_in_twenty(control, noi
     # 1000 (chi-squared with 15 degrees of freedom).
     for name, width in widths.items():
         assert 1 / 1.5 < np.mean(width) / (1.96 * np.std(errors[name], ddof=1)) < 1 / 0.55, name
+
+
+def test_derivatives_of_an_interval_do_not_depend_on_which_side_of_a_sample_a_step_arrives():
+    """The first sample behind the arrival tells most of the delay, and the one before it nothing."""
+    motions = motions_of(SERVO, (0.3, 1.0), hold_s=0.15, rest_s=0.05, rate_hz=100)
+    problem = ServoProblem(recording_of(motions, noise=(0.0, 0.0)).segments, ServoControl.VELOCITY)
+    delay = problem.names.index("delay_s")
+    sides = [np.array([30.0, delay_s, 3.0, 1.5]) for delay_s in (0.01999, 0.02001)]
+    deviations = np.array([0.3, 5e-4, 0.1, 0.03])
+
+    points = [np.linalg.norm(problem.jacobian(values)[:, delay]) for values in sides]
+    means = [np.linalg.norm(problem.slopes(values, deviations)[:, delay]) for values in sides]
+
+    assert max(points) > 1.2 * min(points)
+    assert max(means) < 1.02 * min(means)
 
 
 def test_a_start_in_motion_is_fitted_since_its_speed_is_measured_with_noise():
