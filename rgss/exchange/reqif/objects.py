@@ -11,7 +11,7 @@ from typing import Any
 from rgss.exchange.attributes import ATTRIBUTES, Form, Part
 from rgss.exchange.reqif.identifiers import type_identifier
 from rgss.exchange.reqif.prose import from_xhtml
-from rgss.exchange.reqif.vocabulary import MEASURE, TOOL, TYPE_NAMES, attribute_name
+from rgss.exchange.reqif.vocabulary import EXCHANGE_IDS, MEASURE, TOOL, TYPE_NAMES, attribute_name
 from rgss.exchange.verification_records import RECORD_ATTRIBUTES
 from rgss.findings import shown
 
@@ -47,6 +47,12 @@ class ForeignObject:
     id: str
     cells: Mapping[str, str]
     line: int
+
+
+def _id_in(values: Mapping[str, str], *, is_ours: bool) -> str:
+    """The id of an object by the values of its attributes; empty if it has none."""
+    names = ("id",) if is_ours else ("id", *EXCHANGE_IDS)
+    return next((found for name in names if (found := values.get(name, "").strip())), "")
 
 
 class ObjectReader:
@@ -136,7 +142,7 @@ class ObjectReader:
             if long not in values and (default := self._default(definition)) is not None:
                 values[long] = default
         by_name = {attribute_name(long): text for long, text in values.items()}
-        element_id = by_name.get("id", "").strip()
+        element_id = _id_in(by_name, is_ours=is_ours)
         if not is_ours and not (element_id and by_name.get("text", "").strip()):
             self._nameless[type_name] += 1
             self._attributes.setdefault(type_name, {}).update(dict.fromkeys(values))
@@ -144,12 +150,12 @@ class ObjectReader:
         is_measure = is_ours and kind.identifier == type_identifier(MEASURE)
         part = None if is_measure else self._parts.get(type_name.lower()) or self._known.get(element_id) or self._part
         names = {attribute.name: attribute for attribute in ATTRIBUTES[part]} if part is not None else {}
-        cells = {}
+        cells = {} if is_ours else {"id": element_id}
         for definition in stated.values():
             long = definition.long_name or definition.identifier
             name = attribute_name(long)
             if (name in names and not names[name].holds_ids) or (part is None and name in ("id", "text")):
-                cells[name] = values.get(long, "")
+                cells[name] = element_id if name == "id" else values.get(long, "")
                 where, phrases = losses.get(long, (line, ()))
                 self.lost += [(where, f"{element_id}: {long}: {phrase}") for phrase in phrases]
                 if names and names[name].form is Form.FLAG and cells[name] == "false":
@@ -157,7 +163,7 @@ class ObjectReader:
             elif is_ours and part is Part.SYSTEM and name in _OF_RECORDS:
                 if values.get(long, ""):
                     self.records.setdefault(element_id, {})[name] = values[long]
-            elif values.get(long, "").strip():
+            elif values.get(long, "").strip() and not (name in EXCHANGE_IDS and values[long].strip() == element_id):
                 self._unused.setdefault(long)
         return ForeignObject(
             identifier=each.identifier,

@@ -38,6 +38,9 @@ _STANDARD: Mapping[str, str] = MappingProxyType({"id": "ReqIF.ForeignID", "text"
 _OTHERS: Mapping[str, str] = MappingProxyType(
     {"foreignid": "id", "uid": "id", "statement": "text", "title": "name", "chaptername": "name"}
 )
+EXCHANGE_IDS = ("ie_puid", "puid")
+"""Ids of DOORS and Capella for exchange, which count where an object has no other id."""
+
 _OTHER_RELATIONS: Mapping[str, str] = MappingProxyType(
     {
         "parent": LinkKind.DERIVE.value,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -34,6 +35,15 @@ def test_rich_text_keeps_its_meaning(text, read, tool):
         (line, "warning", "SYS-2: ReqIF.Text: the attachment 'a.png' is omitted"),
         (line, "warning", "SYS-2: ReqIF.Text: the struck-out text '5' is omitted"),
     ]
+
+
+@pytest.mark.parametrize("long", ["IE PUID", "PUID"])
+def test_an_id_for_exchange_counts_where_there_is_no_other(read, long):
+    text = (Path(__file__).parents[1] / "strictdoc" / "gripper.reqif").read_text(encoding="utf-8")
+    foreign = read(re.sub(r'LONG-NAME="(?:UID|ReqIF\.ForeignID)"', f'LONG-NAME="{long}"', text))
+
+    assert {"SUP-1", "SUP-2"} <= {row.cells["id"] for row in foreign.rows}
+    assert not [note for note in foreign.notes if "PUID" in note]
 
 
 def test_an_object_under_two_parents_is_reported(text, read):
