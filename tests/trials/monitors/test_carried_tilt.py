@@ -28,7 +28,7 @@ def test_an_object_that_turns_about_the_line_between_the_pads_is_dropped(lite6, 
         return
     assert record.failure is Failure.OBJECT_DROPPED
     told = re.fullmatch(
-        r"the object tilted by (\d+) deg in the gripper, more than the 45 deg of the task", record.failure_detail
+        r"red_cube tilted by (\d+) deg in the gripper, more than the 45 deg of the task", record.failure_detail
     )
     assert told
     assert 47 <= int(told[1]) < 91

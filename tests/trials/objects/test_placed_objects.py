@@ -132,7 +132,7 @@ def test_a_cup_leaves_an_object_turned_that_it_saw_turned():
     record = record_without_bench(replace(spec, scene=replace(spec.scene, place=strict)))
     assert (record.failure, record.success) == (Failure.NOT_IN_PLACE_REGION, False)
     assert re.fullmatch(
-        r"the object is turned by [67]\.\d deg from its orientation at the place, more than 5 deg",
+        r"red_cube is turned by [67]\.\d deg from its orientation at the place, more than 5 deg",
         record.failure_detail,
     )
 
