@@ -296,6 +296,8 @@ def test_texts_of_the_tornado_are_at_least_12_px_and_the_page_does_not_scroll(re
 def test_a_board_prints_the_largest_bars_at_a_size_that_is_read(reader, study, tmp_path):
     file = tmp_path / "report.html"
     file.write_text(board_to_html(with_tornado(study.document), tornado=tornado_of(25)), encoding="utf-8")
+    metrics = {"width": 1400, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    reader.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
     reader.driver.get(file.as_uri())
     reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
     try:
