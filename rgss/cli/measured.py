@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import argparse
+
     from rgss.assessment import VariantMeasures
     from rgss.studies import Project
     from rgss.trace.evidence import EvidenceState
@@ -35,3 +38,22 @@ def measured_state(project: Project, junit: Path | None) -> tuple[Sequence[Varia
     else:
         measured, _ = measure_survivors(project, None, recorded=recorded)
     return measured, evidence_state(project, measured, recorded=recorded, junit=junit)
+
+
+def require_store(options: argparse.Namespace, project: Project) -> None:
+    """Refuse a project of which no trial was run, with the command that runs those of the options.
+
+    Args:
+        options: The command's options.
+        project: The project with its study.
+
+    Raises:
+        EvidenceError: There is no evidence store.
+    """
+    from rgss.cli.options import sweep_words
+    from rgss.cli.output import shown_path
+    from rgss.errors import EvidenceError
+
+    if not project.evidence.exists():
+        sweep = shlex.join(sweep_words(options, "project", "fidelity", "replicates"))
+        raise EvidenceError(f"there is no evidence in {shown_path(project.evidence)}", hint=f"run '{sweep}' first")

@@ -216,7 +216,7 @@ def test_without_evidence_the_sweep_is_named(tmp_path):
     assert begun.status == 0
     assert light.status == 2
     assert len(light.errors.splitlines()) == 1
-    assert light.errors.endswith("(run the sweep first)\n")
+    assert light.errors.endswith("(run 'rgss sweep --project empty' first)\n")
 
 
 def test_the_extra_brings_every_engine():

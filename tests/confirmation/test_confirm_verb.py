@@ -120,7 +120,9 @@ def test_a_verdict_between_the_engines_ends_with_status_1(confirmed, folder, tmp
     assert lines[0].startswith("Among 1 of 72 designs the decision depends on ")
     assert "no design is first under PyBullet 240 Hz, 20 iterations" in lines[0]
     # One seed has no interval, so that the verdict is open under each setting, though not the choice.
-    assert lines[1] == "All 7 verdicts on 1 design are the same under every setting."
+    assert lines[1] == (
+        "All 7 verdicts on 1 design are the same under every setting, but 5 of them are inconclusive by so few seeds."
+    )
     assert "0 run, 4 from evidence" in lines[-1]
     begin = "# Confirmation of pick\\_place\n\nAmong 1 of 72 designs the decision depends on "
     assert page.read_text(encoding="utf-8").startswith(begin)
@@ -180,6 +182,7 @@ def test_bad_input_is_one_line(folder, words, message):
 
 
 def test_without_evidence_of_the_study_there_is_no_choice_to_confirm(tmp_path):
-    told = rgss("confirm", "--project", copy_project(tmp_path))
+    project = copy_project(tmp_path)
+    told = rgss("confirm", "--project", project)
     assert (told.status, told.output) == (2, "")
-    assert told.errors.endswith("(run the sweep first)\n")
+    assert told.errors.endswith(f"(run 'rgss sweep --project {project}' first)\n")

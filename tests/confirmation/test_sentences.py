@@ -233,3 +233,10 @@ def test_an_arm_that_one_engine_moves_under_every_setting_is_told(confirmation):
     assert confirmation_to_json(told)["arm_is_pybullet"] is True
     of_steps = dataclasses.replace(confirmation(rankings=[(28,)] * 2), arm_is_pybullet=True)
     assert ARM_IN_PYBULLET not in first_lines(of_steps, 9)
+
+
+def test_verdicts_that_are_open_under_every_setting_are_no_confirmation(confirmation):
+    found = confirmation(rankings=[(28, 31), (28, 31)], verdicts=[Verdict.INCONCLUSIVE] * 2)
+    assert first_lines(found)[1] == (
+        "All 2 verdicts on 1 design are the same under every setting, but 1 of them is inconclusive by so few seeds."
+    )

@@ -7,14 +7,17 @@ import dataclasses
 import pytest
 
 from rgss.assessment.measuring import measure_variants
+from rgss.decision.choosing import trade_problem
 from rgss.decision.robustness import robustness
 from rgss.decision.robustness.parts import NotComputed, Part
 from rgss.decision.study_decision import decide_study
 from rgss.decision.study_decision.findings import robustness_findings
+from rgss.decision.study_decision.reasons import closest_limits
 from rgss.decision.what_if import suppose
-from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
+from rgss.reports.decision import decision_lines, decision_part, decision_section, reasons, trade_document
 from rgss.reports.decision.words import score
 from rgss.reports.study.variants import weight_columns
+from rgss.tradeoff import Comparison, Threshold
 from rgss.tradeoff.robustness import Support
 
 
@@ -176,3 +179,25 @@ def test_a_missing_part_is_not_final(made):
 
     assert made.is_final
     assert not less.is_final
+
+
+@pytest.mark.parametrize(
+    ("share", "margin", "words"),
+    [
+        (1.05, -0.05, "5.0 % outside of what is required, within the tolerance"),
+        (0.9, 0.1, "10.0 % inside what is required"),
+    ],
+)
+def test_the_closest_limit_is_the_required_one(shipped, measured, made, share, margin, words):
+    """With a tolerance a choice may be well within the limit of the choice and at, or short of, the required one."""
+    problem = trade_problem(shipped, measured)
+    chosen = made.decision.chosen
+    (quantity,) = (one.measures["t_e_simulated"] for one in problem.alternatives if one.variant == chosen)
+    required = Threshold(
+        requirement="R", measure="t_e_simulated", comparison=Comparison.AT_MOST, value=quantity / share, unit="s"
+    )
+    (found,) = closest_limits(dataclasses.replace(problem, thresholds=(required.tolerated(0.1),)), chosen)
+
+    assert (found.requirement, found.margin) == ("R", pytest.approx(margin))
+    said = [reason.text for reason in reasons(dataclasses.replace(made, closest_limits=(found,)))]
+    assert said[-1].endswith(f" at {quantity:.4g} s, {words}.")

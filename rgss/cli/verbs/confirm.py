@@ -100,6 +100,7 @@ def _confirm(
 ) -> Confirmation | int:
     """The confirmation; the exit status if trials could not be run."""
     from rgss.cli.main import RUN_FAILED
+    from rgss.cli.measured import require_store
     from rgss.cli.sweep import SweepRunner, execution_backend, report_lost
     from rgss.confirmation import confirm
     from rgss.errors import EvidenceError
@@ -108,6 +109,8 @@ def _confirm(
 
     lost: list[LostTrials] = []
     is_named = options.variants is not None
+    if not is_named:
+        require_store(options, project)
     with (
         EvidenceStore.open(project.evidence, create=is_named, label=label) as store,
         execution_backend(options, WorkerLimits()) as backend,

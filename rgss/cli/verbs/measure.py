@@ -43,6 +43,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Show the measures; a dash marks those without evidence."""
     from rgss.assessment import measured_in_case, read_record, record_verdicts, sequential_seeds
+    from rgss.cli.measured import require_store
     from rgss.cli.output import print_json, shown_path
     from rgss.decision import measure_survivors
     from rgss.errors import DefinitionError
@@ -56,6 +57,7 @@ def run(options: argparse.Namespace) -> int:
             raise DefinitionError("--record needs all variants", hint="omit --variant")
     if options.case is not None and options.record:
         raise DefinitionError("--record needs all trials", hint="omit --case")
+    require_store(options, project)
     with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
         recorded = record_verdicts(project, store) if options.record else read_record(project.folder)
         measured, screened = measure_survivors(project, store, recorded=recorded)

@@ -26,6 +26,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run it again; 1 if a bit differs, 4 if that is within the tolerance of other numerics."""
     from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.measured import require_store
     from rgss.cli.output import print_json, shown_path
     from rgss.engines import require_engines
     from rgss.evidence import EvidenceStore, record_digest
@@ -33,6 +34,7 @@ def run(options: argparse.Namespace) -> int:
 
     require_engines("'rgss replay'")
     project = chosen_project(options)
+    require_store(options, project)
     with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
         stored = find_trial(project, store, options.trial)
         known_by = stored.provenance.inputs_digest

@@ -70,6 +70,7 @@ def run(options: argparse.Namespace) -> int:
     """Write the page; 1 if no variant meets every requirement, or if a choice is not proven best."""
     from rgss.assessment import evidence_state, read_record, require_complete
     from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.measured import require_store
     from rgss.cli.output import path_in_project, shown_path
     from rgss.cli.pictures import ordered_look, trial_pictures
     from rgss.cli.served_studies import served_studies
@@ -88,8 +89,7 @@ def run(options: argparse.Namespace) -> int:
     project = chosen_project(options)
     label = shown_path(project.evidence)
     recorded = read_record(project.folder)
-    if not project.evidence.exists():
-        raise EvidenceError(f"there is no evidence in {label}", hint=f"run '{_sweep_command(options)}' first")
+    require_store(options, project)
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
         measured, screened = measure_survivors(project, store, recorded=recorded)
         try:

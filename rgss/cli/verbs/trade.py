@@ -81,6 +81,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.assessment import failed_verifications, read_record
     from rgss.cli.assumption_trials import known_assumptions, scenario_measures
     from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.measured import require_store
     from rgss.cli.output import path_in_project, shown_path
     from rgss.cli.served_studies import served_studies
     from rgss.decision import choose_portfolio, measure_survivors
@@ -107,6 +108,7 @@ def run(options: argparse.Namespace) -> int:
     scenario = suppose(project, options.what_if) if options.what_if else None
     label = shown_path(project.evidence)
     analysed = options.section or not options.brief
+    require_store(options, project)
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
         measured, screened = measure_survivors(project, store, recorded=read_record(project.folder))
         supposed = None if scenario is None else scenario_measures(options, project, scenario, measured, store)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rgss.tradeoff import Decision, TradeProblem
+from rgss.tradeoff import Decision, Threshold, TradeProblem
 from rgss.tradeoff.problem import tabulated
 from rgss.tradeoff.programs import condition_column
 
@@ -34,7 +34,8 @@ class ClosestLimit:
         demand: Its criterion as text, such as ``P_max >= 0.8 kg``.
         statistic: The statistic of the chosen variant that is compared with the limit.
         unit: The unit of both.
-        margin: The distance to the limit as a share of it, at least 0.
+        margin: The distance to the required limit as a share of it; negative within the tolerance of the choice.
+        is_tolerant: Whether the choice may miss the limit by a tolerance.
     """
 
     requirement: str
@@ -42,6 +43,7 @@ class ClosestLimit:
     statistic: float
     unit: str
     margin: float
+    is_tolerant: bool
 
 
 def gains_over_runner_up(decision: Decision) -> tuple[Gain, ...]:
@@ -74,15 +76,19 @@ def closest_limits(problem: TradeProblem, chosen: int | None) -> tuple[ClosestLi
     found = []
     for condition in problem.conditions:
         statistic = float(condition_column(condition, table)[0])
-        margin = condition.sense.margin(statistic, condition.limit) / (abs(condition.limit) or 1.0)
-        found.append((margin, condition, statistic))
+        required = condition.required if isinstance(condition, Threshold) else None
+        limit = condition.limit if required is None else required
+        margin = condition.sense.margin(statistic, limit) / (abs(limit) or 1.0)
+        found.append((margin, condition, statistic, required is not None))
     return tuple(
         ClosestLimit(
             requirement=condition.requirement,
             demand=condition.demand,
             statistic=statistic,
             unit=condition.limit_unit,
-            margin=max(0.0, margin),
+            # A limit that is met within the accuracy of the solver is met.
+            margin=margin if is_tolerant else max(0.0, margin),
+            is_tolerant=is_tolerant,
         )
-        for margin, condition, statistic in sorted(found, key=lambda one: one[0])[:CLOSEST_LIMITS]
+        for margin, condition, statistic, is_tolerant in sorted(found, key=lambda one: one[0])[:CLOSEST_LIMITS]
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from rgss.confirmation import Aspect, Confirmation, ConfirmedTrial
+from rgss.measures import Verdict
 
 _WORDS = {
     Aspect.STUDY: "the study's own setting",
@@ -110,7 +111,10 @@ def verdict_sentence(confirmation: Confirmation) -> str:
     if not total:
         return "No requirement has a criterion, so that there are no verdicts."
     if not differing:
-        return f"All {total} verdicts on {designs} are the same under every setting."
+        same = f"All {total} verdicts on {designs} are the same under every setting"
+        open_ = sum(verdict is Verdict.INCONCLUSIVE for found in study.values() for verdict in found.values())
+        left = f", but {open_} of them {'is' if open_ == 1 else 'are'} inconclusive by so few seeds" if open_ else ""
+        return f"{same}{left}."
     count = len({(one.variant, one.requirement) for one in differing})
     found = "; ".join(
         f"{one.requirement} of variant {one.variant} is {_plain(one.study.value)} in the study and "

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from rgss.decision.study_decision import StudyDecision
+from rgss.decision.study_decision import ClosestLimit, StudyDecision
 from rgss.measures import ModelGap
 from rgss.reports.decision.conclusion import share_text
 from rgss.reports.decision.flat_sentences import flat_sentences
@@ -86,11 +86,18 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
         yield Reason(text=f"No requirement excludes a variant {preferred}.")
     close = [
         f"{limit.requirement} ({limit.demand}) at {amount(limit.statistic, limit.unit)}, "
-        f"{share_in_words(limit.margin)} inside"
+        f"{share_in_words(abs(limit.margin))} {_side(limit)}"
         for limit in made.closest_limits
     ]
     if close:
         yield Reason(text=f"Closest limits: {'; '.join(close)}.")
+
+
+def _side(limit: ClosestLimit) -> str:
+    """Side of a limit on which the choice is."""
+    if limit.margin < 0.0:
+        return "outside of what is required, within the tolerance"
+    return "inside what is required" if limit.is_tolerant else "inside"
 
 
 def cautions(made: StudyDecision) -> Iterator[str]:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rgss.decision import UntilDecided
+from rgss.reports.decision.conclusion import share_of_draws
 from rgss.reports.decision.words import ids_text
+from rgss.tradeoff.robustness import DRAWS
 from rgss.tradeoff.sequential import MOST_FORECAST, Forecast, Reason
 
 _ROUND_TO = 50
@@ -28,8 +30,8 @@ def until_decided_summary(result: UntilDecided) -> str:
     }[result.reason]
     inconclusive = f"; inconclusive: {', '.join(result.open_requirements)}" if result.open_requirements else ""
     return (
-        f"{chosen}: {ended}, probability of good selection {result.probability:.3f}{inconclusive}; {result.total} "
-        f"trials in {result.looks} looks, {share:.0%} of {result.rule.cap} for each variant"
+        f"{chosen}: {ended}, probability of good selection {share_of_draws(result.probability, DRAWS)}{inconclusive}; "
+        f"{result.total} trials in {result.looks} looks, {share:.0%} of {result.rule.cap} for each variant"
     )
 
 

@@ -148,7 +148,7 @@ def test_a_study_with_a_budget_goes_on_until_decided_of_itself(rgss, folder, mon
     # A budget that is typed is all that is spent.
     assert [rule.reserve for rule in asked] == [300, None]
     assert told.output.splitlines()[0].startswith(
-        "variant 2: budget of 600 trials spent, probability of good selection 0.500; 28 trials in 3 looks"
+        "variant 2: budget of 600 trials spent, probability of good selection 50 %; 28 trials in 3 looks"
     )
     assert told.output.splitlines()[1:] == [
         (
@@ -205,7 +205,7 @@ def test_what_was_spent_of_the_reserve_is_said():
     found = ended(rule, verdicts={2: {"SYS-024": Verdict.INCONCLUSIVE, "SYS-001": Verdict.MET}})
     assert found.reserve_spent == 8
     assert until_decided_summary(found) == (
-        "variant 2: budget of 20 trials and 8 of a reserve of 40 spent, probability of good selection 0.500; "
+        "variant 2: budget of 20 trials and 8 of a reserve of 40 spent, probability of good selection 50 %; "
         "inconclusive: SYS-024; 28 trials in 3 looks, 5% of 200 for each variant"
     )
     assert ended(SequentialRule(budget=28)).reserve_spent == ended(SequentialRule()).reserve_spent == 0

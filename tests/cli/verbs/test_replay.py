@@ -174,7 +174,8 @@ def test_what_names_no_trial_is_bad_input(capsys, folder):
 def test_without_evidence_it_says_so(capsys, folder, monkeypatch):
     shutil.rmtree(folder / ".rgss")
     monkeypatch.chdir(folder)
-    assert refused(capsys, folder, TRIAL) == "there is no evidence in .rgss/evidence.sqlite (run the sweep first)"
+    refusal = f"there is no evidence in .rgss/evidence.sqlite (run 'rgss sweep --project {folder}' first)"
+    assert refused(capsys, folder, TRIAL) == refusal
     assert not (folder / ".rgss").exists()
 
 

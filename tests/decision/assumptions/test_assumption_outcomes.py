@@ -187,7 +187,8 @@ def test_missing_trials_are_said_with_what_runs_them(evidence):
     text = "\n".join(decision_lines(made))
     trials = 72 * project.study.replicates
     assert f"needs {trials} of {trials} trials" in text
-    assert "'rgss trade' with --what-if \"physics.rate=480 Hz\" --run runs those of one row" in text
+    assert f"'{project.command('trade')}' with --what-if \"physics.rate=480 Hz\" --run runs those of one row" in text
+    assert project.command("trade") == "rgss trade --fidelity dynamic --replicates 1"
 
 
 def test_an_alternative_that_is_none_is_a_row_without_an_answer(evidence):
@@ -346,8 +347,8 @@ def test_the_page_says_why_kinematic_trials_decide_alike_or_how_to_find_out(evid
 
     unknown = " ".join(assumption_sentences(made()))
     assert (
-        "Whether kinematic trials decide as dynamic trials do is not known: 72 trials were not run; 'rgss trade' with "
-        '--what-if "fidelity=kinematic" --run runs them.'
+        "Whether kinematic trials decide as dynamic trials do is not known: 72 trials were not run; "
+        "'rgss trade --fidelity dynamic --replicates 1' with --what-if \"fidelity=kinematic\" --run runs them."
     ) in unknown
     counted = f"Of the 72 dynamic trials 20 fail in motion (object dropped 20), none of them of variant {chosen};"
     assert counted in unknown
