@@ -92,7 +92,7 @@ class Remeasuring:
                 quantities[rows, place] = self._by_design(measures, measure, rows, number, value, known)
                 continue
             if column not in self.table.samples:
-                quantities[rows, place] = [self._exact(measures, measure, row, number, value) for row in rows]
+                quantities[rows, place] = self._exact(measures, measure, rows, number, value)
                 continue
             if observed is None:
                 observed = [replicates_of(measures, self._changed(row, number, value), only=noisy) for row in rows]
@@ -114,11 +114,18 @@ class Remeasuring:
         entry = self.measured[row]
         return replace(entry, variant=variant_with(entry.variant, number, value))
 
-    def _exact(self, measures: MeasureSet, measure: str, row: int, number: ModelNumber, value: float) -> float:
-        """Quantity that is the same in all trials of a variant; NaN if they give none."""
-        entry = self._changed(row, number, value)
-        first = replicates_of(measures, replace(entry, records=entry.records[:1]), only=(measure,))[measure]
-        return next((one for one in first if one is not None), np.nan)
+    def _exact(
+        self, measures: MeasureSet, measure: str, rows: NDArray[np.intp], number: ModelNumber, value: float
+    ) -> Column:
+        """Quantities that are the same in all trials of a variant, computed once for equal ones; NaN if unknown."""
+        alike = self._alike(tuple(measures.sources(measure)))[rows]
+        _, firsts, kinds = np.unique(alike, return_index=True, return_inverse=True)
+        found = np.full(len(firsts), np.nan)
+        for kind, row in enumerate(rows[firsts]):
+            entry = self._changed(row, number, value)
+            first = replicates_of(measures, replace(entry, records=entry.records[:1]), only=(measure,))[measure]
+            found[kind] = next((one for one in first if one is not None), np.nan)
+        return np.asarray(found[kinds], dtype=np.float64)
 
     def _by_design(
         self,
@@ -142,15 +149,24 @@ class Remeasuring:
         return np.asarray(found[kinds], dtype=np.float64)
 
     def _alike(self, stands_on: tuple[str, ...]) -> NDArray[np.intp]:
-        """Index of the group of each variant by these sources, shape (n,); cached."""
+        """Index of the group of each variant by these sources, of trials those of its first one, shape (n,); cached."""
         if stands_on not in self.kinds:
             known: dict[tuple[object, ...], int] = {}
-            keys = (tuple(fixed[source] for source in stands_on) for fixed in self.fixed)
+            keys = (
+                tuple(fixed[source] if source in fixed else _in_first_trial(entry, source) for source in stands_on)
+                for fixed, entry in zip(self.fixed, self.measured, strict=True)
+            )
             self.kinds[stands_on] = np.array([known.setdefault(key, len(known)) for key in keys], dtype=np.intp)
         return self.kinds[stands_on]
 
     def _replicates(self, measure: str, rows: NDArray[np.intp]) -> list[tuple[float | None, ...]]:
         return [replicates_of(self.project.measures, self.measured[row], only=(measure,))[measure] for row in rows]
+
+
+def _in_first_trial(entry: VariantMeasures, source: str) -> object:
+    """Metric of the first trial of a variant, such as ``trial.bench_payload_kg``; None if it has none."""
+    found = next((record.metrics.get(source.partition(".")[2]) for record in entry.records), None)
+    return tuple(found) if isinstance(found, list) else found
 
 
 def _padded(rows: Sequence[Sequence[float | None]], width: int) -> Column:
