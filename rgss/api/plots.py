@@ -77,7 +77,7 @@ class Plots:
             y: Measure along the vertical axis; by default the other one.
 
         Raises:
-            DefinitionError: There is no such measure.
+            DefinitionError: There is no such measure, or both are the same.
             EvidenceError: There is no evidence.
         """
         from rgss.reports.study_plots import pareto_figure
@@ -85,6 +85,8 @@ class Plots:
         for argument, name in (("x", x), ("y", y)):
             if name is not None:
                 text_argument(argument, name, hint="give the id of a measure")
+        if x is not None and x == y:
+            raise DefinitionError(f"x, y: both are {x}", hint="name two measures")
         heaviest = [name for name in self._weights if name not in (x, y)]
         if (x is None) + (y is None) > len(heaviest):
             raise DefinitionError("x, y: the trade-off weighs fewer than two measures", hint="name both")

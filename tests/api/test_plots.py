@@ -202,6 +202,7 @@ def test_a_level_label_of_a_limit_is_away_from_an_upright_one():
         (lambda plot: plot.front([]), r"measures: name two or more, got none"),
         (lambda plot: plot.front(None), r"measures must be a list of texts, got None \(such as front"),
         (lambda plot: plot.front([5, 6]), r"an entry of measures must be a text, got 5 \(such as front"),
+        (lambda plot: plot.pareto("S", "S"), r"x, y: both are S \(name two measures\)"),
         (lambda plot: plot.pareto(5), r"x must be a text, got 5 \(give the id of a measure\)"),
         (lambda plot: plot.pareto("C_total", ["t_p"]), r"y must be a text, got \['t_p'\] \(give the id of a measure\)"),
         (lambda plot: plot.pareto(pd.DataFrame({"a": [1]})), r"x must be a text, got a DataFrame"),
