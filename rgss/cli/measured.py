@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -50,10 +49,10 @@ def require_store(options: argparse.Namespace, project: Project) -> None:
     Raises:
         EvidenceError: There is no evidence store.
     """
-    from rgss.cli.options import sweep_words
+    from rgss.cli.options import sweep_command
     from rgss.cli.output import shown_path
     from rgss.errors import EvidenceError
 
     if not project.evidence.exists():
-        sweep = shlex.join(sweep_words(options, "project", "fidelity", "replicates"))
-        raise EvidenceError(f"there is no evidence in {shown_path(project.evidence)}", hint=f"run '{sweep}' first")
+        label, hint = shown_path(project.evidence), f"run '{sweep_command(options)}' first"
+        raise EvidenceError(f"there is no evidence in {label}", hint=hint)

@@ -9,7 +9,7 @@ from rgss.assessment import VariantMeasures, replicates_of, require_complete, re
 from rgss.decision.level_structure import level_structure
 from rgss.decision.moved_thresholds import with_moved_winners
 from rgss.decision.preference_model import (
-    deciding_measures,
+    measures_of_choice,
     program_of,
     risks_of,
     threshold_of,
@@ -71,7 +71,7 @@ def trade_problem(
     program = program_of(project, functions)
     risks = risks_of(project)
     # The posterior of an interval's end is drawn around its measure.
-    columns = {measure: (measure, Statistic.VALUE) for measure in deciding_measures(project)}
+    columns = {measure: (measure, Statistic.VALUE) for measure in measures_of_choice(project, program, risks)}
     columns.update({_column(criterion): (criterion.measure, criterion.statistic) for criterion in criteria.values()})
     return TradeProblem(
         alternatives=tuple(_known_alternative(project, variant, columns, known) for variant in measured),

@@ -165,12 +165,23 @@ def deciding_measures(project: Project) -> tuple[str, ...]:
         TradeoffError: As for `program_of`.
         DefinitionError: As for `program_of`.
     """
-    trade_off = project.study.trade_off
-    program = program_of(project, tuple(value_function_of(project, valued) for valued in trade_off.valued))
+    valued = project.study.trade_off.valued
+    program = program_of(project, tuple(value_function_of(project, one) for one in valued))
+    return measures_of_choice(project, program, risks_of(project))
+
+
+def measures_of_choice(project: Project, program: Program, risks: Sequence[Risk]) -> tuple[str, ...]:
+    """The same, of a program and risks that are known already.
+
+    Args:
+        project: The project with its study.
+        program: Its program.
+        risks: Its demands on the replicates.
+    """
     of_requirements = (one.criterion.measure for one in project.requirements.system if one.criterion is not None)
     wanted = (
-        *trade_off.weighting.weights,
-        *(risk.measure for risk in risks_of(project)),
+        *project.study.trade_off.weighting.weights,
+        *(risk.measure for risk in risks),
         *program.aimed_measures,
         *(limit.measure for limit in program.limits),
         *of_requirements,

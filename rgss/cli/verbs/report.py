@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rgss.cli.options import add_evidence_choice, chosen_project, sweep_words
+from rgss.cli.options import add_evidence_choice, chosen_project, sweep_command
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -95,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
         try:
             require_complete(measured)
         except EvidenceError as error:
-            raise EvidenceError(error.message, hint=f"run '{_sweep_command(options)}' first") from None
+            raise EvidenceError(error.message, hint=f"run '{sweep_command(options)}' first") from None
         state = evidence_state(project, measured, recorded=recorded, junit=options.junit)
         served = served_studies(project, store)
         made = decide_study(
@@ -178,11 +177,6 @@ def _check_films(options: argparse.Namespace) -> None:
     if options.no_film and given:
         raise DefinitionError(f"--{given[0].replace('_', '-')} is given with --no-film", hint="omit one of them")
     ordered_look(options.film_size, options.film_rate, films=0)
-
-
-def _sweep_command(options: argparse.Namespace) -> str:
-    """The command that makes the evidence of this report."""
-    return shlex.join(sweep_words(options, "project", "fidelity", "replicates"))
 
 
 def _trace(

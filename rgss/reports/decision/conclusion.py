@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from rgss.assessment import SeedGroup
+from rgss.counted import counted
 from rgss.decision.study_decision import DesignStanding, Feasibility, RobustnessFindings, StudyDecision
-from rgss.reports.decision.words import basis_text, count_text, variants_text
+from rgss.reports.decision.words import basis_text, variants_text
 from rgss.trace.views import share_in_words
 from rgss.tradeoff.robustness import ENOUGH_REPLICATES, FEWEST_AT_THRESHOLD, TIE_PROBABILITY, ChoiceUncertainty, Rival
 
@@ -191,7 +192,7 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
         )
     if one.scarce:
         yield (
-            f"At the threshold of {', '.join(one.scarce)}, {count_text(made.trials, 'trial')} would have fewer than "
+            f"At the threshold of {', '.join(one.scarce)}, {counted(made.trials, 'trial')} would have fewer than "
             f"{FEWEST_AT_THRESHOLD:g} failures: so few that these probabilities follow the assumed population of "
             "designs. In emulated studies of this kind they were up to 0.3 too high."
         )

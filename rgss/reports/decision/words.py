@@ -33,16 +33,6 @@ def ids_text(variants: Iterable[int], *, longest: int = LONGEST_IDS) -> str:
     return ", ".join(parts[:longest]) + more
 
 
-def count_text(count: int, noun: str) -> str:
-    """A number with what is counted, such as ``1 trial`` or ``880 trials``.
-
-    Args:
-        count: The number.
-        noun: The noun in the singular, whose plural ends in s.
-    """
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
-
-
 def basis_text(*, shown_feasible: bool) -> str:
     """What decides whether a variant meets a requirement: its estimates, or verdicts on them.
 

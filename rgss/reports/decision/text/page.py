@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from rgss.counted import counted
 from rgss.decision.study_decision import StudyDecision
 from rgss.reports.decision.answers_in_words import elicitation_sentences
 from rgss.reports.decision.conclusion import seeds_sentences
@@ -16,7 +17,6 @@ from rgss.reports.decision.text.robustness import robustness_lines
 from rgss.reports.decision.text.screening import reopened_lines, screening_lines
 from rgss.reports.decision.text.sensitivity import sensitivity_lines
 from rgss.reports.decision.text.what_if import what_if_lines
-from rgss.reports.decision.words import count_text
 
 
 def decision_lines(made: StudyDecision, *, effects: bool = False) -> Iterator[str]:
@@ -26,7 +26,7 @@ def decision_lines(made: StudyDecision, *, effects: bool = False) -> Iterator[st
         made: The decision.
         effects: True to show the effects of each level on the measures of effectiveness too.
     """
-    counts = f"{count_text(made.variants, 'variant')}, {count_text(made.trials, 'trial')}"
+    counts = f"{counted(made.variants, 'variant')}, {counted(made.trials, 'trial')}"
     yield from (f"Study {made.study}: {counts}", *seeds_sentences(made.seeds), "")
     if made.what_if is not None:
         yield from what_if_lines(made.what_if)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from rgss.counted import counted
 from rgss.decision.sensitivity import Tornado, TornadoBar, TornadoEnd
 from rgss.reports.decision.sensitivity_sentences import no_rival_clause
-from rgss.reports.decision.words import UNKNOWN, amount, count_text, score, variants_text
+from rgss.reports.decision.words import UNKNOWN, amount, score, variants_text
 from rgss.reports.plain_text import aligned_table
 
 PAGE_WIDTH = 80
@@ -37,7 +38,7 @@ def tornado_lines(tornado: Tornado) -> Iterator[str]:
     if tornado.has_leads and len(moving) > MOST_BARS:
         yield f"And {len(moving) - MOST_BARS} more that move it less (--json has them)."
     if tornado.still:
-        inputs = count_text(len(tornado.still), "more input" if moving else "input")
+        inputs = counted(len(tornado.still), "more input" if moving else "input")
         moves = "moves nothing within its range" if len(tornado.still) == 1 else "move nothing within their ranges"
         yield f"{inputs} {moves} (--json names them)."
     if tornado.without_range:
