@@ -9,9 +9,19 @@ if TYPE_CHECKING:
     from rgss.motion.clock import ClockKind, PlanningClock
     from rgss.motion.limits import MotionLimits
     from rgss.motion.paths import JointPath, path_length, segment_states
-    from rgss.motion.planner_settings import Objective, OnUnverified, PlannerSettings
-    from rgss.motion.planner_table import OmplPlanner, ParameterType, PlannerParameter, ompl_planners
-    from rgss.motion.planners import SOURCE_PLANNERS, available_planners, refusal_of, takes_objective
+    from rgss.motion.planner_catalogue import (
+        SOURCE_PLANNERS,
+        Objective,
+        OmplPlanner,
+        OnUnverified,
+        ParameterType,
+        PlannerParameter,
+        PlannerSettings,
+        available_planners,
+        ompl_planners,
+        refusal_of,
+        takes_objective,
+    )
     from rgss.motion.planning import plan
     from rgss.motion.problem import PlanningProblem, PlanResult
     from rgss.motion.profiles import time_move_by_joint_waypoints, time_move_by_trapezoids, trapezoidal_trajectory

@@ -14,8 +14,7 @@ from rgss.evidence.records import PlanOutcome
 from rgss.motion.clock import ClockKind, PlanningClock
 from rgss.motion.engine import load_engine
 from rgss.motion.paths import JointPath
-from rgss.motion.planner_settings import OnUnverified, PlannerSettings
-from rgss.motion.planners import available_planners, refusal_of
+from rgss.motion.planner_catalogue import OnUnverified, PlannerSettings, available_planners, refusal_of
 from rgss.motion.problem import PlanningProblem, PlanResult, spent
 from rgss.motion.roadmap import SearchGraph
 from rgss.motion.search import search

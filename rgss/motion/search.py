@@ -14,9 +14,13 @@ from rgss.errors import MotionError
 from rgss.motion.engine import Engine, load_engine
 from rgss.motion.motion_validation import motion_validator
 from rgss.motion.objectives import objective_of
-from rgss.motion.planner_settings import Objective, PlannerSettings
-from rgss.motion.planner_table import ParameterType
-from rgss.motion.planners import ROADMAP_PLANNERS, available_planners
+from rgss.motion.planner_catalogue import (
+    ROADMAP_PLANNERS,
+    Objective,
+    ParameterType,
+    PlannerSettings,
+    available_planners,
+)
 from rgss.motion.problem import PlanningProblem
 from rgss.motion.roadmap import SearchGraph, graph_of, solve_by_roadmap
 from rgss.motion.validity import StateCost, StateValidity, first_invalid_between

@@ -52,9 +52,11 @@ def few_samples(name):
 
 @engine
 def test_the_table_is_that_of_the_installed_wheel():
-    from rgss.motion.planner_introspection import planner_table
+    from rgss.motion.planner_catalogue.introspection import planner_table
 
-    stored = json.loads((Path(__file__).parents[2] / "rgss/motion/ompl_planners.json").read_text(encoding="utf-8"))
+    stored = json.loads(
+        (Path(__file__).parents[2] / "rgss/motion/planner_catalogue/ompl_planners.json").read_text(encoding="utf-8")
+    )
     assert planner_table() == stored
 
 

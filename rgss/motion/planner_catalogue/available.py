@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from types import MappingProxyType
 
-from rgss.motion.planner_table import OmplPlanner, ompl_planners
+from rgss.motion.planner_catalogue.table import OmplPlanner, ompl_planners
 
 SOURCE_PLANNERS = ("RRT", "TRRT", "STRIDE")
 """The planners of the source's design space (Table 4.3)."""

@@ -7,7 +7,7 @@ from typing import Any
 
 from rgss.documents import canonical_json
 from rgss.motion.engine import Engine, load_engine
-from rgss.motion.planner_table import ParameterType
+from rgss.motion.planner_catalogue.table import ParameterType
 
 _PROBE_JOINTS = 6
 _FLAG_RANGE = "0,1"
