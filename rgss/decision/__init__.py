@@ -16,7 +16,7 @@ if TYPE_CHECKING:
         surviving_specs,
     )
     from rgss.decision.screening_result import ScreenedVariant, ScreeningResult, screening_summary
-    from rgss.decision.staged_sweep import sweep_in_stages
+    from rgss.decision.staged_sweep import promoted_by_screening, sweep_in_stages
     from rgss.decision.tracing import trace_evidence
     from rgss.decision.until_decided import UntilDecided, replicate_until_decided, trial_twins
 else:

@@ -1,14 +1,15 @@
 """Screening of designs by kinematic trials, before contact trials.
 
 A design is screened out if the bounds from kinematic trials (see `rgss.assessment.estimate_bounds`) prove that it
-cannot meet a requirement, or if the study's promotion rule limits the number of promoted designs and others are
-better. In that comparison every measure has its best possible value, and quantities that kinematic fidelity does
-not determine (success in contact, slip, forces, times of motion) have their best value for every design; so a
-design is never excluded by unknown quantities.
+cannot meet a requirement, not even within the tolerance of the choice, or if the study's promotion rule limits the
+number of promoted designs and others are better. In that comparison every measure has its best possible value, and
+quantities that kinematic fidelity does not determine (success in contact, slip, forces, times of motion) have their
+best value for every design; so a design is never excluded by unknown quantities.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
@@ -25,7 +26,7 @@ from rgss.decision.screening_result import ScreenedVariant, ScreeningOutcome, Sc
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore
-from rgss.measures import Verdict, judge
+from rgss.measures import Estimate, Verdict, judge
 from rgss.requirements import Criterion
 from rgss.studies import Project, Promotion, trial_specs
 from rgss.tradeoff import ValueFunction
@@ -149,7 +150,7 @@ def _first_look(
     missed = {
         requirement.id: requirement.criterion
         for requirement in requirements_with_criteria(project)
-        if requirement.criterion is not None and not _possible(requirement.criterion, bounds)
+        if requirement.criterion is not None and not _possible(project, requirement.criterion, bounds)
     }
     value = sum(weight * _best(function, bounds[measure]) for measure, (weight, function) in functions.items())
     return ScreenedVariant(
@@ -162,15 +163,30 @@ def _first_look(
     )
 
 
-def _possible(criterion: Criterion, bounds: Mapping[str, EstimateBounds]) -> bool:
-    """True if a verdict other than not met is possible.
+def _possible(project: Project, criterion: Criterion, bounds: Mapping[str, EstimateBounds]) -> bool:
+    """True if a verdict other than not met is possible, or an estimate that the choice tolerates.
 
     A criterion has one threshold: if neither end of the bounds meets it, no value between them does.
     """
     found = bounds[criterion.measure]
     if not found.bounded or not found.estimates:
         return True
-    return any(judge(criterion, estimate) is not Verdict.NOT_MET for estimate in found.estimates)
+    tolerance = project.study.trade_off.tolerance if criterion.measure in project.measures.noisy else 0.0
+    return any(
+        judge(criterion, estimate) is not Verdict.NOT_MET or _is_tolerated(criterion, estimate, tolerance)
+        for estimate in found.estimates
+    )
+
+
+def _is_tolerated(criterion: Criterion, estimate: Estimate, tolerance: float) -> bool:
+    """True if an estimate, or an end of its interval, misses a threshold by at most a share of it."""
+    threshold = criterion.threshold_in(estimate.unit)
+    slack = math.copysign(tolerance * abs(threshold), criterion.comparison.margin(1.0, 0.0))
+    return any(
+        criterion.comparison.holds(end + slack, threshold)
+        for end in (estimate.value, estimate.low, estimate.high)
+        if end is not None
+    )
 
 
 def _why(requirement: str, criterion: Criterion, bounds: Mapping[str, EstimateBounds]) -> str:

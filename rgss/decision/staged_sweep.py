@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 
 from rgss.assessment import record_after_sweep
-from rgss.decision.screening import screen, screening_specs, surviving_specs
+from rgss.decision.screening import screen, screening_specs
 from rgss.decision.screening_result import ScreeningResult
 from rgss.designs import DesignVariant
 from rgss.evidence import EvidenceStore
@@ -34,15 +34,40 @@ def sweep_in_stages(
         DefinitionError: A measure is not defined for a design.
         EvidenceError: The store is damaged, or the verdicts cannot be written.
     """
-    screened = None
-    specs = trial_specs(project, variants=variants)
-    first = screening_specs(project, variants=variants)
-    if first:
-        run(first)
-        screened = screen(project, store)
-    if screened is not None:
-        specs = surviving_specs(project, screened, variants=variants)
-    run_now = run(specs)
+    promoted, screened = promoted_by_screening(project, store, run, variants=variants)
+    run_now = run(trial_specs(project, variants=promoted))
     if run_now:
         record_after_sweep(project, store, run_now)
     return screened
+
+
+def promoted_by_screening(
+    project: Project,
+    store: EvidenceStore,
+    run: Callable[[Sequence[TrialSpec]], object],
+    *,
+    variants: Sequence[DesignVariant] | None = None,
+) -> tuple[Sequence[DesignVariant], ScreeningResult | None]:
+    """Run the screening trials, if the study has a screening, and select the variants that it promotes.
+
+    Args:
+        project: The project with its study.
+        store: The evidence.
+        run: Function that runs the missing ones of some trials.
+        variants: The variants to select from; all by default.
+
+    Returns:
+        The promoted variants, and the outcome of screening; all of them and None if the study has none.
+
+    Raises:
+        DefinitionError: A measure is not defined for a design.
+        EvidenceError: The store is damaged.
+    """
+    among = project.designs.expand() if variants is None else variants
+    if project.study.screening is not None:
+        run(screening_specs(project, variants=among))
+    screened = screen(project, store)
+    if screened is None:
+        return among, None
+    survivors = set(screened.survivors)
+    return tuple(variant for variant in among if variant.id in survivors), screened

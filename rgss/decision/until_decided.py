@@ -80,6 +80,7 @@ def replicate_until_decided(
     run: Callable[[Sequence[TrialSpec]], None],
     *,
     rule: SequentialRule | None = None,
+    variants: Sequence[DesignVariant] | None = None,
     on_look: Callable[[int, int], None] | None = None,
 ) -> UntilDecided:
     """Replication of a study until it is decided or a cap is reached.
@@ -93,6 +94,7 @@ def replicate_until_decided(
         store: The evidence.
         run: Function that runs missing trials, and returns when their records are stored.
         rule: The stopping rule; the study's if None.
+        variants: The variants to choose from, such as those that screening promotes; all by default.
         on_look: Callback after each look, with its number and the number of trials so far.
 
     Raises:
@@ -102,7 +104,7 @@ def replicate_until_decided(
     from rgss.tradeoff.sequential import check_pilot, probability_of_good_selection
 
     rule = rule or project.study.until_decided
-    variants = project.designs.expand()
+    variants = project.designs.expand() if variants is None else variants
     check_pilot(rule, len(variants))
     read = _Evidence(project, store, variants)
     wanted = {variant.id: rule.pilot for variant in variants}

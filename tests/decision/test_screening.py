@@ -234,6 +234,26 @@ def test_what_cannot_meet_a_requirement_is_screened_out_and_told_why(screened, k
     assert {spec.fidelity for spec in surviving_specs(project, result)} == {Fidelity.CONTACT}
 
 
+@pytest.mark.parametrize(("tolerance", "survives"), [(0.0, False), (0.06, False), (0.07, True), (0.1, True)])
+def test_what_the_choice_tolerates_goes_on(screened, kept, record_of, tolerance, survives):
+    # Planning takes 16 s of at most 15 s, in contact too: without screening such a design may be chosen.
+    project = screened()
+    project = replace(
+        project, study=replace(project.study, trade_off=replace(project.study.trade_off, tolerance=tolerance))
+    )
+    store = kept(
+        screening_specs(project), lambda spec: record_of(spec, planning_s=16.0 / 5 if spec.variant == 9 else 1.0)
+    )
+    every = (*screening_specs(project), *trial_specs(project))
+    contact = kept(every, lambda spec: record_of(spec, planning_s=16.0 / 5 if spec.variant == 9 else 1.0))
+
+    fate = next(one for one in screen(project, store).variants if one.variant == 9)
+    assert fate.goes_on is survives
+    assert (fate.outcome is ScreeningOutcome.IMPOSSIBLE) is not survives
+    without = choose(project, measure_variants(project, contact))
+    assert (9 in {one.variant for one in without.ranking}) is survives
+
+
 def test_a_doubtful_success_does_not_eliminate(screened, kept, record_of):
     # 2 of 3 in kinematic trials: the interval reaches above the threshold, so it is not decided yet.
     project = screened()

@@ -7,13 +7,14 @@ from types import SimpleNamespace
 import pytest
 
 from rgss.assessment import measure_variants
-from rgss.decision import until_decided
+from rgss.decision import choose, measure_survivors, promoted_by_screening, until_decided
 from rgss.decision.robustness import robustness
 from rgss.decision.until_decided import replicate_until_decided, trial_twins
 from rgss.designs import sources
 from rgss.errors import EvidenceError, TradeoffError
-from rgss.evidence import EvidenceStore, Provenance
+from rgss.evidence import EvidenceStore, Fidelity, Provenance
 from rgss.reports.decision.until_decided import until_decided_summary
+from rgss.studies import Promotion, Screening
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.trial_keys import key_of, keys_of
 from rgss.tradeoff.sequential import Reason, SequentialRule
@@ -75,6 +76,35 @@ def test_replicates_go_where_they_can_change_the_decision(shipped, store, runner
     text = until_decided_summary(result)
     assert text.startswith(f"variant {result.variant}: cap reached with {len(result.contenders)} contenders")
     assert f"{result.total} trials in {result.looks} looks" in text
+
+
+def test_of_screened_designs_only_the_promoted_are_replicated(shipped, store, runner):
+    rule = dataclasses.replace(RULE, budget=300)
+    screening = Screening(fidelity=Fidelity.KINEMATIC, promotion=Promotion())
+    study = dataclasses.replace(
+        shipped.study, screening=screening, replicates=RULE.pilot, is_sequential=True, until_decided=rule
+    )
+    project = dataclasses.replace(shipped, study=study)
+    stages = []
+
+    def run(specs):
+        stages.append({(spec.fidelity, spec.variant) for spec in specs})
+        runner(specs)
+
+    promoted, screened = promoted_by_screening(project, store, run)
+    result = replicate_until_decided(project, store, run, rule=rule, variants=promoted)
+
+    stride = {spec.variant for spec in trial_specs(shipped, seeds=(1,)) if spec.planner == "STRIDE"}
+    assert stages[0] == {(Fidelity.KINEMATIC, one.id) for one in project.designs.expand()}
+    assert {fidelity for stage in stages[1:] for fidelity, _ in stage} == {Fidelity.CONTACT}
+    replicated = {variant for stage in stages[1:] for _, variant in stage}
+    assert replicated == set(screened.survivors) == {one.id for one in promoted} == set(result.trials)
+    assert not stride & replicated
+    # The pages choose from the same designs with the same trials.
+    measured, read = measure_survivors(project, store)
+    assert read == screened
+    assert {entry.variant.id: len(entry.records) for entry in measured} == result.trials
+    assert choose(project, measured).chosen == result.variant
 
 
 def replace_levels(factor, count):

@@ -15,7 +15,7 @@ from rgss.cli.safe_output import errors_are_seen
 from rgss.counted import counted
 
 if TYPE_CHECKING:
-    from rgss.decision import UntilDecided
+    from rgss.decision import ScreeningResult, UntilDecided
     from rgss.studies import Project
     from rgss.sweep import LostTrials, WorkerLimits
     from rgss.tradeoff.sequential import Forecast
@@ -43,11 +43,12 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
     from rgss.cli.output import print_json, shown_path
     from rgss.cli.sweep.backend import execution_backend
     from rgss.cli.sweep.runner import SweepRunner, report_lost
-    from rgss.decision import replicate_until_decided
+    from rgss.decision import promoted_by_screening, replicate_until_decided
     from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore
+    from rgss.reports.decision import screening_to_json
 
-    _refuse_contradictions(options, project)
+    _refuse_contradictions(options)
     rule = project.study.until_decided
     if options.cap is not None:
         rule = replace(rule, cap=options.cap, verdict_cap=min(rule.verdict_cap, options.cap))
@@ -67,8 +68,11 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
             lost.extend(finished.result.lost)
 
         try:
-            most = len(project.designs.expand()) * rule.cap if rule.budget is None else rule.budget
-            found = replicate_until_decided(project, store, run, rule=rule, on_look=partial(_report_look, most))
+            variants, screened = promoted_by_screening(project, store, run)
+            most = len(variants) * rule.cap if rule.budget is None else rule.budget
+            found = replicate_until_decided(
+                project, store, run, rule=rule, variants=variants, on_look=partial(_report_look, most)
+            )
         except EvidenceError as error:
             if not lost:
                 raise
@@ -79,21 +83,25 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
         if run_now and project.study.is_sequential:
             record_after_sweep(project, store, run_now)
     if options.json:
-        print_json(_as_json(found))
+        document = _as_json(found)
+        print_json(document if screened is None else {**document, "screening": screening_to_json(screened)})
     else:
-        _print_result(options, project, found)
+        _print_result(options, project, found, screened)
     report_lost(lost)
     return RUN_FAILED if lost else CLEAN
 
 
-def _print_result(options: argparse.Namespace, project: Project, found: UntilDecided) -> None:
+def _print_result(
+    options: argparse.Namespace, project: Project, found: UntilDecided, screened: ScreeningResult | None
+) -> None:
     from rgss.cli.output import print_lines
-    from rgss.reports.decision import open_paragraph, until_decided_summary
+    from rgss.reports.decision import open_paragraph, screening_lines, until_decided_summary
 
     words = sweep_words(options, "project", "fidelity")
     if not project.study.sweeps_until_decided:
         words += ["--until", "decided"]
-    lines = [until_decided_summary(found), open_paragraph(found, command=shlex.join(words))]
+    lines = [] if screened is None else list(screening_lines(screened))
+    lines += [until_decided_summary(found), open_paragraph(found, command=shlex.join(words))]
     if not project.study.is_sequential:
         lines.append(
             f"The study states no until_decided, so that 'rgss trade' reads its {project.study.replicates} replicates "
@@ -110,7 +118,7 @@ def _budget(trials: int) -> int:
     return trials
 
 
-def _refuse_contradictions(options: argparse.Namespace, project: Project) -> None:
+def _refuse_contradictions(options: argparse.Namespace) -> None:
     from rgss.errors import DefinitionError
 
     for given, option in (
@@ -120,10 +128,6 @@ def _refuse_contradictions(options: argparse.Namespace, project: Project) -> Non
     ):
         if given:
             raise DefinitionError(f"--until decided and {option} exclude each other", hint=f"omit {option}")
-    if project.study.screening is not None:
-        raise DefinitionError(
-            "--until decided and screening exclude each other", hint="name one fidelity with --fidelity"
-        )
 
 
 def _report_look(most: int, look: int, trials: int) -> None:

@@ -148,7 +148,8 @@ def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[D
         found = dry_run(specs, store, share=not options.no_share, study=project.study.label)
         further: tuple[str, ...] = ()
         if project.study.sweeps_until_decided and not (options.only or options.json):
-            read = sum(map(len, read_specs(project, store, variants).values()))
+            going_on = [one for one in variants if screened is None or one.id in set(screened.survivors)]
+            read = sum(map(len, read_specs(project, store, going_on).values()))
             further = tuple(_further_trials(project, options.budget, read))
     if options.json:
         print_json(dry_run_as_json(found, label))
