@@ -72,22 +72,34 @@ def choose_portfolio(
                     f"variant {one.variant.id} of {study} must be the same design as in the other studies",
                     hint="give the studies of a portfolio the same design space and catalogue",
                 )
-    variants = next(iter(measured.values()))[1]
+    every = {one.variant.id: one.variant for _, entries in measured.values() for one in entries}
     return decide_portfolio(
         PortfolioProblem(
             tasks=tuple(
-                PortfolioTask(name=each.study, weight=each.weight, problem=trade_problem(*measured[each.study]))
+                PortfolioTask(
+                    name=each.study,
+                    weight=each.weight,
+                    problem=trade_problem(*measured[each.study]),
+                    left_out=_screened_out(*measured[each.study]) & every.keys(),
+                )
                 for each in choice.studies
             ),
             at_most=choice.at_most,
             groups=None
             if choice.member is None
-            else {one.variant.id: _member(one.variant, choice.member) for one in variants},
+            else {name: _member(variant, choice.member) for name, variant in every.items()},
             aim=choice.aim,
         ),
         time_limit=time_limit,
         independent=independent,
     )
+
+
+def _screened_out(project: Project, measured: Sequence[VariantMeasures]) -> frozenset[int]:
+    """The designs of a study that its screening left out, which do not serve it."""
+    if project.study.screening is None:
+        return frozenset()
+    return frozenset(one.id for one in project.designs.expand()).difference(one.variant.id for one in measured)
 
 
 def _portfolio(project: Project) -> PortfolioEntry:

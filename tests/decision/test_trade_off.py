@@ -11,6 +11,8 @@ from rgss.decision.choosing import choose, double_counting, shared_measures, tra
 from rgss.decision.portfolios import choose_portfolio, portfolio_projects
 from rgss.designs.compatibility import Condition, Rule
 from rgss.errors import DefinitionError, TradeoffError
+from rgss.evidence import Fidelity
+from rgss.studies import Promotion, Screening
 from rgss.tradeoff import (
     Comparison,
     ElicitedInterval,
@@ -281,6 +283,22 @@ class TestPortfolios:
         assert decision.members == (
             next(e.variant.components["gripper"].id for e in measured if e.variant.id == alone.chosen),
         )
+
+    def test_designs_that_screening_left_out_of_a_study(self, shipped, measured, read):
+        line = "portfolio: {at_most: 2, studies: [{study: a.yaml, weight: 0.5}, {study: b.yaml, weight: 0.5}]}"
+        study = replace(read(*BOTH, line), screening=Screening(fidelity=Fidelity.KINEMATIC, promotion=Promotion()))
+        project = replace(shipped, study=study)
+        alone = choose(project, measured)
+        best = alone.ranking[0].variant
+
+        decision = choose_portfolio(
+            project,
+            {"a.yaml": (project, measured), "b.yaml": (project, [one for one in measured if one.variant.id != best])},
+        )
+
+        first, second = decision.assignments
+        assert first.variant == best
+        assert second.variant == next(one.variant for one in alone.ranking if one.variant != best)
 
     def test_its_studies(self, folder, edit):
         edit(STUDY, "trade_off:\n", f"trade_off:\n  {self.LINE}\n")

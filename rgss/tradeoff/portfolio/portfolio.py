@@ -245,9 +245,11 @@ def _member_values(problem: PortfolioProblem) -> tuple[list[str], NDArray[np.flo
 
     from rgss.tradeoff.programs import enumerate_alternatives
 
-    enumerations = [enumerate_alternatives(task.problem) for task in problem.tasks]
-    variants = enumerations[0].variants.tolist()
-    offered = np.stack([np.where(one.feasible, one.values, -1.0) for one in enumerations], axis=1)
+    variants = sorted(problem.tasks[0].variants)
+    offered = np.full((len(variants), len(problem.tasks)), -1.0)
+    for at, task in enumerate(problem.tasks):
+        found = enumerate_alternatives(task.problem)
+        offered[np.searchsorted(variants, found.variants), at] = np.where(found.feasible, found.values, -1.0)
     rows: dict[str, list[int]] = {}
     for row, variant in enumerate(variants):
         rows.setdefault(str(variant) if problem.groups is None else problem.groups[variant], []).append(row)

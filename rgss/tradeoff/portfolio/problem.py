@@ -18,12 +18,20 @@ class PortfolioTask:
     Attributes:
         name: Its name.
         weight: Its share in the mean.
-        problem: The same alternatives with their evidence in this task, and its conditions.
+        problem: The alternatives with their evidence in this task, and its conditions; the same in every task but for
+            those left out.
+        left_out: Alternatives of other tasks that do not serve this one, such as those that its screening left out.
     """
 
     name: str
     weight: float
     problem: TradeProblem
+    left_out: frozenset[int] = frozenset()
+
+    @property
+    def variants(self) -> frozenset[int]:
+        """Ids of its alternatives, with those left out."""
+        return self.left_out.union(one.variant for one in self.problem.alternatives)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,19 +66,18 @@ class PortfolioProblem:
                 f"a portfolio of at most {self.at_most} designs serves no task", hint="allow at least 1"
             )
         Weighting(weights={task.name: task.weight for task in self.tasks})
-        variants = [one.variant for one in self.tasks[0].problem.alternatives]
+        variants = self.tasks[0].variants
         for task in self.tasks:
             if not isinstance(task.problem.program, AdditiveValue):
                 raise TradeoffError(
                     f"task {task.name!r} is decided by the {task.problem.program.name} program",
                     hint="a portfolio is chosen by weighted value; use the additive program",
                 )
-            others = {one.variant for one in task.problem.alternatives}
-            for variant in sorted(others.symmetric_difference(variants)):
+            for variant in sorted(task.variants ^ variants):
                 raise TradeoffError(
                     f"variant {variant} is not among the alternatives of every task",
                     hint="give every task the same designs",
                 )
-        for variant in variants:
+        for variant in sorted(variants):
             if self.groups is not None and variant not in self.groups:
                 raise TradeoffError(f"variant {variant} belongs to no group", hint="give every variant its group")

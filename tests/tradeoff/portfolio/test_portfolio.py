@@ -105,6 +105,38 @@ def test_one_gripper_for_many_objects(portfolio):
     assert decide_portfolio(portfolio(table)).members == ("4",)
 
 
+@pytest.mark.parametrize("aim", list(PortfolioAim))
+@pytest.mark.parametrize("seed", range(8))
+def test_what_is_left_out_of_a_task_does_not_serve_it(portfolio, seed, aim):
+    """As if it were infeasible there, by brute force over all pairs."""
+    random = np.random.default_rng(seed)
+    table = {
+        variant: tuple(float(value) if keep else -1.0 for value, keep in zip(random.random(3), kept, strict=True))
+        for variant, kept in enumerate(random.random((7, 3)) < 0.7, start=1)
+    }
+    whole = portfolio(table, at_most=2, aim=aim)
+    out = [frozenset(variant for variant, row in table.items() if row[task] < 0.0) for task in range(3)]
+    tasks = tuple(
+        dataclasses.replace(
+            task,
+            problem=dataclasses.replace(
+                task.problem,
+                alternatives=tuple(one for one in task.problem.alternatives if one.variant not in left_out),
+            ),
+            left_out=left_out,
+        )
+        for task, left_out in zip(whole.tasks, out, strict=True)
+    )
+    decision = decide_portfolio(dataclasses.replace(whole, tasks=tasks))
+
+    score = np.mean if aim is PortfolioAim.MEAN else min
+    pairs = [np.maximum(table[a], table[b]) for a in table for b in table if a <= b]
+    scores = [score(best) for best in pairs if min(best) >= 0.0]
+    assert decision.objective == (pytest.approx(max(scores)) if scores else None)
+    assert decision == decide_portfolio(whole)
+    assert all(one.variant not in left_out for one, left_out in zip(decision.assignments, out, strict=True))
+
+
 def test_too_few_members_to_serve_every_task(portfolio):
     table = {1: (0.9, -1.0), 2: (-1.0, 0.8)}
     decision = decide_portfolio(portfolio(table))
