@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from rgss.decision.choosing import choose, trade_problem, unweighted_measures
     from rgss.decision.named_trials import NamingStudy, asked_of, asked_trials, naming_studies
     from rgss.decision.portfolios import choose_portfolio, measured_studies
+    from rgss.decision.replication_check import replication_findings
     from rgss.decision.screening import (
         measure_survivors,
         reopened,

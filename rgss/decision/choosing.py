@@ -54,11 +54,7 @@ def trade_problem(
             be chosen of designs that are not combinations of levels.
     """
     require_complete(measured, sweep=project.command("sweep"))
-    criteria = {
-        requirement.id: _demanded(project, requirement.criterion)
-        for requirement in requirements_with_criteria(project)
-        if requirement.criterion is not None
-    }
+    criteria = demanded_criteria(project)
     trade_off = project.study.trade_off
     tolerance = trade_off.tolerance if tolerant else 0.0
     thresholds = tuple(
@@ -120,6 +116,19 @@ def choose(
     if decision.conflicts is None:
         return decision
     return replace(decision, conflicts=with_moved_winners(project, posed, decision.conflicts))
+
+
+def demanded_criteria(project: Project) -> dict[str, Criterion]:
+    """Criterion of the choice by requirement; if the study decides by verdicts, on the end that a verdict needs.
+
+    Args:
+        project: The project with its study.
+    """
+    return {
+        requirement.id: _demanded(project, requirement.criterion)
+        for requirement in requirements_with_criteria(project)
+        if requirement.criterion is not None
+    }
 
 
 def proportion_measures(project: Project) -> frozenset[str]:

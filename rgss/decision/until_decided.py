@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from rgss.assessment import VariantMeasures, requirements_with_criteria, verdicts_on
 from rgss.decision.choosing import proportion_measures, trade_problem
 from rgss.decision.level_structure import level_numbers
+from rgss.decision.replication_check import require_sequential_rule
 from rgss.designs import DesignVariant, sources
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, TrialRecord
@@ -105,6 +106,7 @@ def replicate_until_decided(
 
     rule = rule or project.study.until_decided
     variants = project.designs.expand() if variants is None else variants
+    require_sequential_rule(project)
     check_pilot(rule, len(variants))
     read = _Evidence(project, store, variants)
     wanted = {variant.id: rule.pilot for variant in variants}
@@ -140,10 +142,7 @@ def replicate_until_decided(
         verdicts={entry.variant.id: verdicts_on(project, entry) for entry in read.measured()},
         trials=wanted,
         probability=probability_of_good_selection(
-            evidence,
-            answer.variant,
-            margin=rule.margin,
-            seed=project.study.seed,
+            evidence, answer.variant, margin=rule.margin, seed=project.study.seed
         ),
         looks=progress.looks,
         rule=rule,

@@ -117,6 +117,7 @@ def _studies(folder: Path, options: argparse.Namespace) -> tuple[str | None, ...
 
 
 def _checked(folder: Path, study: str | None, options: argparse.Namespace) -> _Checked:
+    from rgss.decision import replication_findings
     from rgss.decision.assumptions import assumption_findings
     from rgss.errors import DocumentError
     from rgss.guard import guard_findings
@@ -152,6 +153,7 @@ def _checked(folder: Path, study: str | None, options: argparse.Namespace) -> _C
             *draw_findings(project),
             *task_time_findings(project),
             *strict_findings(project),
+            *replication_findings(project),
             *threshold_findings(project),
             *undefined_findings(project),
             *double_counting_findings(project),

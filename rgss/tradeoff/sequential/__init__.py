@@ -12,5 +12,6 @@ if TYPE_CHECKING:
     from rgss.tradeoff.sequential.rule import SequentialRule, check_pilot
     from rgss.tradeoff.sequential.sequential import Decided, Reason, next_batch
     from rgss.tradeoff.sequential.settling import Progress
+    from rgss.tradeoff.sequential.support import unsupported_reason
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -13,6 +13,7 @@ from rgss.measures import Range
 from rgss.tradeoff.problem import Comparison, EvidenceTable, Threshold, ValueFunction, tabulated
 from rgss.tradeoff.programs import TradeProblem
 from rgss.tradeoff.sequential.observed import Observed
+from rgss.tradeoff.sequential.support import unsupported_reason
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -225,23 +226,15 @@ class SequentialEvidence:
 
 
 def _check(problem: TradeProblem) -> None:
-    if problem.program.name != "additive":
-        raise TradeoffError(
-            f"replication until decided does not support the {problem.program.name} program",
-            hint="decide by the weighted value, or run a fixed number of replicates",
-        )
-    if problem.risks:
-        raise TradeoffError(
-            f"replication until decided does not support demands on replicates, such as {problem.risks[0].requirement}",
-            hint="take the risks out, or run a fixed number of replicates",
-        )
-    for threshold in problem.thresholds:
-        measure, dot, end = threshold.measure.rpartition(".")
-        if dot and end in ("low", "high"):
-            raise TradeoffError(
-                f"replication until decided cannot judge {threshold.requirement} by an end of {measure}'s interval",
-                hint="judge it by the value, or run a fixed number of replicates",
-            )
+    ends = (
+        (threshold.requirement, measure)
+        for threshold in problem.thresholds
+        for measure, dot, end in [threshold.measure.rpartition(".")]
+        if dot and end in ("low", "high")
+    )
+    refused = unsupported_reason(problem.program.name, [risk.requirement for risk in problem.risks], ends)
+    if refused is not None:
+        raise TradeoffError(refused[0], hint=refused[1])
 
 
 def _bounds(
