@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.milp.checks import Agreement, Check, CheckKind
     from rgss.tradeoff.milp.independent_solver import SolverCheck, independent_run
     from rgss.tradeoff.milp.limited_runs import LimitedRuns
-    from rgss.tradeoff.milp.linear import SOLVER_TOLERANCE, solve_linear, variable_ranges
+    from rgss.tradeoff.milp.linear import SOLVER_TOLERANCE, rerun_solver, solve_linear, variable_ranges
     from rgss.tradeoff.milp.selection import INTEGRALITY_TOLERANCE, Row, VariantSelection, read_choice
     from rgss.tradeoff.milp.solver_process import SolverLimitError, SolverProcess
     from rgss.tradeoff.milp.stage import (

@@ -80,28 +80,13 @@ def variable_ranges(rows: Array, limits: Array, equation_rows: Array, equals: Ar
     """
     import highspy
 
-    solver = highspy.Highs()
-    for name, value in (
-        ("output_flag", False),
-        ("threads", 1),
-        ("presolve", "off"),
-        ("primal_feasibility_tolerance", SOLVER_TOLERANCE),
-        ("dual_feasibility_tolerance", SOLVER_TOLERANCE),
-    ):
-        solver.setOptionValue(name, value)
-    matrix = np.vstack([rows, equation_rows])
-    count, size = matrix.shape
-    program = highspy.HighsLp()
-    program.num_col_, program.num_row_ = size, count
-    program.col_cost_ = np.zeros(size)
-    program.col_lower_, program.col_upper_ = np.full(size, -np.inf), np.full(size, np.inf)
-    program.row_lower_ = np.concatenate([np.full(len(limits), -np.inf), equals])
-    program.row_upper_ = np.concatenate([limits, equals])
-    program.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
-    program.a_matrix_.start_ = np.arange(count + 1) * size
-    program.a_matrix_.index_ = np.tile(np.arange(size), count)
-    program.a_matrix_.value_ = matrix.ravel()
-    solver.passModel(program)
+    size = rows.shape[1]
+    solver = rerun_solver(
+        np.vstack([rows, equation_rows]),
+        np.concatenate([np.full(len(limits), -np.inf), equals]),
+        np.concatenate([limits, equals]),
+        least=-np.inf,
+    )
     ends = np.empty((2, size))
     for place in range(size):
         for end, sign in enumerate((1.0, -1.0)):
@@ -115,6 +100,40 @@ def variable_ranges(rows: Array, limits: Array, equation_rows: Array, equals: Ar
             ends[end, place] = solver.getSolution().col_value[place]
         solver.changeColCost(place, 0.0)
     return ends[0], ends[1]
+
+
+def rerun_solver(rows: Array, lower: Array, upper: Array, *, least: float) -> Any:
+    """HiGHS with a linear program l <= A x <= u of costs 0; each run with other costs begins at the last optimum.
+
+    Args:
+        rows: The coefficients A, shape (k, v).
+        lower: The bounds l, shape (k,).
+        upper: The bounds u, shape (k,).
+        least: The least value of every variable.
+    """
+    import highspy
+
+    solver = highspy.Highs()
+    for name, value in (
+        ("output_flag", False),
+        ("threads", 1),
+        ("presolve", "off"),
+        ("primal_feasibility_tolerance", SOLVER_TOLERANCE),
+        ("dual_feasibility_tolerance", SOLVER_TOLERANCE),
+    ):
+        solver.setOptionValue(name, value)
+    count, size = rows.shape
+    program = highspy.HighsLp()
+    program.num_col_, program.num_row_ = size, count
+    program.col_cost_ = np.zeros(size)
+    program.col_lower_, program.col_upper_ = np.full(size, least), np.full(size, np.inf)
+    program.row_lower_, program.row_upper_ = lower, upper
+    program.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
+    program.a_matrix_.start_ = np.arange(count + 1) * size
+    program.a_matrix_.index_ = np.tile(np.arange(size), count)
+    program.a_matrix_.value_ = rows.ravel()
+    solver.passModel(program)
+    return solver
 
 
 def _unproven(end: str) -> TradeoffError:

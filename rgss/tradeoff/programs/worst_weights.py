@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.milp import SOLVER_TOLERANCE
+from rgss.tradeoff.milp import rerun_solver
 
 Array = NDArray[np.float64]
 
@@ -55,11 +55,11 @@ class WeightProgram:
         import highspy
 
         is_first = not self._solver
-        solver, status = self._run(highspy, objective)
+        solver, status = self._run(objective)
         if status != highspy.HighsModelStatus.kOptimal and not is_first:
             # The start from another optimum can end without an answer, where a run from scratch has one.
             self._solver.clear()
-            solver, status = self._run(highspy, objective)
+            solver, status = self._run(objective)
         if status == highspy.HighsModelStatus.kInfeasible:
             raise TradeoffError("no weights satisfy all the elicited bounds and orders", hint="widen a bound")
         if status != highspy.HighsModelStatus.kOptimal:
@@ -73,38 +73,23 @@ class WeightProgram:
         multipliers = np.clip(-np.array(solution.row_dual, dtype=np.float64)[1:], 0.0, None)
         return WorstWeights(weights=weights, value=float(objective @ weights), multipliers=multipliers)
 
-    def _run(self, highspy: Any, objective: Array) -> tuple[Any, Any]:
+    def _run(self, objective: Array) -> tuple[Any, Any]:
         """The solver after a run with an objective, and the status of its answer."""
         if not self._solver:
-            self._solver.append(self._prepared(highspy))
+            self._solver.append(self._prepared())
         solver = self._solver[0]
         size = len(objective)
         solver.changeColsCost(size, np.arange(size, dtype=np.int32), np.asarray(-objective, dtype=np.float64))
         solver.run()
         return solver, solver.getModelStatus()
 
-    def _prepared(self, highspy: Any) -> Any:
-        solver = highspy.Highs()
-        for name, value in (
-            ("output_flag", False),
-            ("threads", 1),
-            ("solver", "simplex"),
-            ("presolve", "off"),
-            ("primal_feasibility_tolerance", SOLVER_TOLERANCE),
-            ("dual_feasibility_tolerance", SOLVER_TOLERANCE),
-        ):
-            solver.setOptionValue(name, value)
-        rows = np.vstack([np.ones((1, self.rows.shape[1])), self.rows])
-        count, size = rows.shape
-        program = highspy.HighsLp()
-        program.num_col_, program.num_row_ = size, count
-        program.col_cost_ = np.zeros(size)
-        program.col_lower_, program.col_upper_ = np.zeros(size), np.full(size, np.inf)
-        program.row_lower_ = np.concatenate([[1.0], np.full(count - 1, -np.inf)])
-        program.row_upper_ = np.concatenate([[1.0], self.limits])
-        program.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
-        program.a_matrix_.start_ = np.arange(count + 1) * size
-        program.a_matrix_.index_ = np.tile(np.arange(size), count)
-        program.a_matrix_.value_ = rows.ravel()
-        solver.passModel(program)
+    def _prepared(self) -> Any:
+        none = np.full(len(self.limits), -np.inf)
+        solver = rerun_solver(
+            np.vstack([np.ones((1, self.rows.shape[1])), self.rows]),
+            np.concatenate([[1.0], none]),
+            np.concatenate([[1.0], self.limits]),
+            least=0.0,
+        )
+        solver.setOptionValue("solver", "simplex")
         return solver

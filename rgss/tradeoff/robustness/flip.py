@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.tradeoff.problem import TIE_TOLERANCE, Array, Mask, checked_values, checked_weights, classes
-from rgss.tradeoff.weights import Polytope, WeightSet, never_best, rivals_of, shared_region_keys, winning_polytope
+from rgss.tradeoff.weights import Polytope, WeightSet, of_each_region
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -77,17 +77,7 @@ def weight_shifts(
     here = checked_weights(weights, distinct.shape[1])
     admitted = among or WeightSet.simplex(distinct.shape[1])
     shifts = []
-    rivals = rivals_of(distinct)
-    shared: dict[bytes, tuple[Array, Array] | None] = {}
-    keys = shared_region_keys(distinct, rivals)
-    for kind in np.flatnonzero(~never_best(distinct, rivals)):
-        key = keys[kind]
-        if key is None or key not in shared:
-            found = _shift(winning_polytope(distinct, int(kind), admitted, rivals), here)
-        else:
-            found = shared[key]
-        if key is not None:
-            shared[key] = found
+    for kind, found in enumerate(of_each_region(distinct, admitted, lambda region: _shift(region, here), None)):
         if found is not None:
             members = tuple(int(row) for row in rows[membership == kind])
             shifts.append(

@@ -10,9 +10,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.weights.sampling import Drawing, sample_weights
     from rgss.tradeoff.weights.weight_region import (
         WeightRegion,
-        never_best,
-        rivals_of,
-        shared_region_keys,
+        of_each_region,
         winning_polytope,
         winning_regions,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.weights.polytope import THINNEST, Polytope
+from rgss.tradeoff.weights.polytope import THINNEST, Polytope, triangulation
 from rgss.tradeoff.weights.sampling import sample_weights
 from rgss.tradeoff.weights.weight_set import Array
 
@@ -44,13 +44,8 @@ def centroid(polytope: Polytope) -> Array:
 
 def _of_cells(vertices: Array, directions: Array) -> Array | None:
     """The centroid of the cells of a triangulation, weighted by their volumes; None where Qhull gives up."""
-    from scipy.spatial import Delaunay, QhullError
-
-    flat = (vertices - vertices[0]) @ directions
-    try:
-        cells = Delaunay(flat).simplices
-    except QhullError:
+    found = triangulation((vertices - vertices[0]) @ directions)
+    if found is None:
         return None
-    corners = flat[cells]
-    volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
+    cells, volumes = found
     return np.asarray(volumes @ vertices[cells].mean(axis=1) / volumes.sum(), dtype=np.float64)

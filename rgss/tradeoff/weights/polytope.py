@@ -96,6 +96,19 @@ class Polytope:
             return None
         return _cleaned(answer[:size]), max(0.0, float(answer[-1]))
 
+    def interior_point(self) -> Array:
+        """The Chebyshev centre, shape (m,), of an interior that is not empty; a single point is its own.
+
+        Raises:
+            TradeoffError: The polytope is empty or has no interior.
+        """
+        ball = self.largest_ball()
+        if ball is None or (ball[1] <= THINNEST and self.weights.directions().shape[1]):
+            raise TradeoffError(
+                "the elicited bounds and orders leave no room for weights", hint="widen a bound, or drop an order"
+            )
+        return ball[0]
+
     def extent(self) -> tuple[Array, Array]:
         """The least and the largest value of each weight, shapes (m,) each; the polytope is not empty."""
         equation_rows, equals = self.weights.equations()
@@ -206,6 +219,25 @@ class Polytope:
             [(None, None)] * size + [(0.0, None)] * size,
         )
         return None if answer is None else _cleaned(answer[:size])
+
+
+def triangulation(points: Array) -> tuple[NDArray[np.intp], Array] | None:
+    """Simplices of a triangulation of points, each by the rows of its corners, and their relative volumes.
+
+    Args:
+        points: The points, shape (v, d), d being at least 2.
+
+    Returns:
+        Shapes (c, d + 1) and (c,); None where Qhull gives up.
+    """
+    from scipy.spatial import Delaunay, QhullError
+
+    try:
+        cells = Delaunay(points).simplices
+    except QhullError:
+        return None
+    corners = points[cells]
+    return cells, np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
 
 
 def _cleaned(weights: NDArray[Any]) -> Array:

@@ -7,9 +7,8 @@ from enum import Enum
 
 import numpy as np
 
-from rgss.errors import TradeoffError
 from rgss.tradeoff.weights.hit_and_run import walked_weights
-from rgss.tradeoff.weights.polytope import THINNEST, Polytope
+from rgss.tradeoff.weights.polytope import Polytope, triangulation
 from rgss.tradeoff.weights.weight_set import Array, WeightSet
 
 MOST_TRIES = 40
@@ -60,16 +59,10 @@ def sample_weights(
     if weights.is_simplex:
         return DrawnWeights(weights=_from_simplex(weights.size, count, generator), drawn_by=Drawing.INDEPENDENT)
     polytope = Polytope.of(weights)
-    ball = polytope.largest_ball()
-    dimension = weights.directions().shape[1]
-    if ball is None or (ball[1] <= THINNEST and dimension):
-        raise TradeoffError(
-            "the elicited bounds and orders leave no room for weights",
-            hint="widen a bound, or drop an order",
-        )
-    if dimension == 0:
-        return DrawnWeights(weights=np.tile(ball[0], (count, 1)), drawn_by=Drawing.INDEPENDENT)
-    vertices = polytope.vertices(ball[0])
+    inside = polytope.interior_point()
+    if not weights.directions().shape[1]:
+        return DrawnWeights(weights=np.tile(inside, (count, 1)), drawn_by=Drawing.INDEPENDENT)
+    vertices = polytope.vertices(inside)
     drawn = None if vertices is None else _from_vertices(vertices, weights.directions(), count, generator)
     if drawn is not None:
         return DrawnWeights(weights=np.maximum(drawn, 0.0), drawn_by=Drawing.INDEPENDENT)
@@ -77,7 +70,7 @@ def sample_weights(
     if kept is not None:
         return DrawnWeights(weights=kept, drawn_by=Drawing.INDEPENDENT)
     walks = count if most_walks is None else min(count, most_walks)
-    return DrawnWeights(weights=walked_weights(polytope, ball[0], walks, generator), drawn_by=Drawing.HIT_AND_RUN)
+    return DrawnWeights(weights=walked_weights(polytope, inside, walks, generator), drawn_by=Drawing.HIT_AND_RUN)
 
 
 def _from_simplex(size: int, count: int, generator: np.random.Generator) -> Array:
@@ -92,14 +85,10 @@ def _from_vertices(vertices: Array, directions: Array, count: int, generator: np
         ends = vertices[[int(flat.argmin()), int(flat.argmax())]]
         share = generator.random((count, 1))
         return np.asarray(share * ends[0] + (1.0 - share) * ends[1], dtype=np.float64)
-    from scipy.spatial import Delaunay, QhullError
-
-    try:
-        cells = Delaunay(flat).simplices
-    except QhullError:
+    found = triangulation(flat)
+    if found is None:
         return None
-    corners = flat[cells]
-    volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
+    cells, volumes = found
     chosen = generator.choice(len(cells), size=count, p=volumes / volumes.sum())
     shares = _from_simplex(cells.shape[1], count, generator)
     return np.asarray(np.einsum("nk,nkm->nm", shares, vertices[cells[chosen]]), dtype=np.float64)

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from enum import Enum
+from typing import TypeVar
 
 import numpy as np
 
-from rgss.errors import TradeoffError
 from rgss.tradeoff.problem import Array, Mask, checked_values, classes, nondominated
 from rgss.tradeoff.weights.polytope import THINNEST, Polytope
 from rgss.tradeoff.weights.sampling import Drawing, sample_weights
 from rgss.tradeoff.weights.weight_set import WeightSet
+
+Result = TypeVar("Result")
 
 SHARE_SAMPLES = 1 << 16
 
@@ -139,6 +142,33 @@ def shared_region_keys(values: Array, rivals: Array | None) -> tuple[bytes | Non
     return tuple(kept[row].tobytes() if lost[row].any() else None for row in range(len(values)))
 
 
+def of_each_region(
+    values: Array, weights: WeightSet, evaluate: Callable[[Polytope], Result], never: Result
+) -> list[Result]:
+    """Result of a function of the region of each alternative, made once for those that share a region.
+
+    Args:
+        values: The single values of distinct alternatives, shape (n, m).
+        weights: The admitted weights.
+        evaluate: The function.
+        never: The result for an alternative that no weights make best, as a rival clearly dominates it.
+    """
+    rivals = rivals_of(values)
+    beaten = never_best(values, rivals)
+    shared: dict[bytes, Result] = {}
+    found = []
+    for row, key in enumerate(shared_region_keys(values, rivals)):
+        if beaten[row]:
+            found.append(never)
+        elif key is None:
+            found.append(evaluate(winning_polytope(values, row, weights, rivals)))
+        else:
+            if key not in shared:
+                shared[key] = evaluate(winning_polytope(values, row, weights, rivals))
+            found.append(shared[key])
+    return found
+
+
 def winning_regions(
     values: Array, feasible: Mask, weights: WeightSet, *, generator: np.random.Generator
 ) -> tuple[WeightRegion, ...]:
@@ -165,17 +195,7 @@ def winning_regions(
         return tuple(regions)
     distinct, membership = classes(checked_values(values[feasible]))
     whole = _whole(weights)
-    rivals = rivals_of(distinct)
-    never = never_best(distinct, rivals)
-    shared: dict[bytes | None, WeightRegion] = {}
-    found = []
-    for place, key in enumerate(shared_region_keys(distinct, rivals)):
-        region = _EMPTY if never[place] else shared.get(key)
-        if region is None:
-            region = _region(distinct, place, weights, whole, rivals)
-        if key is not None and not never[place]:
-            shared[key] = region
-        found.append(region)
+    found = of_each_region(distinct, weights, lambda polytope: _region(polytope, whole), _EMPTY)
     if any(math.isnan(region.share) for region in found):
         found = _sampled_shares(found, distinct, weights, generator)
     for row, kind in zip(np.flatnonzero(feasible), membership, strict=True):
@@ -198,35 +218,19 @@ _EMPTY = WeightRegion(
 def _whole(weights: WeightSet) -> float:
     """The volume of all admitted weights; NaN where it cannot be computed from vertices."""
     polytope = Polytope.of(weights)
-    ball = polytope.largest_ball()
-    if ball is None or (ball[1] <= THINNEST and weights.directions().shape[1]):
-        raise TradeoffError(
-            "the elicited bounds and orders leave no room for weights",
-            hint="widen a bound, or drop an order",
-        )
-    vertices = polytope.vertices(ball[0])
+    vertices = polytope.vertices(polytope.interior_point())
     volume = None if vertices is None else polytope.volume(vertices)
     return math.nan if volume is None else volume
 
 
-def _region(values: Array, row: int, weights: WeightSet, whole: float, rivals: Array | None) -> WeightRegion:
-    polytope = winning_polytope(values, row, weights, rivals)
+def _region(polytope: Polytope, whole: float) -> WeightRegion:
     ball = polytope.largest_ball()
     if ball is None:
         return _EMPTY
     centre, radius = ball
-    if radius <= THINNEST and weights.directions().shape[1]:
+    if radius <= THINNEST and polytope.weights.directions().shape[1]:
         low, high = polytope.extent()
-        return WeightRegion(
-            kind=RegionKind.TIES,
-            centre=centre,
-            radius=0.0,
-            low=low,
-            high=high,
-            share=0.0,
-            share_error=0.0,
-            vertices=None,
-        )
+        return replace(_EMPTY, kind=RegionKind.TIES, centre=centre, low=low, high=high)
     vertices = polytope.vertices(centre)
     volume = None if vertices is None else polytope.volume(vertices)
     low, high = polytope.extent() if vertices is None else (vertices.min(axis=0), vertices.max(axis=0))
@@ -253,15 +257,10 @@ def _sampled_shares(
     firsts = np.concatenate([(block @ values.T).argmax(axis=1) for block in blocks])
     winners = np.bincount(firsts, minlength=len(values)) / number
     return [
-        WeightRegion(
-            kind=region.kind,
-            centre=region.centre,
-            radius=region.radius,
-            low=region.low,
-            high=region.high,
+        replace(
+            region,
             share=float(share),
             share_error=math.sqrt(float(share) * (1.0 - float(share)) / number),
-            vertices=region.vertices,
             share_by=ShareBy(sample.drawn_by.value),
         )
         for region, share in zip(regions, winners, strict=True)

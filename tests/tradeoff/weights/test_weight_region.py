@@ -224,14 +224,14 @@ def test_alternatives_that_can_only_tie_at_the_same_weights_are_solved_once(monk
     every, shifts = regions_of(values), weight_shifts(values, all_of_them, here)
     monkeypatch.setattr(weight_region, "ALL_RIVALS_TO", 10)
     solved = []
-    region = weight_region._region
+    polytope = weight_region.winning_polytope
     monkeypatch.setattr(
-        weight_region, "_region", lambda values, row, *rest: solved.append(row) or region(values, row, *rest)
+        weight_region, "winning_polytope", lambda values, row, *rest: solved.append(row) or polytope(values, row, *rest)
     )
     shared, fewer = regions_of(values), weight_shifts(values, all_of_them, here)
 
-    # The two that win, and one of the twenty that tie where all weight is on the first measure.
-    assert solved == [40, 60, 61]
+    # For both, the two that win, and one of the twenty that tie where all weight is on the first measure.
+    assert solved == [40, 60, 61] * 2
     assert [one.kind for one in shared] == [one.kind for one in every]
     assert sum(one.kind is RegionKind.TIES for one in shared) == 20
     for one in shared[40:60]:
