@@ -33,7 +33,6 @@ from rgss.tradeoff.programs import (
 from rgss.tradeoff.robustness import (
     ChoiceUncertainty,
     Outcomes,
-    OutcomeSource,
     ParetoFront,
     PosteriorOutcomes,
     RankReversal,
@@ -230,7 +229,7 @@ def _weighting(
 ) -> WeightRobustness:
     problem, values, feasible, weights = posed.problem, posed.values, posed.feasible, posed.weights
     admitted = admitted_weights(problem)
-    outcomes: OutcomeSource = Outcomes.certain(values, feasible) if posterior is None else posterior.outcomes
+    outcomes = Outcomes.certain(values, feasible) if posterior is None else posterior.outcomes
     regions = parts.compute(
         Part.REGIONS, lambda: winning_regions(values, feasible, admitted, generator=generator), None
     )

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
         excluded_counts,
         find_conflicts,
     )
-    from rgss.tradeoff.infeasibility.noise import RESAMPLES, conflict_survival
+    from rgss.tradeoff.infeasibility.noise import RESAMPLES, conflict_survival, resampled_tables
     from rgss.tradeoff.infeasibility.repair import winner_among, with_repairs
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

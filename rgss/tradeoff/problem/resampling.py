@@ -58,30 +58,6 @@ class Resamples:
         total[~some] = np.nan
         return np.asarray(total, dtype=np.float64)
 
-    def ordered_means(self, replicates: NDArray[np.float64], some: slice) -> NDArray[np.float64]:
-        """The mean of the known replicates in some of the resamples, summed in the replicates' order.
-
-        A matrix product may round a block of rows otherwise than the whole, and otherwise on another
-        processor; this does not.
-
-        Args:
-            replicates: Values by replicate, shape (n, r); NaN where unknown.
-            some: The resamples.
-
-        Returns:
-            Shape (k, n); NaN where no replicate of a resample is known.
-        """
-        weight = self.counts[some].astype(np.float64)
-        known = np.isfinite(replicates)
-        values = np.where(known, replicates, 0.0)
-        total = np.zeros((len(weight), len(replicates)))
-        number = np.zeros_like(total)
-        for place in range(replicates.shape[1]):
-            total += weight[:, place, None] * values[:, place]
-            number += weight[:, place, None] * known[:, place]
-        means = np.divide(total, number, out=np.full_like(total, np.nan), where=number > 0.0)
-        return np.asarray(means, dtype=np.float64)
-
 
 def bootstrap(replicates: int, *, draws: int, generator: np.random.Generator) -> Resamples:
     """The bootstrap's resamples (Efron, "Bootstrap methods", 1979).

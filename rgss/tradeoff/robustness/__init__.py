@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.tradeoff.robustness.acceptability import Acceptability, Outcomes, OutcomeSource, smaa2
+    from rgss.tradeoff.robustness.acceptability import Acceptability, Outcomes, smaa2
     from rgss.tradeoff.robustness.assumption_sensitivity import AssumptionRange, Standing, linear_range, scanned_range
     from rgss.tradeoff.robustness.complete_block import largest_complete_block
     from rgss.tradeoff.robustness.cost_box import BoxProblem, BoxRange, box_range

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,29 +22,6 @@ MOST_RANKS = 100
 
 _ROWS_AT_ONCE = 4_096
 _RANKS_AT_ONCE = 4_000_000
-
-
-class OutcomeSource(Protocol):
-    """The outcomes of the noise, each read when it is needed."""
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The numbers of outcomes b, alternatives n and weighted measures m."""
-        ...
-
-    @property
-    def probabilities(self) -> Array:
-        """The probability of each outcome, shape (b,)."""
-        ...
-
-    @property
-    def exact(self) -> bool:
-        """True if these are all the outcomes there are."""
-        ...
-
-    def at(self, outcome: int) -> tuple[Array, NDArray[np.bool_]]:
-        """The values of the alternatives in an outcome, shape (n, m), and which can be chosen, shape (n,)."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -79,10 +55,6 @@ class Outcomes:
     def shape(self) -> tuple[int, ...]:
         """The shape of the values."""
         return self.values.shape
-
-    def at(self, outcome: int) -> tuple[Array, NDArray[np.bool_]]:
-        """One outcome."""
-        return self.values[outcome], self.feasible[outcome]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -120,9 +92,7 @@ class Acceptability:
         return np.asarray(self.ranks[:, 0], dtype=np.float64)
 
 
-def smaa2(
-    outcomes: OutcomeSource, weights: WeightSet, *, iterations: int, generator: np.random.Generator
-) -> Acceptability:
+def smaa2(outcomes: Outcomes, weights: WeightSet, *, iterations: int, generator: np.random.Generator) -> Acceptability:
     """Draw weights and outcomes, rank, and count.
 
     Lahdelma and Salminen, "SMAA-2: Stochastic multicriteria acceptability analysis for group
@@ -178,7 +148,7 @@ def smaa2(
     )
 
 
-def _check(outcomes: OutcomeSource, weights: WeightSet) -> None:
+def _check(outcomes: Outcomes, weights: WeightSet) -> None:
     shape = outcomes.shape
     if len(shape) != 3 or shape[2] != weights.size or 0 in shape:
         raise TradeoffError(
@@ -187,8 +157,8 @@ def _check(outcomes: OutcomeSource, weights: WeightSet) -> None:
         )
 
 
-def _checked_outcome(outcomes: OutcomeSource, outcome: int) -> tuple[Array, NDArray[np.bool_]]:
-    values, feasible = outcomes.at(outcome)
+def _checked_outcome(outcomes: Outcomes, outcome: int) -> tuple[Array, NDArray[np.bool_]]:
+    values, feasible = outcomes.values[outcome], outcomes.feasible[outcome]
     possible = values[feasible]
     if not ((possible >= 0.0) & (possible <= 1.0)).all():
         raise TradeoffError(
@@ -236,11 +206,8 @@ def _first_ranks(totals: Array, most: int) -> NDArray[np.int64]:
     return ranks
 
 
-def _confidence(outcomes: OutcomeSource, central: Array) -> Array:
-    """The probability that each alternative is best at its central weights, shape (n,); NaN where it has none.
-
-    Outcomes are read one after the other, so that no more than one is in memory.
-    """
+def _confidence(outcomes: Outcomes, central: Array) -> Array:
+    """The probability that each alternative is best at its central weights, shape (n,); NaN where it has none."""
     found = np.full(len(central), np.nan)
     rows = np.flatnonzero(~np.isnan(central).any(axis=1))
     if not len(rows):

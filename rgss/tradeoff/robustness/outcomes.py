@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from rgss.tradeoff.infeasibility import resampled_tables
 from rgss.tradeoff.problem import EvidenceTable, Mask, Resamples
-from rgss.tradeoff.programs import Preferences, condition_column, keeps
+from rgss.tradeoff.programs import Preferences, condition_column, keeps, single_values, violations
 from rgss.tradeoff.robustness.acceptability import Outcomes
-from rgss.tradeoff.robustness.resampled_outcomes import ResampledOutcomes
 from rgss.tradeoff.weights import WeightSet
 
 
@@ -42,18 +42,22 @@ def common_replicates(table: EvidenceTable) -> int:
 
 
 def noisy_outcomes(preferences: Preferences, table: EvidenceTable, resamples: Resamples) -> Outcomes:
-    """The outcomes of `ResampledOutcomes` as arrays, for as few alternatives as fit in memory.
+    """Every alternative valued and judged in each resample of the replicates.
+
+    Conditions on replicates are judged by those of the resample.
 
     Args:
         preferences: Preferences that the alternatives are compared by.
         table: The evidence.
         resamples: The resamples.
     """
-    source = ResampledOutcomes.of(preferences, table, resamples)
-    drawn = [source.at(outcome) for outcome in range(source.shape[0])]
+    values, feasible = [], []
+    for drawn in resampled_tables(table, resamples):
+        values.append(single_values(preferences, drawn))
+        feasible.append(~violations(preferences, drawn).any(axis=1))
     return Outcomes(
-        values=np.array([values for values, _ in drawn]),
-        feasible=np.array([feasible for _, feasible in drawn]),
+        values=np.array(values),
+        feasible=np.array(feasible),
         probabilities=resamples.probabilities,
         exact=resamples.exact,
     )

@@ -12,6 +12,7 @@ from rgss.tradeoff.problem.evidence_table import EvidenceTable, Samples
 from rgss.tradeoff.problem.resampling import bootstrap
 from rgss.tradeoff.robustness import posterior_outcomes
 from rgss.tradeoff.robustness.acceptability import Outcomes
+from rgss.tradeoff.robustness.effects import factorial_effects
 from rgss.tradeoff.robustness.outcomes import admitted_weights
 from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
 
@@ -90,6 +91,39 @@ def test_means_of_resamples_take_less_than_twice_their_own_memory(unknown):
         replicates[11] = np.nan
     means, peak = peak_of(lambda: resamples.means(replicates))
     assert peak < 1.9 * means.nbytes
-    ordered = resamples.ordered_means(replicates, slice(None))
+    expected = [
+        np.nansum(counts * replicates, axis=1) / (counts * ~np.isnan(replicates)).sum(axis=1).clip(0.5)
+        for counts in resamples.counts
+    ]
     assert np.isnan(means[:, 11]).all() == unknown
-    np.testing.assert_allclose(means, ordered, rtol=1e-12, equal_nan=True)
+    np.testing.assert_allclose(np.nan_to_num(means), expected, rtol=1e-12)
+
+
+class Resampled:
+    """Means of designs that are made when they are read."""
+
+    def __init__(self, shape, number):
+        self.shape, self.number, self.largest = shape, number, 0
+
+    def __len__(self):
+        return self.number
+
+    def __getitem__(self, some):
+        rows = range(self.number)[some]
+        self.largest = max(self.largest, len(rows))
+        return np.array([np.random.default_rng(row).random(self.shape) for row in rows])
+
+
+def test_effects_are_split_block_by_block(monkeypatch):
+    estimates = np.random.default_rng(7).random((4, 3, 5))
+    source = Resampled(estimates.shape, 50)
+    probabilities = np.full(50, 1 / 50)
+    whole = factorial_effects(estimates, "abc", resampled=source[:], probabilities=probabilities)
+    source.largest = 0
+    monkeypatch.setattr("rgss.tradeoff.robustness.effects.MOST_AT_ONCE", 7 * 60)
+    parted = factorial_effects(estimates, "abc", resampled=source, probabilities=probabilities)
+
+    assert source.largest == 7
+    for one, other in zip(whole.effects, parted.effects, strict=True):
+        assert (one.low.tobytes(), one.high.tobytes()) == (other.low.tobytes(), other.high.tobytes())
+        assert (one.share_low, one.share_high) == (other.share_low, other.share_high)

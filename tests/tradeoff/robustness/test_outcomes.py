@@ -17,6 +17,7 @@ from rgss.tradeoff import (
     WeightBounds,
     Weighting,
 )
+from rgss.tradeoff.infeasibility.noise import resampled_tables
 from rgss.tradeoff.problem.evidence_table import tabulated
 from rgss.tradeoff.problem.resampling import bootstrap
 from rgss.tradeoff.programs.columns import single_values
@@ -26,7 +27,6 @@ from rgss.tradeoff.robustness.outcomes import (
     condition_masks,
     noisy_outcomes,
 )
-from rgss.tradeoff.robustness.resampled_outcomes import ResampledTables
 
 
 def problem_of(samples, **changes):
@@ -84,7 +84,7 @@ def test_demands_on_replicates_are_judged_by_those_of_the_draw():
         requirement="chance:R-1", measure="t", comparison=Comparison.AT_MOST, value=4.0, unit="s", probability=0.5
     )
     problem = problem_of([(1.0, 9.0), (2.0, 3.0)], thresholds=(), risks=(chance,))
-    tables = ResampledTables(tabulated(problem.alternatives), resamples_of(2))
+    tables = resampled_tables(tabulated(problem.alternatives), resamples_of(2))
     kept = {
         tuple(counts): condition_masks(problem, table)[0].tolist()
         for counts, table in zip(resamples_of(2).counts, tables, strict=True)
