@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 from rgss.documents import LoadedDocument
@@ -35,9 +35,18 @@ def with_readings(
     found: dict[str, Measure] = {}
     for index, entry in enumerate(loaded.value.measures):
         findings += _twin_findings(measures, loaded, index, entry)
-        findings += _alternative_findings(measures, loaded, index, entry, rebuild)
-        parsed = (_alternative(measures, entry, one) for one in entry.alternatives)
-        alternatives = tuple(one for one in parsed if one is not None)
+        parsed = [_expression(entry, one) for one in entry.alternatives]
+        findings += _alternative_findings(measures, loaded, index, parsed, rebuild)
+        alternatives = tuple(
+            Alternative(
+                id=one.id,
+                expression=expression,
+                estimate=_estimate(measures, entry, one, expression),
+                rationale=one.rationale,
+            )
+            for one, expression in zip(entry.alternatives, parsed, strict=True)
+            if expression is not None
+        )
         found[entry.id] = replace(
             measures.measure(entry.id), simulated_as=entry.simulated_as, alternatives=alternatives
         )
@@ -86,27 +95,21 @@ def with_alternative(measures: MeasureSet, measure: str, alternative: str) -> Me
     )
 
 
-def _alternative(measures: MeasureSet, entry: MeasureEntry, alternative: AlternativeEntry) -> Alternative | None:
-    """Parsed alternative; None if its expression is invalid, which has a finding."""
-    expression = parse_expression(alternative.expression or entry.expression)
-    if not isinstance(expression, Expression):
-        return None
-    return Alternative(
-        id=alternative.id,
-        expression=expression,
-        estimate=_estimate(measures, entry, alternative),
-        rationale=alternative.rationale,
-    )
+def _expression(entry: MeasureEntry, alternative: AlternativeEntry) -> Expression | None:
+    """Expression of an alternative, its own or the measure's; None if it is invalid, which has a finding."""
+    parsed = parse_expression(alternative.expression or entry.expression)
+    return parsed if isinstance(parsed, Expression) else None
 
 
-def _estimate(measures: MeasureSet, entry: MeasureEntry, alternative: AlternativeEntry) -> EstimateRule | None:
+def _estimate(
+    measures: MeasureSet, entry: MeasureEntry, alternative: AlternativeEntry, expression: Expression | None
+) -> EstimateRule | None:
     """Estimate of an alternative: its own, or that of the measure if its expression has symbols from trials."""
     if alternative.estimate is not None or alternative.expression is None:
         return alternative.estimate or entry.estimate
-    parsed = parse_expression(alternative.expression)
-    if not isinstance(parsed, Expression):
+    if expression is None or entry.id in _observed(measures, entry.id, expression):
         return entry.estimate
-    return entry.estimate if entry.id in _observed(measures, entry.id, parsed) else None
+    return None
 
 
 def _observed(measures: MeasureSet, measure: str, expression: Expression) -> frozenset[str]:
@@ -147,11 +150,12 @@ def _alternative_findings(
     measures: MeasureSet,
     loaded: LoadedDocument[MeasuresDocument],
     index: int,
-    entry: MeasureEntry,
+    parsed: Sequence[Expression | None],
     rebuild: Rebuild,
 ) -> Iterator[Finding]:
+    entry = loaded.value.measures[index]
     seen: set[str] = set()
-    for place, alternative in enumerate(entry.alternatives):
+    for place, (alternative, expression) in enumerate(zip(entry.alternatives, parsed, strict=True)):
         location = ("measures", index, "alternatives", place)
         name = f"alternative {alternative.id!r} of {entry.id!r}"
         if alternative.id in seen:
@@ -162,27 +166,29 @@ def _alternative_findings(
             yield loaded.document.finding("measures.alternative", f"{name} changes nothing", location, hint=hint)
             continue
         key = "estimate" if alternative.expression is None else "expression"
-        built = rebuild(_read_as(measures, loaded, index, alternative))
+        built = rebuild(_read_as(measures, loaded, index, alternative, expression))
         for problem in built if isinstance(built, list) else ():
             if problem.rule != _NOT_ASKED:
                 yield loaded.document.finding(problem.rule, f"{name}: {problem.message}", (*location, key))
 
 
 def _read_as(
-    measures: MeasureSet, loaded: LoadedDocument[MeasuresDocument], index: int, alternative: AlternativeEntry
+    measures: MeasureSet,
+    loaded: LoadedDocument[MeasuresDocument],
+    index: int,
+    alternative: AlternativeEntry,
+    expression: Expression | None,
 ) -> LoadedDocument[MeasuresDocument]:
     """Entries with the alternative in place of the measure's definition."""
     entry = loaded.value.measures[index]
     changes = {
         "expression": alternative.expression or entry.expression,
-        "estimate": _estimate(measures, entry, alternative),
+        "estimate": _estimate(measures, entry, alternative, expression),
     }
     entries = list(loaded.value.measures)
     entries[index] = entry.model_copy(update=changes)
-    parsed = parse_expression(alternative.expression or entry.expression)
-    if isinstance(parsed, Expression):
-        observed = _observed(measures, entry.id, parsed)
+    if expression is not None:
         # What depends on it may follow from the design too, and has nothing to estimate then.
-        kept = {*observed, entry.id}
+        kept = {*_observed(measures, entry.id, expression), entry.id}
         entries = [one if one.id in kept else one.model_copy(update={"estimate": None}) for one in entries]
     return replace(loaded, value=loaded.value.model_copy(update={"measures": tuple(entries)}))
