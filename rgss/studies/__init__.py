@@ -18,7 +18,6 @@ if TYPE_CHECKING:
         undefined_findings,
     )
     from rgss.studies.document import MOST_REPLICATES, StudyDocument
-    from rgss.studies.document_kinds import DOCUMENT_KINDS, document_kind
     from rgss.studies.expansion import trial_settings, trial_specs
     from rgss.studies.finding_suppression import without_consequences
     from rgss.studies.input_names import CODE, named_inputs
@@ -40,7 +39,7 @@ if TYPE_CHECKING:
     from rgss.studies.regression import GuardedMetric, RegressionGuard, WatchedRun
     from rgss.studies.scaffolding import write_scaffold
     from rgss.studies.scene_findings import check_scene
-    from rgss.studies.schema_headers import write_headers, write_schemas
+    from rgss.studies.schemas import DOCUMENT_KINDS, document_kind, write_headers, write_schemas
     from rgss.studies.source_text import invisible_findings
     from rgss.studies.study import value_anchors
     from rgss.studies.trial_choice import TrialChoice

@@ -9,8 +9,7 @@ from pathlib import Path
 
 from rgss.documents import read_document
 from rgss.errors import DefinitionError
-from rgss.studies.document_kinds import DOCUMENT_KINDS, kind_of
-from rgss.studies.schema_headers import SCHEMAS, cannot_write, schema_reference, with_header
+from rgss.studies.schemas import DOCUMENT_KINDS, SCHEMAS, cannot_write, kind_of, schema_reference, with_header
 
 
 def scaffold_texts() -> Mapping[str, str]:

@@ -14,8 +14,8 @@ from typing import Any
 from rgss.documents import DATA_FOLDERS, LARGEST_FILE_BYTES, open_regular, read_document
 from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity, shown
-from rgss.studies.document_kinds import document_kind
 from rgss.studies.project_folders import REQUIREMENT_PARTS, REQUIREMENTS, SINGLE_FILES, named_sets
+from rgss.studies.schemas import document_kind
 
 _ENDINGS = (".yaml", ".yml")
 # Top-level keys by which a kind of document is recognised.

@@ -9,7 +9,7 @@ import pytest
 
 from rgss.documents import load_document, read_document
 from rgss.errors import DocumentError
-from rgss.studies.document_kinds import DOCUMENT_KINDS
+from rgss.studies.schemas.document_kinds import DOCUMENT_KINDS
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]

@@ -14,7 +14,7 @@ import yaml
 
 from rgss.documents import read_document
 from rgss.studies import FOLDERS
-from rgss.studies.document_kinds import DOCUMENT_KINDS, kind_of
+from rgss.studies.schemas.document_kinds import DOCUMENT_KINDS, kind_of
 from tests.fixtures.document_keys import keys_of_document, keys_of_section, possible_keys
 
 REPOSITORY = Path(__file__).resolve().parents[2]

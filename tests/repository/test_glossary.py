@@ -30,7 +30,7 @@ ELSEWHERE = re.compile(
 
 def keys_of_files() -> set[str]:
     """Every key of a YAML file."""
-    texts = read_document(REPOSITORY / "rgss" / "studies" / "field_descriptions.yaml").data
+    texts = read_document(REPOSITORY / "rgss" / "studies" / "schemas" / "field_descriptions.yaml").data
     return {key for keys in texts.values() for key in keys} | set(ShapeKeys.model_fields)
 
 

@@ -15,8 +15,8 @@ from rgss.documents import read_document
 from rgss.errors import DefinitionError
 from rgss.quantities import parse_quantity
 from rgss.studies import FOLDERS
-from rgss.studies.document_kinds import DOCUMENT_KINDS, document_kind, key_texts, kind_of
 from rgss.studies.scaffolding import write_scaffold
+from rgss.studies.schemas.document_kinds import DOCUMENT_KINDS, document_kind, key_texts, kind_of
 from tests.fixtures.document_keys import possible_keys
 
 REPOSITORY = Path(__file__).parents[2]

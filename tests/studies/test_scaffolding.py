@@ -11,10 +11,10 @@ import pytest
 
 from rgss.documents import read_document
 from rgss.errors import StorageError
-from rgss.studies.document_kinds import kind_of
 from rgss.studies.project import load_project
 from rgss.studies.scaffolding import scaffold_texts, write_scaffold
-from rgss.studies.schema_headers import schema_reference, with_header
+from rgss.studies.schemas.document_kinds import kind_of
+from rgss.studies.schemas.schema_headers import schema_reference, with_header
 
 REPOSITORY = Path(__file__).parents[2]
 SHARED = [

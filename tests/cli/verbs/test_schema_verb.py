@@ -9,9 +9,9 @@ from jsonschema import Draft7Validator
 
 from rgss.cli.verbs.schema import DOCUMENTS
 from rgss.documents import read_document
-from rgss.studies.document_kinds import DOCUMENT_KINDS
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
+from rgss.studies.schemas.document_kinds import DOCUMENT_KINDS
 from rgss.sweep.trial_keys import key_of
 
 

@@ -10,8 +10,8 @@ from rgss.assessment import project_marks
 from rgss.cli.main import main
 from rgss.errors import DocumentError
 from rgss.studies import load_project, named_sets, requirements_of_study, studies_by_set, unread_findings
-from rgss.studies.document_kinds import kind_of
 from rgss.studies.scaffolding import write_scaffold
+from rgss.studies.schemas.document_kinds import kind_of
 
 DEFAULT, OWN = "studies/pick_place.yaml", "studies/second.yaml"
 SENTENCE = "The gripper shall have a payload of at least 0.5 kg."

@@ -10,8 +10,8 @@ from pathlib import Path
 from rgss.documents import is_disk_failure, read_document, replaced_file, unwritable
 from rgss.errors import DefinitionError, DocumentError, RgssError
 from rgss.findings import Finding
-from rgss.studies.document_kinds import DOCUMENT_KINDS, DocumentKind, kind_of
 from rgss.studies.project_folders import FOLDERS
+from rgss.studies.schemas.document_kinds import DOCUMENT_KINDS, DocumentKind, kind_of
 
 SCHEMAS = "schemas"
 """The folder of a project that has its schemas."""

@@ -172,7 +172,7 @@ def kind_of(name: str, data: Any) -> DocumentKind | None:
 
 def key_texts() -> Mapping[str, Mapping[str, str]]:
     """Description of each key of the documents, by the model that reads it."""
-    with resources.as_file(resources.files("rgss.studies") / "field_descriptions.yaml") as path:
+    with resources.as_file(resources.files("rgss.studies.schemas") / "field_descriptions.yaml") as path:
         texts: Mapping[str, Mapping[str, str]] = read_document(path, label="field_descriptions.yaml").data
     # Each shape of a value function describes its keys beside them, so that one file adds a shape.
     of_shapes = {key: field.description for key, field in ShapeKeys.model_fields.items() if field.description}
