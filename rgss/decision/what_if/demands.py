@@ -49,7 +49,7 @@ def demand_numbers(project: Project) -> Mapping[str, DemandNumber]:
         )
         found.append(
             DemandNumber(
-                id=f"{choice.id}.{choice.share_key}", value=choice.share, unit="1", changed=_risk_share(choice.id)
+                id=f"{choice.id}.{choice.kind.share_key}", value=choice.share, unit="1", changed=_risk_share(choice.id)
             )
         )
     if isinstance(trade_off.program, AnchoredEpsilonConstraint):

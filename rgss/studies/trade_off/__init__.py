@@ -6,7 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.studies.trade_off.anchored_programs import AnchoredEpsilonConstraint, AnchoredProgram
-    from rgss.studies.trade_off.demands import BoundChoice, ChanceChoice, RequirementBound, RiskChoice, TailChoice
+    from rgss.studies.trade_off.demands import BoundChoice, RequirementBound, RiskChoice
     from rgss.studies.trade_off.document import PortfolioEntry, TradeOffEntry
     from rgss.studies.trade_off.places import TradeOffPlaces
     from rgss.studies.trade_off.reading import read_trade_off

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from enum import Enum
+from functools import partial
 
 from rgss.tradeoff import Anchor, ChanceBound, Comparison, Risk, TailBound, Threshold
 
@@ -35,65 +36,54 @@ class RequirementBound:
     requirement: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RiskChoice(ABC):
-    """Base of the demands on replicates.
+class RiskKind(str, Enum):
+    """Kind of a demand on replicates.
 
     Attributes:
-        share_key: The key of its share in a study.
+        CHANCE: A bound that a share of the replicates must meet.
+        TAIL: A bound on the mean of the share of the replicates that is worst.
+    """
+
+    CHANCE = "chance"
+    TAIL = "tail"
+
+    @property
+    def share_key(self) -> str:
+        """The key of the share in a study."""
+        return "probability" if self is RiskKind.CHANCE else "worst_share"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RiskChoice:
+    """A demand on replicates.
+
+    Attributes:
+        kind: Its kind.
         id: Its id, such as ``chance:SYS-005``.
         bound: The bound.
         share: The share of the replicates.
     """
 
-    share_key: ClassVar[str]
-
+    kind: RiskKind
     id: str
     bound: BoundChoice | RequirementBound
     share: float
 
-    @abstractmethod
     def risk(self, threshold: Threshold) -> Risk:
         """The demand, on the threshold that its bound gives.
 
         Raises:
             TradeoffError: The share is not between 0 and 1.
         """
-
-
-class ChanceChoice(RiskChoice):
-    """A bound that a share of the replicates must meet."""
-
-    __slots__ = ()
-
-    share_key = "probability"
-
-    def risk(self, threshold: Threshold) -> ChanceBound:
-        """The chance constraint; see `RiskChoice.risk`."""
-        return ChanceBound(
-            requirement=self.id,
-            measure=threshold.measure,
-            comparison=threshold.comparison,
-            value=threshold.value,
-            unit=threshold.unit,
-            probability=self.share,
+        made: Callable[..., Risk] = (
+            partial(ChanceBound, probability=self.share)
+            if self.kind is RiskKind.CHANCE
+            else partial(TailBound, share=self.share)
         )
-
-
-class TailChoice(RiskChoice):
-    """A bound on the mean of the share of the replicates that is worst."""
-
-    __slots__ = ()
-
-    share_key = "worst_share"
-
-    def risk(self, threshold: Threshold) -> TailBound:
-        """The bound on the tail; see `RiskChoice.risk`."""
-        return TailBound(
+        return made(
             requirement=self.id,
             measure=threshold.measure,
             comparison=threshold.comparison,
             value=threshold.value,
             unit=threshold.unit,
-            share=self.share,
         )

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from rgss.errors import TradeoffError
 from rgss.studies.trade_off.anchored_programs import AnchoredEpsilonConstraint, AnchoredTchebycheff, StatedProgram
-from rgss.studies.trade_off.demands import BoundChoice, ChanceChoice, RequirementBound, RiskChoice, TailChoice
+from rgss.studies.trade_off.demands import BoundChoice, RequirementBound, RiskChoice, RiskKind
 from rgss.studies.trade_off.document import (
     AimEntry,
     BoundEntry,
@@ -145,31 +145,31 @@ def read_risks(
 ) -> tuple[RiskChoice, ...]:
     """Read the demands on replicates."""
     found: list[RiskChoice] = []
-    kinds: tuple[tuple[str, type[RiskChoice], list[tuple[RiskEntry, float]]], ...] = (
-        ("chance", ChanceChoice, [(entry, entry.probability) for entry in chances]),
-        ("tail", TailChoice, [(entry, entry.worst_share) for entry in tails]),
+    entries: tuple[tuple[RiskKind, Sequence[tuple[RiskEntry, float]]], ...] = (
+        (RiskKind.CHANCE, [(entry, entry.probability) for entry in chances]),
+        (RiskKind.TAIL, [(entry, entry.worst_share) for entry in tails]),
     )
-    for kind, choice, entries in kinds:
-        for index, (entry, share) in enumerate(entries):
-            at = (*SECTION, kind, index)
-            bound = _risk_bound(places, kind, entry, (choice.share_key, share), at)
+    for kind, stated in entries:
+        for index, (entry, share) in enumerate(stated):
+            at = (*SECTION, kind.value, index)
+            bound = _risk_bound(places, kind, entry, share, at)
             if bound is None:
                 continue
-            id_ = f"{kind}:{entry.requirement or entry.measure}"
+            id_ = f"{kind.value}:{entry.requirement or entry.measure}"
             if any(id_ == other.id for other in found):
                 places.report("repeated", f"{id_} is demanded twice", at, hint="keep one")
                 continue
-            found.append(choice(id=id_, bound=bound, share=share))
+            found.append(RiskChoice(kind=kind, id=id_, bound=bound, share=share))
     return tuple(found)
 
 
 def _risk_bound(
-    places: TradeOffPlaces, kind: str, entry: RiskEntry, share: tuple[str, float], at: Place
+    places: TradeOffPlaces, kind: RiskKind, entry: RiskEntry, share: float, at: Place
 ) -> BoundChoice | RequirementBound | None:
-    key, number = share
+    key = kind.share_key
     sound = True
-    if not 0.0 < number < 1.0:
-        places.report("risk", f"{key} must be between 0 and 1, got {number:g}", (*at, key), hint="such as 0.9")
+    if not 0.0 < share < 1.0:
+        places.report("risk", f"{key} must be between 0 and 1, got {share:g}", (*at, key), hint="such as 0.9")
         sound = False
     if entry.requirement is not None and entry.measure is None:
         for end in ("at_most", "at_least"):
@@ -182,7 +182,7 @@ def _risk_bound(
     if entry.measure is not None and entry.requirement is None:
         bound = read_bound(places, entry, entry.measure, at)
         return bound if sound else None
-    message = f"a {kind} is of a requirement or of a measure"
+    message = f"a {kind.value} is of a requirement or of a measure"
     places.report("risk", message, at, hint="give 'requirement', or 'measure' and a bound")
     return None
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.elicitation.answers import PairwiseAnswer
-from rgss.tradeoff.elicitation.least_squares import Array, design_matrix
+from rgss.tradeoff.elicitation.least_squares import Array, answer_row
 from rgss.tradeoff.milp import solve_linear
 
 
@@ -25,25 +25,13 @@ def bound_rows(names: Sequence[str], bounds: Sequence[PairwiseAnswer]) -> tuple[
     """
     rows, limits = [], []
     for answer in bounds:
-        row = design_matrix(names, [answer])[0][0] if math.isfinite(answer.most) else answer_row(names, answer)
+        row = answer_row(names, answer)
         rows.append(row)
         limits.append(math.log(answer.least))
         if math.isfinite(answer.most):
             rows.append(-row)
             limits.append(-math.log(answer.most))
     return np.array(rows).reshape(-1, len(names)), np.array(limits)
-
-
-def answer_row(names: Sequence[str], answer: PairwiseAnswer) -> Array:
-    """Coefficients of the logarithm of the ratio of an answer, shape (n,).
-
-    Args:
-        names: The criteria.
-        answer: The answer.
-    """
-    row = np.zeros(len(names))
-    row[names.index(answer.swing_of)], row[names.index(answer.over)] = 1.0, -1.0
-    return row
 
 
 def least_missing(

@@ -12,9 +12,9 @@ from rgss.errors import TradeoffError
 from rgss.tradeoff.elicitation.answers import PairwiseAnswer, connected_parts
 from rgss.tradeoff.elicitation.consistency import consistency_of
 from rgss.tradeoff.elicitation.contradictions import contradiction_of
-from rgss.tradeoff.elicitation.difference_bounds import answer_row, bound_rows, implied_bounds, least_missing
+from rgss.tradeoff.elicitation.difference_bounds import bound_rows, implied_bounds, least_missing
 from rgss.tradeoff.elicitation.elicited_weights import ElicitedWeights, FitMethod
-from rgss.tradeoff.elicitation.least_squares import Array, bounded_fit, design_matrix
+from rgss.tradeoff.elicitation.least_squares import Array, answer_row, bounded_fit, design_matrix
 from rgss.tradeoff.problem import WeightBounds
 from rgss.tradeoff.weights import Polytope, WeightSet, centroid
 

@@ -24,10 +24,20 @@ def design_matrix(names: Sequence[str], answers: Sequence[PairwiseAnswer]) -> tu
     Returns:
         The matrix with 1 and -1 in each row, shape (k, n), and the logarithms of the ratios, shape (k,).
     """
-    matrix = np.zeros((len(answers), len(names)))
-    for row, answer in enumerate(answers):
-        matrix[row, names.index(answer.swing_of)], matrix[row, names.index(answer.over)] = 1.0, -1.0
+    matrix = np.array([answer_row(names, one) for one in answers]).reshape(-1, len(names))
     return matrix, np.array([math.log(answer.ratio) for answer in answers])
+
+
+def answer_row(names: Sequence[str], answer: PairwiseAnswer) -> Array:
+    """Coefficients of the logarithm of the ratio of an answer, shape (n,).
+
+    Args:
+        names: The criteria.
+        answer: The answer.
+    """
+    row = np.zeros(len(names))
+    row[names.index(answer.swing_of)], row[names.index(answer.over)] = 1.0, -1.0
+    return row
 
 
 def fitted_logs(matrix: Array, logs: Array) -> Array:

@@ -16,17 +16,19 @@ from rgss.decision.what_if.what_if import suppose
 from rgss.errors import DefinitionError
 from rgss.reports.decision import decision_lines, decision_to_json
 from rgss.reports.decision.json.robustness import robustness_to_json
-from rgss.studies.trade_off import AnchoredEpsilonConstraint, BoundChoice, ChanceChoice, RequirementBound, TailChoice
+from rgss.studies.trade_off import AnchoredEpsilonConstraint, BoundChoice, RequirementBound, RiskChoice
+from rgss.studies.trade_off.demands import RiskKind
 from rgss.tradeoff import Aim, Comparison
 
 RISKS = (
-    ChanceChoice(id="chance:SYS-005", bound=RequirementBound(requirement="SYS-005"), share=0.6),
-    ChanceChoice(
+    RiskChoice(kind=RiskKind.CHANCE, id="chance:SYS-005", bound=RequirementBound(requirement="SYS-005"), share=0.6),
+    RiskChoice(
+        kind=RiskKind.CHANCE,
         id="chance:t_p",
         bound=BoundChoice(measure="t_p", comparison=Comparison.AT_MOST, value=12.0),
         share=0.5,
     ),
-    TailChoice(id="tail:SYS-033", bound=RequirementBound(requirement="SYS-033"), share=0.4),
+    RiskChoice(kind=RiskKind.TAIL, id="tail:SYS-033", bound=RequirementBound(requirement="SYS-033"), share=0.4),
 )
 LIMITED = AnchoredEpsilonConstraint(
     aim=Aim(measure="P_max", sense=Comparison.AT_LEAST),
