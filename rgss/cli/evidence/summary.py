@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from rgss.cli.evidence.place import EvidencePlace, contents_and_studies, named_trials, trials_by_study
-from rgss.cli.evidence.words import by_fidelity, counted_trials, divided, printable_text, size_text
+from rgss.cli.evidence.words import by_fidelity, counted_trials, divided, size_text
+from rgss.findings import printable
 
 if TYPE_CHECKING:
     from rgss.decision import NamingStudy
@@ -101,7 +102,7 @@ def _print_summary(
         print()
         print("Failures of the run, which the next sweep retries:")
         for one in contents.failures[:_SHOWN]:
-            print(f"  {printable_text(one.what)} {one.key[:12]}: {one.kind.value}, {printable_text(one.detail)}")
+            print(f"  {printable(one.what)} {one.key[:12]}: {one.kind.value}, {printable(one.detail)}")
         if len(contents.failures) > _SHOWN:
             print(f"  … and {len(contents.failures) - _SHOWN} more (--json shows them)")
     if stale:

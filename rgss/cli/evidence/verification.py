@@ -6,8 +6,8 @@ import argparse
 from typing import TYPE_CHECKING
 
 from rgss.cli.evidence.place import EvidencePlace
-from rgss.cli.evidence.words import printable_text
 from rgss.counted import counted
+from rgss.findings import printable
 
 if TYPE_CHECKING:
     from rgss.evidence.store import Verification
@@ -37,7 +37,7 @@ def verify_evidence(options: argparse.Namespace, store: EvidencePlace) -> int:
         )
         return FINDINGS if found.damages else CLEAN
     for damage in found.damages:
-        print(printable_text(f"{store.label}: {damage}"))
+        print(printable(f"{store.label}: {damage}"))
     sound = ", ".join(counted(number, what.removesuffix("s")) for what, number in found.sound.items())
     if found.damages:
         print(f"{counted(len(found.damages), 'damage')}; sound: {sound or 'nothing'}.")

@@ -6,6 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from rgss.findings import printable
+
 if TYPE_CHECKING:
     from rgss.evidence.store import TrialName
 
@@ -27,7 +29,7 @@ def by_fidelity(trials: Iterable[TrialName]) -> Mapping[str, int]:
 def counted_trials(what: str, trials: Iterable[TrialName]) -> str:
     """Number of trials, in all and of each fidelity."""
     numbers = by_fidelity(trials)
-    each = ", ".join(f"{number} {printable_text(fidelity)}" for fidelity, number in numbers.items())
+    each = ", ".join(f"{number} {printable(fidelity)}" for fidelity, number in numbers.items())
     return f"{sum(numbers.values())} {what}{f' ({each})' if each else ''}"
 
 
@@ -36,8 +38,3 @@ def size_text(size_bytes: int) -> str:
     if size_bytes < 1_000_000:
         return f"{size_bytes / 1000:.0f} kB"
     return f"{size_bytes / 1_000_000:.1f} MB"
-
-
-def printable_text(text: str) -> str:
-    """Text of a file with terminal control characters escaped."""
-    return "".join(character if character.isprintable() else "�" for character in text)
