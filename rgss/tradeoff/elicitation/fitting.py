@@ -106,7 +106,7 @@ def _agreeing(names: Sequence[str], answers: Sequence[PairwiseAnswer], logs: Arr
         for ratio in [math.exp(float(answer_row(names, one) @ logs))]
     ]
     orders = tuple(order for one in (*met, *(one for one in answers if not one.is_ratio)) for order in one.orders())
-    rows, limits = WeightBounds(orders=orders).inequalities(names)
+    rows, limits = WeightBounds(orders=orders).system(names)
     return Polytope.of(WeightSet.cut(rows, limits))
 
 

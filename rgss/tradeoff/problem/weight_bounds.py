@@ -133,10 +133,10 @@ class WeightBounds:
                     hint="change the weights or their order",
                 )
 
-    def inequalities(self, measures: Sequence[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The bounds as a system of linear inequalities ``A w <= b``.
+    def system(self, measures: Sequence[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The bounds as a system of linear inequalities ``A w <= b``, a fixed weight as two of them.
 
-        Neither ``w >= 0`` nor ``sum(w) = 1`` is part of it, nor are weights that are fixed.
+        Neither ``w >= 0`` nor ``sum(w) = 1`` is part of it.
 
         Args:
             measures: The measures, in the order of the columns.
@@ -144,35 +144,14 @@ class WeightBounds:
         Returns:
             The matrix A, shape (k, m), and the right-hand side b, shape (k,).
         """
-        rows: list[Mapping[str, float]] = []
-        limits: list[float] = []
+        import numpy as np
+
+        bounds: list[tuple[Mapping[str, float], float]] = []
         for interval in self.intervals:
             if interval.least < interval.most:
-                rows += interval.rows()
-                limits += interval.limits()
-        for order in self.orders:
-            rows.append(order.row())
-            limits.append(0.0)
-        return _system(rows, limits, measures)
-
-    def equations(self, measures: Sequence[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The weights that are fixed, as a system of linear equations ``E w = e``.
-
-        Args:
-            measures: The measures, in the order of the columns.
-
-        Returns:
-            The matrix E, shape (q, m), and the right-hand side e, shape (q,).
-        """
+                bounds += zip(interval.rows(), interval.limits(), strict=True)
+        bounds += [(order.row(), 0.0) for order in self.orders]
         fixed = [interval for interval in self.intervals if interval.least == interval.most]
-        rows = [interval.rows()[0] for interval in fixed]
-        return _system(rows, [interval.limits()[0] for interval in fixed], measures)
-
-
-def _system(
-    rows: Sequence[Mapping[str, float]], limits: Sequence[float], measures: Sequence[str]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    import numpy as np
-
-    matrix = np.array([[row.get(measure, 0.0) for measure in measures] for row in rows], dtype=np.float64)
-    return matrix.reshape(len(rows), len(measures)), np.array(limits, dtype=np.float64)
+        bounds += [(interval.rows()[end], interval.limits()[end]) for end in (0, 1) for interval in fixed]
+        matrix = np.array([[row.get(measure, 0.0) for measure in measures] for row, _ in bounds], dtype=np.float64)
+        return matrix.reshape(len(bounds), len(measures)), np.array([limit for _, limit in bounds], dtype=np.float64)

@@ -177,12 +177,7 @@ class Preferences(ABC):
 
     def weight_system(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The bounds on the weights as inequalities ``A w <= b``, fixed weights as two each: A and b."""
-        import numpy as np
-
-        measures = tuple(self.weighting.weights)
-        matrix, limits = self.weight_bounds.inequalities(measures)
-        fixed, equals = self.weight_bounds.equations(measures)
-        return np.vstack([matrix, fixed, -fixed]), np.concatenate([limits, equals, -equals])
+        return self.weight_bounds.system(tuple(self.weighting.weights))
 
     @abstractmethod
     def replicate_count(self, measures: Sequence[str]) -> int:

@@ -18,11 +18,8 @@ def admitted_weights(preferences: Preferences) -> WeightSet:
         TradeoffError: The elicited bounds are inconsistent.
     """
     measures = preferences.weighting.deciding_measures
-    rows, limits = preferences.weight_bounds.inequalities(measures)
-    fixed, equals = preferences.weight_bounds.equations(measures)
-    if not len(limits) and not len(equals):
-        return WeightSet.simplex(len(measures))
-    return WeightSet.cut(np.vstack([rows, fixed, -fixed]), np.concatenate([limits, equals, -equals]))
+    rows, limits = preferences.weight_bounds.system(measures)
+    return WeightSet.cut(rows, limits) if len(limits) else WeightSet.simplex(len(measures))
 
 
 def condition_masks(preferences: Preferences, table: EvidenceTable) -> list[Mask]:

@@ -27,9 +27,7 @@ def order(heavier, lighter, times=1.0):
 
 
 def corners(bounds, measures=MEASURES):
-    matrix, limits = bounds.inequalities(measures)
-    fixed, equals = bounds.equations(measures)
-    return weight_vertices(np.vstack([matrix, fixed, -fixed]), np.concatenate([limits, equals, -equals]))
+    return weight_vertices(*bounds.system(measures))
 
 
 def test_without_bounds_the_corners_are_the_measures_themselves():
@@ -83,7 +81,7 @@ def test_no_linear_program_finds_a_better_weight_than_the_corners(seed):
             if rng.random() < 0.3
         ),
     )
-    matrix, limits = bounds.inequalities(names)
+    matrix, limits = bounds.system(names)
     found = corners(bounds, names)
     assert (found @ matrix.T <= limits + 1e-9).all()
     assert found.sum(axis=1) == pytest.approx(np.ones(len(found)))
