@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterator
 from dataclasses import replace
 
-from rgss.decision.what_if import assumed_numbers, suppose
+from rgss.decision.what_if import assumed_numbers, nearest_names, suppose
 from rgss.errors import RgssError
 from rgss.findings import Finding, Severity
 from rgss.studies import Project
@@ -38,10 +37,8 @@ def _range_findings(project: Project) -> Iterator[Finding]:
     trade_off = project.study.trade_off
     for one, place in zip(trade_off.sensitivity.ranges, trade_off.range_places, strict=True):
         if one.input not in known:
-            near = difflib.get_close_matches(one.input, known, n=3)
-            hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(known[:4])}"
             message = f"unknown input {one.input!r} of the decision"
-            yield replace(place, severity=Severity.ERROR, message=message, hint=hint)
+            yield replace(place, severity=Severity.ERROR, message=message, hint=nearest_names(one.input, known))
 
 
 def input_names(project: Project) -> tuple[str, ...]:

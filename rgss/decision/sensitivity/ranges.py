@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from rgss.decision.sensitivity.inputs import RangeBasis
+from rgss.decision.what_if import nearest_names
 from rgss.errors import DocumentError, QuantityError
 from rgss.findings import Finding, Severity
 from rgss.quantities import parse_quantity
@@ -95,8 +95,7 @@ class RangeBook:
         ignored = set(others)
         for one in self._stated.values():
             if one.input not in ignored:
-                near = difflib.get_close_matches(one.input, self._known, n=3)
-                hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(self._known[:4])}"
+                hint = nearest_names(one.input, self._known)
                 self._report(one, f"unknown input {one.input!r} of the decision", hint)
         if self._findings:
             raise DocumentError(sorted(self._findings))

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from rgss.decision.what_if.shapes import ALL, SHAPE
     from rgss.decision.what_if.simulated import simulated_numbers
     from rgss.decision.what_if.trial_evidence import ScenarioEvidenceReader
+    from rgss.decision.what_if.unknown_input import nearest_names
     from rgss.decision.what_if.what_if import PRICES, suppose
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from rgss.errors import DefinitionError
 from rgss.findings import shown
@@ -21,7 +21,18 @@ def unknown_input(name: str, known: Iterable[str], near_to: str) -> UnknownSuppo
         known: The known names.
         near_to: Part of the name by which others are found.
     """
-    names = list(known)
-    near = difflib.get_close_matches(name, names, n=3) or [one for one in names if near_to and near_to in one][:3]
-    hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(names[:4])}"
-    return UnknownSuppositionError(f"--what-if: unknown input {shown(name)}", hint=hint)
+    return UnknownSuppositionError(
+        f"--what-if: unknown input {shown(name)}", hint=nearest_names(name, list(known), near_to)
+    )
+
+
+def nearest_names(name: str, known: Sequence[str], near_to: str = "") -> str:
+    """Hint with the names that are nearest to an unknown one, or with the first ones.
+
+    Args:
+        name: The unknown name.
+        known: The known names.
+        near_to: Part of the name by which others are found; empty for none.
+    """
+    near = difflib.get_close_matches(name, known, n=3) or [one for one in known if near_to and near_to in one][:3]
+    return f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(known[:4])}"

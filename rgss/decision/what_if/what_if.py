@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
+from rgss.decision.moved_thresholds import with_thresholds
 from rgss.decision.preference_model import quantity_of
 from rgss.decision.what_if.absent import absent_input
 from rgss.decision.what_if.demands import THRESHOLD, demand_numbers, share_checked
@@ -14,14 +15,13 @@ from rgss.decision.what_if.modelling import model_settings, with_setting
 from rgss.decision.what_if.numbers import CATALOGUE, COST, MEASURES, assumed_numbers, model_numbers, with_number
 from rgss.decision.what_if.readings import READING, Reading, with_reading
 from rgss.decision.what_if.scenario import Change, Scenario
-from rgss.decision.what_if.setting import SettingChange
+from rgss.decision.what_if.setting import SettingChange, quantity_from
 from rgss.decision.what_if.shapes import SHAPE, curvature_names, with_curvature
 from rgss.decision.what_if.simulated import simulated_numbers
 from rgss.decision.what_if.unknown_input import UnknownSuppositionError, unknown_input
 from rgss.decision.what_if.weights import with_weights
-from rgss.errors import DefinitionError, EvidenceError, QuantityError
+from rgss.errors import DefinitionError, EvidenceError
 from rgss.findings import shown
-from rgss.quantities import parse_quantity
 from rgss.studies import Project, value_anchors
 from rgss.tradeoff import weights_of_criteria
 from rgss.tradeoff.problem import EVIDENCE_PREFIX
@@ -177,7 +177,7 @@ def _full_name(project: Project, name: str) -> str:
 
 def _demand(project: Project, name: str, text: str) -> tuple[Change, Project]:
     number = demand_numbers(project)[name]
-    after = _quantity(name, text, number.unit)
+    after = quantity_from(name, text, number.unit)
     if not name.endswith(f".{THRESHOLD}"):
         share_checked(name, after)
     study = replace(project.study, trade_off=number.changed(project.study.trade_off, after))
@@ -189,7 +189,7 @@ def _weight(project: Project, name: str, criterion: str, text: str) -> Change:
     known = {**trade_off.weighting.weights, **weights_of_criteria(trade_off.criteria)}
     if criterion not in known:
         raise unknown_input(name, [f"{WEIGHT}.{other}" for other in known], criterion)
-    after = _quantity(name, text, "1")
+    after = quantity_from(name, text, "1")
     if not 0.0 <= after <= 1.0:
         raise DefinitionError(f"--what-if: {name} must be from 0 to 1, got {after:g}", hint="give a share of the whole")
     return Change(id=name, before=known[criterion], after=after, unit="1")
@@ -204,13 +204,9 @@ def _threshold(project: Project, name: str, requirement_id: str, text: str) -> t
     if criterion is None:
         raise unknown_input(name, known, requirement_id)
     unit = project.measures.measure(criterion.measure).unit
-    after = _quantity(name, text, unit)
-    system = tuple(
-        replace(one, criterion=replace(criterion, threshold=after, unit=unit)) if one.id == requirement_id else one
-        for one in project.requirements.system
-    )
+    after = quantity_from(name, text, unit)
     change = Change(id=name, before=criterion.threshold_in(unit), after=after, unit=unit)
-    return change, replace(project, requirements=replace(project.requirements, system=system))
+    return change, with_thresholds(project, {requirement_id: after})
 
 
 def _anchor(project: Project, name: str, rest: str, text: str) -> tuple[Change, Project]:
@@ -224,7 +220,7 @@ def _anchor(project: Project, name: str, rest: str, text: str) -> tuple[Change, 
         raise unknown_input(name, known, rest)
     valued, anchor = known[name]
     unit = project.measures.measure(valued.measure).unit
-    after = _quantity(name, text, unit)
+    after = quantity_from(name, text, unit)
     before = quantity_of(project, valued.anchors[anchor], valued.measure)
     moved = tuple(one.with_anchor(anchor, after) if one is valued else one for one in trade_off.valued)
     change = Change(id=name, before=before, after=after, unit=unit)
@@ -235,7 +231,7 @@ def _curvature(project: Project, name: str, text: str) -> tuple[Change, Project]
     known = curvature_names(project)
     if name not in known:
         raise unknown_input(name, known, name.partition(".")[2])
-    after = _quantity(name, text, "1")
+    after = quantity_from(name, text, "1")
     return Change(id=name, before=0.0, after=after, unit="1"), with_curvature(project, name, after)
 
 
@@ -244,7 +240,7 @@ def _number(project: Project, name: str, text: str) -> tuple[Change, Project]:
     if name not in known:
         raise unknown_input(name, known, name)
     number = known[name]
-    after = _quantity(name, text, number.unit)
+    after = quantity_from(name, text, number.unit)
     if after < 0.0 <= number.value:
         raise DefinitionError(f"--what-if: {name} must be at least 0, got {after:g}", hint="give a number such as 0")
     return Change(id=name, before=number.value, after=after, unit=number.unit), with_number(project, number, after)
@@ -252,7 +248,7 @@ def _number(project: Project, name: str, text: str) -> tuple[Change, Project]:
 
 def _prices(project: Project, text: str) -> tuple[list[Change], Project]:
     """Every assumed price of the catalogue times a factor."""
-    factor = _quantity(PRICES, text, "1")
+    factor = quantity_from(PRICES, text, "1")
     if factor < 0.0:
         raise DefinitionError(f"--what-if: {PRICES} must be a factor of at least 0, got {factor:g}")
     changes = []
@@ -264,13 +260,6 @@ def _prices(project: Project, text: str) -> tuple[list[Change], Project]:
     if not changes:
         raise DefinitionError(f"--what-if: no price is assumed, so that {PRICES} changes nothing")
     return changes, project
-
-
-def _quantity(name: str, text: str, unit: str) -> float:
-    try:
-        return parse_quantity(text, unit)
-    except QuantityError as error:
-        raise DefinitionError(f"--what-if: {name}: {error.message}", hint=error.hint) from error
 
 
 def _requirements(project: Project) -> list[str]:
