@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -206,9 +206,7 @@ class _Line:
         for column, slope in self.sample_slopes.items():
             old = self.table.samples[column]
             samples[column] = Samples(values=old.values + slope * (value - self.start), ran=old.ran)
-        return EvidenceTable(
-            variants=self.table.variants, measures=self.table.measures, quantities=quantities, samples=samples
-        )
+        return replace(self.table, quantities=quantities, samples=samples)
 
     def reaching(self, column: str, level: float) -> list[float]:
         """The values at which a quantity of the column is at a level."""

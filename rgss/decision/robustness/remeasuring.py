@@ -106,9 +106,7 @@ class Remeasuring:
             values[rows] = fresh
             quantities[rows, place] += _mean(values[rows]) - _mean(old.values[rows])
             samples[column] = Samples(values=values, ran=old.ran)
-        return EvidenceTable(
-            variants=self.table.variants, measures=self.table.measures, quantities=quantities, samples=samples
-        )
+        return replace(self.table, quantities=quantities, samples=samples)
 
     def _changed(self, row: int, number: ModelNumber, value: float) -> VariantMeasures:
         entry = self.measured[row]

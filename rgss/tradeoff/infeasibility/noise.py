@@ -45,9 +45,7 @@ def resampled_tables(table: EvidenceTable, resamples: Resamples) -> Iterator[Evi
             if measure in table.measures:
                 place = table.measures.index(measure)
                 quantities[:, place] += _means(drawn) - means[measure]
-        yield EvidenceTable(
-            variants=table.variants, measures=table.measures, quantities=quantities, samples=drawn_samples
-        )
+        yield replace(table, quantities=quantities, samples=drawn_samples)
 
 
 def conflict_survival(

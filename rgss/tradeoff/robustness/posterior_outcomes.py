@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -283,8 +283,6 @@ def _drawn_statistics(
     found = np.empty((len(picks), len(table)))
     for draw, pick in enumerate(picks):
         again = Samples(values=samples.values[:, pick], ran=samples.ran[:, pick])
-        one = EvidenceTable(
-            variants=table.variants, measures=table.measures, quantities=table.quantities, samples={risk.measure: again}
-        )
+        one = replace(table, samples={risk.measure: again})
         found[draw] = condition_column(risk, one)
     return found
