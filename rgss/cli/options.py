@@ -65,19 +65,32 @@ def arm_mass_kg(text: str | None) -> float | None:
     Raises:
         DefinitionError: It is not a mass above zero.
     """
+    return None if text is None else positive_quantity("--mass", text, "kg", example="--mass '20 kg'")
+
+
+def positive_quantity(option: str, text: str, unit: str, *, example: str) -> float:
+    """The quantity above zero that an option gives, in a unit.
+
+    Args:
+        option: The option.
+        text: Its value.
+        unit: The unit.
+        example: How it is written, for the hint.
+
+    Raises:
+        DefinitionError: It is not a quantity of that unit above zero.
+    """
     from rgss.errors import DefinitionError, QuantityError
     from rgss.findings import shown
     from rgss.quantities import parse_quantity
 
-    if text is None:
-        return None
-    hint = "write it as --mass '20 kg'"
+    hint = f"write it as {example}"
     try:
-        value = parse_quantity(text, "kg")
+        value = parse_quantity(text, unit)
     except QuantityError as error:
-        raise DefinitionError(f"--mass: {error.message}", hint=hint) from error
+        raise DefinitionError(f"{option}: {error.message}", hint=hint) from error
     if value <= 0.0:
-        raise DefinitionError(f"--mass must be greater than zero, got {shown(text)}", hint=hint)
+        raise DefinitionError(f"{option} must be greater than zero, got {shown(text)}", hint=hint)
     return value
 
 

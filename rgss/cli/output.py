@@ -59,6 +59,20 @@ def announce(text: str, file: Path) -> None:
     print(printable(text), file=sys.stderr if is_standard_output(file) else sys.stdout)
 
 
+def require_writable(path: Path) -> None:
+    """Refuse a file that cannot be written, before its content is made.
+
+    Raises:
+        DefinitionError: It cannot be written.
+    """
+    from rgss.documents import why_not_writable
+    from rgss.errors import DefinitionError
+
+    problem = why_not_writable(path)
+    if problem:
+        raise DefinitionError(f"{str(path)!r} cannot be written: {problem}", hint="name a writable file")
+
+
 def number(value: float | None, digits: int = 4) -> str:
     """Text of a number; a dash for an unknown one."""
     if value is None:

@@ -49,6 +49,8 @@ def ordered(options: argparse.Namespace) -> TraceOrder:
     Raises:
         DefinitionError: They exclude each other, or a file cannot be written.
     """
+    from rgss.cli.output import require_writable
+
     _refuse_contradictions(options)
     into_folder = options.output is not None and (options.output.is_dir() or not options.output.suffix)
     file_format = _format(options, into_folder=into_folder)
@@ -69,7 +71,7 @@ def ordered(options: argparse.Namespace) -> TraceOrder:
             hint=f"choose one with --table ({', '.join(TABLES)}) or name a folder with -o",
         )
     if options.output is not None and not into_folder:
-        _check_file(options.output)
+        require_writable(options.output)
     for folder in (options.output if into_folder else None, options.diagrams):
         if folder is not None and folder.exists() and not folder.is_dir():
             raise DefinitionError(f"{str(folder)!r} is a file, not a folder", hint="name another folder")
@@ -144,14 +146,6 @@ def _format(options: argparse.Namespace, *, into_folder: bool) -> TraceFormat:
         wanted = ", ".join(one.suffix for one in TRACE_FORMATS if options.format in (None, one.name))
         raise DefinitionError(f"{str(options.output)!r} does not end in {wanted}", hint="use that suffix")
     return by_suffix
-
-
-def _check_file(path: Path) -> None:
-    from rgss.documents import why_not_writable
-
-    problem = why_not_writable(path)
-    if problem:
-        raise DefinitionError(f"{str(path)!r} cannot be written: {problem}", hint="name a writable file")
 
 
 def _contents(order: TraceOrder, report: TraceReport, found: Chain | Impact | None) -> Mapping[str, bytes]:

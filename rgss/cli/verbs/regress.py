@@ -62,6 +62,8 @@ def run(options: argparse.Namespace) -> int:
         1 if anything is worse, unstable or missing, 3 if a trial could not be run, 4 if behaviour changed without
         a stated reason.
     """
+    from rgss.cli.output import shown_path
+    from rgss.cli.sweep import report_lost
     from rgss.documents import require_no_source
     from rgss.engines import require_engines
     from rgss.errors import DefinitionError
@@ -97,7 +99,7 @@ def run(options: argparse.Namespace) -> int:
     path = Path(options.baseline) if options.baseline else project.folder / label
     before = read_baseline(path, label=label) if not options.update or _is_there(path) else None
     lost: list[LostTrials] = []
-    shown = _shown(project.evidence)
+    shown = shown_path(project.evidence)
     with EvidenceStore.open(project.evidence, label=shown) as store:
         run_trials = _runner(project, store, jobs, lost)
         try:
@@ -105,7 +107,7 @@ def run(options: argparse.Namespace) -> int:
                 return _update(options, project, store, run_trials, path, label, before)
             return _compare(options, project, store, run_trials, label, before)
         finally:
-            _report_lost(lost)
+            report_lost(lost)
 
 
 def _update(
@@ -199,22 +201,9 @@ def _runner(
     return run_trials
 
 
-def _report_lost(lost: Sequence[LostTrials]) -> None:
-    from rgss.cli.sweep import lost_line
-
-    for trials in lost:
-        print(f"rgss: {lost_line(trials)}", file=sys.stderr)
-
-
 def _report_look(look: int, undecided: int) -> None:
     if look > 1 and errors_are_seen():
         print(f"look {look}: {undecided} metrics are inconclusive", file=sys.stderr)
-
-
-def _shown(path: Path) -> str:
-    from rgss.cli.output import shown_path
-
-    return shown_path(path)
 
 
 def _is_there(path: Path) -> bool:

@@ -76,7 +76,6 @@ def run(options: argparse.Namespace) -> int:
     from rgss.decision import choose_portfolio, measure_survivors
     from rgss.decision.assumptions import assumption_outcomes
     from rgss.decision.study_decision import decide_study
-    from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore
     from rgss.reports.study import notable_trials, report_document
 
@@ -91,10 +90,7 @@ def run(options: argparse.Namespace) -> int:
     require_store(options, project)
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
         measured, screened = measure_survivors(project, store, recorded=recorded)
-        try:
-            require_complete(measured)
-        except EvidenceError as error:
-            raise EvidenceError(error.message, hint=f"run '{sweep_command(options)}' first") from None
+        require_complete(measured, sweep=sweep_command(options))
         state = evidence_state(project, measured, recorded=recorded, junit=options.junit)
         served = served_studies(project, store)
         made = decide_study(
@@ -122,6 +118,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _browser(options: argparse.Namespace) -> str | None:
     """The browser for printing, looked up before the report is made, so that a missing one is reported early."""
+    from rgss.cli.output import require_writable
     from rgss.cli.printing import printing_browser
     from rgss.errors import DefinitionError
 
@@ -129,7 +126,7 @@ def _browser(options: argparse.Namespace) -> str | None:
         return None
     if not options.board:
         raise DefinitionError("--pdf needs --board", hint="add --board, or print the page in a browser")
-    _check_writable(options.out.with_suffix(".pdf"))
+    require_writable(options.out.with_suffix(".pdf"))
     return printing_browser()
 
 
@@ -212,21 +209,13 @@ def _planners(options: argparse.Namespace, project: Project) -> dict[str, Any] |
 
 
 def _check_file(path: Path) -> None:
+    from rgss.cli.output import require_writable
     from rgss.errors import DefinitionError
 
     if path.suffix.lower() not in (".html", ".htm"):
         # A report must not replace a file that is not a report.
         raise DefinitionError(f"{str(path)!r} does not end in .html", hint="use that suffix")
-    _check_writable(path)
-
-
-def _check_writable(path: Path) -> None:
-    from rgss.documents import why_not_writable
-    from rgss.errors import DefinitionError
-
-    problem = why_not_writable(path)
-    if problem:
-        raise DefinitionError(f"{str(path)!r} cannot be written: {problem}", hint="name a writable file")
+    require_writable(path)
 
 
 def _write(path: Path, page: bytes) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
-from rgss.cli.options import add_evidence_choice, chosen_project
+from rgss.cli.options import add_evidence_choice, chosen_project, positive_quantity
 from rgss.cli.verbs.variants import ONLY_HELP
 from rgss.counted import counted
 
@@ -188,26 +188,7 @@ def _limits(options: argparse.Namespace) -> WorkerLimits:
     limits = WorkerLimits()
     time_s, memory_bytes = limits.time_s, limits.memory_bytes
     if options.time_limit is not None:
-        time_s = _positive("--time-limit", options.time_limit, "s", "5 min")
+        time_s = positive_quantity("--time-limit", options.time_limit, "s", example="'5 min'")
     if options.memory_limit is not None:
-        memory_bytes = round(_positive("--memory-limit", options.memory_limit, "byte", "4 GB"))
+        memory_bytes = round(positive_quantity("--memory-limit", options.memory_limit, "byte", example="'4 GB'"))
     return WorkerLimits(time_s=time_s, memory_bytes=memory_bytes)
-
-
-def _positive(option: str, text: str, unit: str, example: str) -> float:
-    """Read a quantity above zero from an option.
-
-    Raises:
-        DefinitionError: It is not a quantity of that unit above zero.
-    """
-    from rgss.errors import DefinitionError, QuantityError
-    from rgss.findings import shown
-    from rgss.quantities import parse_quantity
-
-    try:
-        value = parse_quantity(text, unit)
-    except QuantityError as error:
-        raise DefinitionError(f"{option}: {error.message}", hint=f"write it as '{example}'") from error
-    if value <= 0.0:
-        raise DefinitionError(f"{option} must be greater than zero, got {shown(text)}", hint=f"write it as '{example}'")
-    return value
