@@ -10,6 +10,8 @@ from rgss.tradeoff.robustness import (
     SampledIndex,
 )
 
+_LEAST_SHARE = 0.01
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FactorLevels:
@@ -70,17 +72,16 @@ class StudyEffects:
     measures: tuple[MeasureEffects, ...]
 
 
-def leading_factors(effects: MeasureEffects, *, least: float = 0.01) -> Mapping[str, float]:
+def leading_factors(effects: MeasureEffects) -> Mapping[str, float]:
     """The factors by their total-order share of a measure's variance, the largest first.
 
     For a sample of designs it is the share that each explains alone, of those that exceed what chance gives.
 
     Args:
         effects: The effects on the measure.
-        least: Least share of a returned factor.
     """
     shares = sorted(_shares(effects).items(), key=lambda item: -item[1])
-    return {factor: share for factor, share in shares if share >= least}
+    return {factor: share for factor, share in shares if share >= _LEAST_SHARE}
 
 
 def _shares(effects: MeasureEffects) -> Mapping[str, float]:

@@ -71,14 +71,14 @@ class PairwiseAnswer:
             return f"{self.swing_of} ≥ {times}{self.over}"
         return f"{self.swing_of} = {self.least:g} to {self.most:g} × {self.over}"
 
-    def orders(self, *, factor: float = 1.0) -> tuple[ElicitedOrder, ...]:
-        """The answer as orders of weights, each bound loosened by a factor of at least 1."""
+    def orders(self) -> tuple[ElicitedOrder, ...]:
+        """The answer as orders of weights."""
         lower = ElicitedOrder(
             heavier=self.swing_of,
             heavier_measures=(self.swing_of,),
             lighter=self.over,
             lighter_measures=(self.over,),
-            times=self.least / factor,
+            times=self.least,
         )
         if math.isinf(self.most):
             return (lower,)
@@ -87,7 +87,7 @@ class PairwiseAnswer:
             heavier_measures=(self.over,),
             lighter=self.swing_of,
             lighter_measures=(self.swing_of,),
-            times=1.0 / (self.most * factor),
+            times=1.0 / self.most,
         )
         return (lower, upper)
 

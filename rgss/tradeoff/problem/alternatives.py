@@ -14,12 +14,11 @@ SAME_VALUE = 1e-12
 """Alternatives whose single values differ by less are one and the same to an analysis."""
 
 
-def checked_values(values: Array, *, what: str = "the values") -> Array:
+def checked_values(values: Array) -> Array:
     """Validated single values of alternatives.
 
     Args:
         values: One row for each alternative and one column for each measure, shape (n, m).
-        what: Their name in messages.
 
     Raises:
         TradeoffError: The array does not have two dimensions, or an entry is not a number from 0 to 1.
@@ -27,14 +26,14 @@ def checked_values(values: Array, *, what: str = "the values") -> Array:
     table = np.asarray(values, dtype=np.float64)
     if table.ndim != 2 or 0 in table.shape:
         raise TradeoffError(
-            f"{what} are not a table of alternatives by measures: their shape is {table.shape}",
+            f"the values are not a table of alternatives by measures: their shape is {table.shape}",
             hint="give one row for each alternative and one column for each weighted measure",
         )
     wrong = ~((table >= 0.0) & (table <= 1.0))
     if wrong.any():
         row, column = (int(index) for index in np.argwhere(wrong)[0])
         raise TradeoffError(
-            f"{what} have {table[row, column]:g} in row {row}, column {column}",
+            f"the values have {table[row, column]:g} in row {row}, column {column}",
             hint="a value is a number from 0 to 1; leave out alternatives in which it is unknown",
         )
     return table
