@@ -190,6 +190,23 @@ def test_an_angle_is_no_offset_of_a_sliding_joint(spec_of):
     assert [one.name for one in drawn_values(on_rail)] == [f"robot.joint_offset.{at}" for at in range(2, 7)]
 
 
+@pytest.mark.parametrize("names", [("robot.joint_offset", "robot.slide_offset"), ("robot.slide_offset",)])
+def test_a_sliding_joint_has_an_offset_in_metres_of_its_own(spec_of, names):
+    spec = spec_of(65)
+    values = {"robot.joint_offset": 0.009, "robot.slide_offset": 0.0005}
+    stated = Uncertainty(values=tuple(one for name in names for one in constant(name, values[name]).values))
+    joints = spec.scene.robot.joints
+    rail = replace(joints[0], kind=JointKind.PRISMATIC)
+    robot = replace(spec.scene.robot, joints=(rail, *joints[1:]))
+    on_rail = replace(spec, scene=replace(spec.scene, robot=robot), uncertainty=stated)
+
+    turning = (0.009 if "robot.joint_offset" in names else 0.0,) * 5
+    assert conditions_of(on_rail).joint_offsets_rad == (0.0005, *turning)
+    slide = drawn_values(on_rail)[-1]
+    assert (slide.name, slide.unit, slide.nominal, slide.drawn) == ("robot.slide_offset.1", "m", 0.0, 0.0005)
+    assert conditions_of(replace(spec, uncertainty=stated)).joint_offsets_rad == (turning[0],) * 6
+
+
 def test_the_tool_speed_is_of_the_timing(spec_of):
     spec = spec_of(65)
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from enum import Enum
 from types import MappingProxyType
 
+from rgss.scenes.joints import JointKind
 from rgss.scenes.robot import MOST_JOINTS
 
 
@@ -44,7 +45,7 @@ class UncertainQuantity:
         enters: The first piece of a trial that depends on it.
         least: The least value that a draw may have.
         is_least_allowed: Whether the least value itself may be drawn.
-        count: Number of independent draws: one for each joint, or 1.
+        joint_kind: Kind of the joints of which each has an independent draw; None for one draw.
         object: Id of its further object; empty for the first object and the machine.
     """
 
@@ -56,15 +57,15 @@ class UncertainQuantity:
     enters: EntersAt
     least: float = -math.inf
     is_least_allowed: bool = True
-    count: int = 1
+    joint_kind: JointKind | None = None
     object: str = ""
 
     @property
     def draw_names(self) -> tuple[str, ...]:
         """Names of its draws: its name, or its name with the number of each joint, from 1."""
-        if self.count == 1:
+        if self.joint_kind is None:
             return (self.name,)
-        return tuple(f"{self.name}.{index}" for index in range(1, self.count + 1))
+        return tuple(f"{self.name}.{index}" for index in range(1, MOST_JOINTS + 1))
 
     def draw_names_for(self, joints: int) -> tuple[str, ...]:
         """Names of its draws for an arm.
@@ -72,7 +73,7 @@ class UncertainQuantity:
         Args:
             joints: Number of the arm's joints.
         """
-        return self.draw_names[:joints] if self.count > 1 else self.draw_names
+        return self.draw_names if self.joint_kind is None else self.draw_names[:joints]
 
     def is_possible(self, value: float) -> bool:
         """True if a value is in the admissible range."""
@@ -156,7 +157,16 @@ _ALL = (
         field="joint_offsets_rad",
         application=Application.ADD,
         enters=EntersAt.EXECUTION,
-        count=MOST_JOINTS,
+        joint_kind=JointKind.REVOLUTE,
+    ),
+    UncertainQuantity(
+        name="robot.slide_offset",
+        unit="m",
+        meaning="True minus reported position of a sliding joint: the zero error of its scale, drawn for each of them.",
+        field="joint_offsets_rad",
+        application=Application.ADD,
+        enters=EntersAt.EXECUTION,
+        joint_kind=JointKind.PRISMATIC,
     ),
     _of_execution(
         "gripper.finger.force",

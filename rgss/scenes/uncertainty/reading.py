@@ -180,8 +180,8 @@ def _wrong_group(
     fixed = [name for name in group.quantities if name in constants]
     if fixed:
         return f"{fixed[0]} is constant and cannot be correlated", "quantities", "take it out of the group"
-    if len({quantity_of(name).count for name in group.quantities}) > 1:
-        return "a quantity of each joint can be correlated only with others of each joint", "quantities", ""
+    if len({quantity_of(name).joint_kind for name in group.quantities}) > 1:
+        return "a quantity of each joint can be correlated only with others of the same joints", "quantities", ""
     if any(len(row) != size for row in group.matrix) or len(group.matrix) != size:
         return f"the matrix must have {size} rows of {size} correlations", "matrix", ""
     matrix = np.array(group.matrix)

@@ -12,7 +12,7 @@ from functools import lru_cache
 from types import MappingProxyType
 
 from rgss.errors import DefinitionError
-from rgss.scenes import Cylinder, Gripper, JointKind, Scene, Workpiece, with_raised_stack
+from rgss.scenes import Cylinder, Gripper, Scene, Workpiece, with_raised_stack
 from rgss.scenes.uncertainty import Application, Case, UncertainQuantity, draws_of, in_order
 from rgss.trials.conditions.inputs import ConditionInputs, condition_inputs
 from rgss.trials.conditions.object_conditions import (
@@ -52,7 +52,7 @@ class Conditions:
         centre_of_mass_m: True height of its centre of mass above the centre of its shape.
         friction: Its true friction coefficient.
         tool_speed_m_s: Largest speed of the tool.
-        joint_offsets_rad: True minus reported angle of each joint; empty for exact encoders.
+        joint_offsets_rad: True minus reported position of each joint, in m of a sliding one; empty for exact encoders.
         finger_force_n: Force of one finger.
         finger_speed_m_s: Speed of the fingers.
         pad_friction: Friction coefficient of the pads.
@@ -188,14 +188,17 @@ def conditions_from(inputs: ConditionInputs) -> Conditions:
 
 
 def _draws(inputs: ConditionInputs) -> Mapping[str, float]:
-    """Draws of the trial, of the quantities of each joint those of turning joints alone: their unit is an angle."""
+    """Draws of the trial, of the quantities of each joint those of joints of its kind: angles or lengths."""
     joints = inputs.scene.robot.joints
     draws = draws_of(inputs.uncertainty, inputs.seed, joints=len(joints))
-    each = [one for one in in_order(inputs.uncertainty.names) if one.count > 1]
-    sliding = {
-        one.draw_names[at] for one in each for at, joint in enumerate(joints) if joint.kind is JointKind.PRISMATIC
+    others = {
+        name
+        for one in in_order(inputs.uncertainty.names)
+        if one.joint_kind is not None
+        for name, joint in zip(one.draw_names, joints, strict=False)
+        if joint.kind is not one.joint_kind
     }
-    return MappingProxyType({name: value for name, value in draws.items() if name not in sliding}) if sliding else draws
+    return MappingProxyType({name: value for name, value in draws.items() if name not in others}) if others else draws
 
 
 def _nominal(inputs: ConditionInputs) -> Conditions:
@@ -221,9 +224,14 @@ def _changes(
     """Values of the fields changed by draws."""
     changes: dict[str, float | tuple[float, ...]] = {}
     for quantity in quantities:
-        if quantity.count > 1:
+        if quantity.joint_kind is not None:
             joints = 0 if isinstance(nominal, ObjectConditions) else len(nominal.scene.robot.joints)
-            changes[quantity.field] = tuple(draws.get(name, 0.0) for name in quantity.draw_names_for(joints))
+            drawn = tuple(draws.get(name, 0.0) for name in quantity.draw_names_for(joints))
+            before = changes.get(quantity.field)
+            # Two quantities of one field have draws of different joints.
+            if isinstance(before, tuple):
+                drawn = tuple(one or other for one, other in zip(before, drawn, strict=True))
+            changes[quantity.field] = drawn
             continue
         present = changes.get(quantity.field, getattr(nominal, quantity.field))
         changes[quantity.field] = _applied(quantity, present, draws[quantity.name])

@@ -38,7 +38,7 @@ def drawn_values(spec: TrialSpec) -> tuple[DrawnValue, ...]:
     found = []
     for name in conditions.draws:
         quantity = quantity_of(name)
-        if quantity.count > 1:
+        if quantity.joint_kind is not None:
             before, after = 0.0, conditions.draws[name]
         elif quantity.object:
             known = nominal_object(conditions.assumed(quantity.object))

@@ -244,18 +244,20 @@ def test_the_column_of_a_further_object_s_draws_is_known():
         assert object_quantity_of_column(draw_column(name)) is None
 
 
-def test_a_quantity_of_each_joint_goes_together_with_no_other(kitchen):
+@pytest.mark.parametrize("other", ["perception.x", "robot.slide_offset"])
+def test_a_quantity_of_each_joint_goes_together_with_no_other(kitchen, other):
     uncertain(kitchen).change(
         "kitchen.yaml",
         "  gripper.force_sensor.noise: ",
-        "  robot.joint_offset: {normal: {mean: 0 deg, sd: 1 deg}, rationale: wear}\n  gripper.force_sensor.noise: ",
+        "  robot.joint_offset: {normal: {mean: 0 deg, sd: 1 deg}, rationale: wear}\n"
+        "  robot.slide_offset: {normal: {mean: 0 mm, sd: 1 mm}, rationale: wear}\n  gripper.force_sensor.noise: ",
     )
-    kitchen.change("kitchen.yaml", "[perception.x, workpiece.mass]", "¦[perception.x, robot.joint_offset]")
+    kitchen.change("kitchen.yaml", "[perception.x, workpiece.mass]", f"¦[{other}, robot.joint_offset]")
 
     assert kitchen.findings("scene") == [
         (
             f"{kitchen.marks()[0]} uncertainty.group a quantity of each joint "
-            "can be correlated only with others of each joint"
+            "can be correlated only with others of the same joints"
         )
     ]
 

@@ -49,6 +49,13 @@ def test_the_share_of_impossible_draws_is_a_warning_at_the_quantity(found_with, 
     assert float(one.message.split(" %")[0]) == pytest.approx(share, abs=0.2)
 
 
+def test_offsets_of_joints_that_the_arm_does_not_have_are_a_warning(found_with):
+    (one,) = found_with("robot.slide_offset: {normal: {mean: 0 mm, sd: 1 mm}, rationale: r}")
+    assert (one.rule, one.severity, one.file) == ("uncertainty.no-joint", Severity.WARNING, "scenes/restaurant.yaml")
+    assert one.message == "robot.slide_offset has no effect: the arm has no sliding joint"
+    assert one.hint == "use robot.joint_offset for turning joints, or remove it"
+
+
 @pytest.mark.parametrize(
     "line",
     [
@@ -56,6 +63,7 @@ def test_the_share_of_impossible_draws_is_a_warning_at_the_quantity(found_with, 
         "workpiece.x: {uniform: {low: -250 mm, high: 340 mm}, rationale: r}",
         "workpiece.y: {normal: {mean: 0 mm, sd: 3 mm}, rationale: r}",
         "perception.x: {uniform: {low: -300 mm, high: 300 mm}, rationale: r}",
+        "robot.joint_offset: {normal: {mean: 0 deg, sd: 1 deg}, rationale: r}",
     ],
 )
 def test_possible_draws_have_no_finding(found_with, line):
