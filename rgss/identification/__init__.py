@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from rgss.identification.recording import CommandedPositions, JointSeries, Recording, Segment
     from rgss.identification.recording_file import read_recording, write_recording
     from rgss.identification.response_measures import responses
+    from rgss.identification.servo_parameters import parameter_key
     from rgss.identification.simulated_arm import simulated_recording
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -11,6 +11,7 @@ from rgss.errors import DefinitionError
 from rgss.findings import shown
 from rgss.identification.fitting import FitStatus, ServoFit
 from rgss.identification.recording import Recording
+from rgss.identification.servo_parameters import parameter_key
 
 
 def calibration_text(recording: Recording, fits: Sequence[ServoFit], *, file: str) -> str:
@@ -48,8 +49,7 @@ def calibration_text(recording: Recording, fits: Sequence[ServoFit], *, file: st
         if not fit.adequate:
             lines.append(f"    adequate: false  # {MISFIT}")
         for each in fit.parameters:
-            key, unit = _KEYS[each.name]
-            unit = unit.replace("rad", recording.unit_of(fit.joint))
+            key, unit = parameter_key(each.name, recording.unit_of(fit.joint))
             if each.status is FitStatus.DETERMINED and each.interval is not None:
                 low, high = each.interval
                 lines.append(f"    {key}: {each.value:.6g} {unit}  # {low:.6g} to {high:.6g} {unit}")
@@ -62,14 +62,6 @@ def calibration_text(recording: Recording, fits: Sequence[ServoFit], *, file: st
 
 MISFIT = "the model misses part of the motion (a torque limit?): the intervals do not hold"
 _CONFIDENCE = "95 % confidence"
-_KEYS = {
-    "velocity_gain_hz": ("velocity_gain", "s^-1"),
-    "position_gain_hz2": ("position_gain", "s^-2"),
-    "delay_s": ("delay", "s"),
-    "viscous_hz": ("viscous_friction", "s^-1"),
-    "coulomb_rad_s2": ("coulomb_friction", "rad/s^2"),
-}
-"""Key of a calibration file and unit of each parameter."""
 
 
 def _require_identifiers(recording: Recording, fits: Sequence[ServoFit]) -> None:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from rgss.errors import DefinitionError
 from rgss.identification.recording import Recording
+from rgss.identification.servo_parameters import parameter_key
 from rgss.identification.servo_problem import PARAMETER_ENDS, ServoProblem
 from rgss.scenes import JointServo, ServoControl
 
@@ -181,7 +182,7 @@ def _parameter(names: Sequence[str], index: int, values: Array, half: Array, ali
         if not math.isfinite(width) or at_upper:
             reason = "the recording does not depend on it"
         elif likeness > _ALIKE:
-            reason = f"the recording does not tell it from {names[other]}: correlation {likeness:.2f}"
+            reason = f"the recording does not tell it from {parameter_key(names[other])[0]}: correlation {likeness:.2f}"
         elif value - width <= lower and lower == 0.0:
             status, reason = FitStatus.NEAR_ZERO, "its interval contains zero"
     return FittedParameter(name=name, status=status, value=value, interval=interval, reason=reason)

@@ -25,7 +25,7 @@ def test_what_is_written_is_read_as_the_fitted_servo(tmp_path):
     found = load_calibration(tmp_path / "servos.yaml")
     ((joint, servo),) = found.servos
     assert (joint, found.recording, found.control, found.misfits) == ("j1", 'a "b".csv', ServoControl.VELOCITY, ())
-    assert found.origin == f'a "b".csv ({recording.recorded}; SHA-256 {recording.digest[:12]})'
+    assert found.origin == f'a "b".csv of {recording.robot} ({recording.recorded}; SHA-256 {recording.digest[:12]})'
     for name, value in fit.determined().items():
         assert getattr(servo, name) == pytest.approx(value, rel=1e-5)
     assert servo.position_gain_hz2 == 0.0

@@ -121,7 +121,7 @@ def test_one_speed_with_noise_does_not_tell_viscous_from_coulomb_friction():
 
     found = {each.name: each for each in fit.parameters}
     assert found["viscous_hz"].status is FitStatus.UNDETERMINED
-    assert "does not tell it from" in found["viscous_hz"].reason
+    assert "does not tell it from coulomb_friction" in found["viscous_hz"].reason
     assert found["velocity_gain_hz"].status is FitStatus.DETERMINED
     assert "viscous_hz" not in fit.determined()
 

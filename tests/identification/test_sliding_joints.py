@@ -55,7 +55,7 @@ def excitation_of(tmp_path, robot, text):
 
 
 @pytest.mark.engine
-def test_the_servo_of_a_joint_that_slides_is_fitted(tmp_path, robot):
+def test_the_servo_of_a_joint_that_slides_is_fitted(tmp_path, robot, capsys):
     gripper = Gripper(
         geometry=load_gripper(REPOSITORY / "scenes/grippers/kg-2.yaml"),
         base_mass_kg=0.4,
@@ -89,6 +89,10 @@ def test_the_servo_of_a_joint_that_slides_is_fitted(tmp_path, robot):
     slide, turn = text.split("  joint_2:")
     assert re.search(r"coulomb_friction: 0\.\d+ m/s\^2", slide)
     assert re.search(r"coulomb_friction: 1\.\d+ rad/s\^2", turn)
+    assert main(["identify", str(path)]) == 0
+    shown = capsys.readouterr().out
+    assert re.search(r"joint_1 +coulomb_friction \[m/s\^2\] ", shown)
+    assert re.search(r"joint_2 +coulomb_friction \[rad/s\^2\] ", shown)
     (tmp_path / "servos.yaml").write_text(text, encoding="utf-8")
     read = dict(load_calibration(tmp_path / "servos.yaml").servos)
     assert read["joint_1"].coulomb_rad_s2 == pytest.approx(0.4, rel=0.05)

@@ -63,7 +63,7 @@ def test_a_trial_has_the_servos_of_the_robots_file(folder, calibrate):
     assert controller.mode is ControlMode.CALIBRATED
     assert controller.calibration.control is ServoControl.POSITION
     assert [name for name, _ in controller.calibration.servos] == [f"{joint}_joint" for joint in JOINTS]
-    assert controller.calibration.origin == "cell_3.csv (2026-05-01, cell 3; SHA-256 0123456789ab)"
+    assert controller.calibration.origin == "cell_3.csv of ur10 (2026-05-01, cell 3; SHA-256 0123456789ab)"
     assert "cell_3.csv" in str(named_inputs(spec).values["settings"]["controller"])
 
 

@@ -110,7 +110,7 @@ def _identify(options: argparse.Namespace) -> int:
 def _as_json(recording: Recording, fits: Sequence[ServoFit]) -> dict[str, Any]:
     from dataclasses import asdict
 
-    from rgss.identification import responses
+    from rgss.identification import parameter_key, responses
 
     return {
         "robot": recording.robot,
@@ -125,6 +125,7 @@ def _as_json(recording: Recording, fits: Sequence[ServoFit]) -> dict[str, Any]:
                 "parameters": [
                     {
                         "name": each.name,
+                        "unit": parameter_key(each.name, recording.unit_of(fit.joint))[1],
                         "status": each.status.value,
                         "value": each.value,
                         "interval": None if each.interval is None else [_finite(end) for end in each.interval],
@@ -151,7 +152,7 @@ def _finite(value: float) -> float | None:
 def _show(recording: Recording, fits: Sequence[ServoFit]) -> None:
     from rgss.cli.output import number, print_table
     from rgss.findings import printable
-    from rgss.identification import MISFIT, responses
+    from rgss.identification import MISFIT, parameter_key, responses
 
     print(printable(f"{recording.robot}, {recording.control.value} control ({recording.recorded})"))
     rows = [
@@ -185,7 +186,8 @@ def _show(recording: Recording, fits: Sequence[ServoFit]) -> None:
         for each in fit.parameters:
             low, high = (None, None) if each.interval is None else (_finite(end) for end in each.interval)
             said = f"{each.status.value}: {each.reason}" if each.reason else each.status.value
-            rows.append([printable(fit.joint), each.name, number(each.value), number(low), number(high), said])
+            key, unit = parameter_key(each.name, recording.unit_of(fit.joint))
+            rows.append([printable(fit.joint), f"{key} [{unit}]", number(each.value), number(low), number(high), said])
     print_table(["joint", "parameter", "fitted", "from", "to", "95 % interval"], rows, right=(2, 3, 4))
     for fit in fits:
         residuals = ", ".join(f"{pose} {number(value)}" for pose, value in fit.rms_rad_s.items())

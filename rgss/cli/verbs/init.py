@@ -50,6 +50,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.main import CLEAN
     from rgss.cli.output import print_json
     from rgss.errors import DefinitionError
+    from rgss.findings import printable
     from rgss.studies import write_scaffold
 
     folder: Path = options.folder
@@ -71,7 +72,8 @@ def run(options: argparse.Namespace) -> int:
         return CLEAN
     for note in notes:
         print(f"Assumed: {note}", file=sys.stderr)
-    print(f"A project of {len(files)} files is in {folder.resolve().name}/; its README.md says what each is for. Next:")
+    shown = folder.resolve().name if folder.resolve() == Path.cwd() else printable(folder.as_posix())
+    print(f"A project of {len(files)} files is in {shown}/; its README.md says what each is for. Next:")
     print()
     if folder.resolve() != Path.cwd():
         print(f"  cd {shlex.quote(str(folder))}")

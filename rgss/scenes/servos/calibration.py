@@ -33,5 +33,5 @@ class Calibration:
     def origin(self) -> str:
         """Provenance of the calibration, as a phrase."""
         if not self.recording:
-            return "a file that names no recording"
-        return f"{self.recording} ({self.recorded}; SHA-256 {self.sha256[:12]})"
+            return f"a file of {self.robot} that names no recording"
+        return f"{self.recording} of {self.robot} ({self.recorded}; SHA-256 {self.sha256[:12]})"

@@ -19,7 +19,7 @@ def test_a_new_project_is_sound(rgss, tmp_path):
     told = rgss("init", folder)
 
     assert (told.status, told.errors) == (0, "")
-    assert told.output.splitlines()[0].startswith("A project of 33 files is in my project/")
+    assert told.output.splitlines()[0].startswith(f"A project of 33 files is in {folder}/; its README.md")
     assert [line.strip().partition("  ")[0] for line in told.output.splitlines()[2:]] == [
         f"cd '{folder}'",
         "rgss check",
