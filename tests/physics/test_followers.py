@@ -122,6 +122,10 @@ def test_a_coupling_that_does_not_transmit_what_its_follower_needs_slips(three_f
             world.command_arm(START.tolist(), STILL)
             world.step()
         assert world.slipped_follower == slipped
+        # It gives way: the forearm sinks by its own weight, against the effort of the coupling.
+        assert (world.follow_error > 2e-3) is bool(slipped)
+        world.reset_arm(START.tolist())
+        assert (world.slipped_follower, world.follow_error) == ("", pytest.approx(0.0, abs=1e-9))
 
 
 @pytest.mark.parametrize(("share", "slipped"), [(1.1, ""), (0.9, "shoulder_level")])

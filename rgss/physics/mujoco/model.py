@@ -21,6 +21,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from rgss.errors import SimulationError
+from rgss.physics.mujoco.followers import add_clutch
 from rgss.physics.mujoco.hand_model import (
     CUP_BIT,
     GEAR_IMPEDANCE,
@@ -174,6 +175,8 @@ class _Builder:
                 "solimp": GEAR_IMPEDANCE,
             }
             ET.SubElement(self._equality, "joint", coupling)
+            if math.isfinite(follower.effort):
+                add_clutch(self.root, follower, robot.joints[follower.driver].name)
         parts = HandParts(equality=self._equality, actuator=self._actuator, stiffness=self._stiffness)
         if geometry.linkage is not None:
             self.hand = add_linkage_drive(parts, geometry.linkage, parents, step_s=self._settings.step_s)
