@@ -27,6 +27,8 @@ from rgss.studies.checks import (
     instability_texts,
     is_at_the_palm,
     is_of_fingers,
+    narrow_finding,
+    objects_too_narrow,
     objects_too_tall,
     objects_too_wide,
     remedy,
@@ -93,7 +95,11 @@ def check_scene(project: Project) -> SceneCheck:
     found += mesh_volume_findings(project.folder / label, label=label)
     found += [
         finding(document, (*places.at[name][:-1], "id"), reason, files, serves=of_hands.serves(name, every))
-        for finding, unfit in ((seal_finding, of_hands.not_sealed), (width_finding, of_hands.too_wide))
+        for finding, unfit in (
+            (seal_finding, of_hands.not_sealed),
+            (width_finding, of_hands.too_wide),
+            (narrow_finding, of_hands.too_narrow),
+        )
         for (name, reason), files in unfit.items()
     ]
     found += [places.too_tall(tall, files, serves=len(files) < every) for tall, files in of_hands.too_tall.items()]
@@ -108,11 +114,13 @@ class _HandProblems:
     steps: dict[HandStepProblem, list[str]] = field(default_factory=dict)
     too_tall: dict[TooTall, list[str]] = field(default_factory=dict)
     too_wide: dict[tuple[str, str], list[str]] = field(default_factory=dict)
+    too_narrow: dict[tuple[str, str], list[str]] = field(default_factory=dict)
     not_sealed: dict[tuple[str, str], list[str]] = field(default_factory=dict)
 
     def serves(self, name: str, every: int) -> bool:
-        """True if a gripper of the designs is neither too narrow for an object nor a cup that does not seal on it."""
-        unfit = (files for (of, _), files in (*self.not_sealed.items(), *self.too_wide.items()) if of == name)
+        """True if an object fits a gripper of the designs: between its fingers, or a cup that seals on it."""
+        sizes = (*self.not_sealed.items(), *self.too_wide.items(), *self.too_narrow.items())
+        unfit = (files for (of, _), files in sizes if of == name)
         return len({file for files in unfit for file in files}) < every
 
     def reaches(self, problem: SceneProblem, every: int) -> bool:
@@ -134,6 +142,8 @@ class _HandProblems:
             self.too_tall.setdefault(one, []).append(file)
         for unfit in wide:
             self.too_wide.setdefault(unfit, []).append(file)
+        for narrow in objects_too_narrow(geometry, project):
+            self.too_narrow.setdefault(narrow, []).append(file)
         for unsealed in unsealed_objects(geometry, project):
             self.not_sealed.setdefault(unsealed, []).append(file)
         if not is_searched:

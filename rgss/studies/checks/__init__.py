@@ -20,6 +20,12 @@ if TYPE_CHECKING:
     from rgss.studies.checks.threshold_check import threshold_findings
     from rgss.studies.checks.too_tall import TooTall, is_at_the_palm, objects_too_tall
     from rgss.studies.checks.undefined_check import undefined_findings
-    from rgss.studies.checks.width_check import is_of_fingers, objects_too_wide, width_finding
+    from rgss.studies.checks.width_check import (
+        is_of_fingers,
+        narrow_finding,
+        objects_too_narrow,
+        objects_too_wide,
+        width_finding,
+    )
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
