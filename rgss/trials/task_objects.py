@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-import re
 
 from rgss.evidence import Failure
 from rgss.physics import ContactWorld
 from rgss.scenes import ObjectPlacement, Pose, Scene, initial_placements, scene_about
 from rgss.tasks import HandAction, Stage, TaskProgram, stages_of
 from rgss.trials.object_checks import moved_by_itself
-
-_PRESENT_OBJECT = re.compile(r"\bthe (?:placed )?object\b")
+from rgss.trials.present_object import with_object_named
 
 
 class TaskObjects:
@@ -85,9 +83,7 @@ class TaskObjects:
         Args:
             detail: The detail, in which it is "the object".
         """
-        if not self._scene.others:
-            return detail
-        return _PRESENT_OBJECT.sub(self._world.scene.workpiece.id, detail)
+        return with_object_named(detail, self._world.scene)
 
     def resting_on(self, stage: Stage) -> str:
         """Body that the object of a stage may touch; empty for none.

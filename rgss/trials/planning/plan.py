@@ -26,6 +26,7 @@ from rgss.trials.planning.direct_moves import direct_move
 from rgss.trials.planning.planned_moves import PlannedMove, TaskPlan
 from rgss.trials.planning.planning_costs import state_cost
 from rgss.trials.planning.task_stops import goal_pose_of, inverse_at, stops_of
+from rgss.trials.present_object import with_object_named
 from rgss.trials.reference import Array
 from rgss.trials.route import Leg
 from rgss.trials.settings import PlanningSettings
@@ -71,7 +72,7 @@ def plan_task(
             why = too_wide(cell.geometry, leg.scene) or stops.reasons.get(
                 index, "none is reachable from the previous waypoint"
             )
-            detail = f"no valid configuration for {cell.route.stops[index].name}: {why}"
+            detail = with_object_named(f"no valid configuration for {cell.route.stops[index].name}: {why}", leg.scene)
             ungrasped = cell.ungrasped.get(leg.scene.workpiece.id)
             moves[phase] = _ill_posed(phase, outcome, detail if ungrasped is None else ungrasped.detail(detail))
             break
@@ -175,7 +176,8 @@ def _direct(
     )
     path = found.path_rad
     length_m = None if path is None else _tool_path_length(cell, path, settings.resolution_rad)
-    move = replace(_ill_posed(leg.step.name, found.outcome, found.detail), checks=found.checks, time_s=found.time_s)
+    move = _ill_posed(leg.step.name, found.outcome, with_object_named(found.detail, leg.scene))
+    move = replace(move, checks=found.checks, time_s=found.time_s)
     return replace(move, search_time_s=found.time_s, path_rad=path, path_length_m=length_m)
 
 

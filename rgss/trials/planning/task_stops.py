@@ -23,6 +23,7 @@ from rgss.scenes import Pose
 from rgss.tasks import MoveKind
 from rgss.trials.planning.direct_moves import move_obstacle
 from rgss.trials.planning.goal_reasons import GoalReason, infeasibility_reason
+from rgss.trials.present_object import with_object_named
 from rgss.trials.reference import Array
 from rgss.trials.route import Leg, Stop
 from rgss.trials.workcell import Workcell
@@ -200,7 +201,7 @@ def _line(cell: Workcell, leg: Leg, found: Mapping[int, Array], *, is_new: bool)
 def _obstacle_of(cell: Workcell, leg: Leg, found: Mapping[int, Array]) -> tuple[PlanOutcome, str] | None:
     """Outcome and detail of an infeasible straight move."""
     stop = cell.route.stops[leg.goal]
-    return move_obstacle(
+    obstacle = move_obstacle(
         leg.step.mode,
         found[leg.start],
         found[leg.goal],
@@ -209,6 +210,7 @@ def _obstacle_of(cell: Workcell, leg: Leg, found: Mapping[int, Array]) -> tuple[
         model=cell.planning[leg.step.name],
         resolution_rad=leg.step.resolution_rad or _JOINT_STEP_RAD,
     )
+    return None if obstacle is None else (obstacle[0], with_object_named(obstacle[1], leg.scene))
 
 
 def _line_to(cell: Workcell, stop: Stop, start: Array, goal: Array) -> Array | None:

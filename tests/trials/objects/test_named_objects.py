@@ -8,6 +8,7 @@ import pytest
 
 from rgss.scenes import initial_placements
 from rgss.tasks import stages_of
+from rgss.trials.present_object import with_object_named
 from rgss.trials.task_objects import TaskObjects
 
 
@@ -39,6 +40,12 @@ def test_of_two_objects_the_present_one_is_named(with_two, detail, named):
     stage = next(one for one in stages_of(spec.task, spec.scene.workpiece.id) if one.object == "tin")
     objects.enter(stage)
     assert objects.named(detail) == named
+
+
+def test_details_of_plans_name_it_too(with_two):
+    spec = with_two()
+    detail = "no valid configuration for lift: the object would be tilted by 60°, in the only one"
+    assert with_object_named(detail, spec.scene) == detail.replace("the object", spec.scene.workpiece.id)
 
 
 def test_a_single_object_is_the_object(spec_of):
