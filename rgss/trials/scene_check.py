@@ -24,7 +24,7 @@ from rgss.scenes import (
 )
 from rgss.tasks import TaskProgram
 from rgss.trials.grasp_choice import GraspSearch, with_stated_suction
-from rgss.trials.planning import GoalReason, infeasible_waypoints, objects_served_turned
+from rgss.trials.planning import GoalReason, infeasible_waypoints, objects_served_turned, serving_place_yaw
 from rgss.trials.workcell import Workcell, grasp_searches_of
 
 TOUCHING_M = 1e-3
@@ -71,6 +71,8 @@ class SceneProblem:
         is_at_place: True if it is a waypoint at the place, of which `second` is the name, if it has one.
         reason: The reason; None for other problems.
         serves_turned: True if the hand turned by 180 deg, which holds the object alike, has no unserved waypoint of it.
+        is_yaw_stated: True if the task states the yaw of the hand there, and neither chooses it nor leaves it free.
+        place_yaw_rad: Yaw at the place with which the arm would serve every waypoint; None if it is unknown.
         detail: Numbers of grasp candidates rejected by each filter, or the kind of a foot; empty for other problems.
     """
 
@@ -83,6 +85,8 @@ class SceneProblem:
     reason: GoalReason | None = None
     detail: str = ""
     serves_turned: bool = False
+    is_yaw_stated: bool = False
+    place_yaw_rad: float | None = None
 
 
 def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
@@ -95,12 +99,7 @@ def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
 
 
 def reach_problems(
-    scene: Scene,
-    geometry: GripperGeometry,
-    *,
-    clearance_m: float,
-    task: TaskProgram,
-    friction: float = 0.0,
+    scene: Scene, geometry: GripperGeometry, *, clearance_m: float, task: TaskProgram, friction: float = 0.0
 ) -> tuple[SceneProblem, ...]:
     """Problems of the arm with a gripper: a collision at home, or a waypoint without a valid configuration.
 
@@ -120,10 +119,9 @@ def reach_problems(
         searches = grasp_searches_of(scene, geometry, friction=friction, clearance_m=clearance_m, task=task)
         scene = searches[-1].scene
         ungrasped = [search for search in searches if search.taken is None]
-    scene = with_stated_suction(scene, geometry)
+    stated, scene = scene, with_stated_suction(scene, geometry)
     cell = Workcell(scene, geometry, clearance_m=clearance_m, task=task)
-    model = next(iter(cell.planning.values()))
-    pair = model.nearest_pair(scene.robot.home_rad)
+    pair = next(iter(cell.planning.values())).nearest_pair(scene.robot.home_rad)
     if pair is not None and pair.distance_m < 0.0:
         found.append(
             SceneProblem(
@@ -135,6 +133,7 @@ def reach_problems(
     found += _closing_contacts(scene, geometry)
     unserved = infeasible_waypoints(cell)
     turned = objects_served_turned(scene, geometry, unserved, clearance_m=clearance_m, task=task)
+    yaw_rad = None if turned else serving_place_yaw(stated, geometry, unserved, clearance_m=clearance_m, task=task)
     found += [
         SceneProblem(
             kind=SceneProblemKind.UNSERVED,
@@ -144,6 +143,8 @@ def reach_problems(
             is_at_place=stop.is_at_place,
             reason=reason,
             serves_turned=(stop.object or scene.workpiece.id) in turned,
+            is_yaw_stated=scene.task.candidates is None and bool(stop.object) and not stop.is_turn_free,
+            place_yaw_rad=yaw_rad,
         )
         for stop, reason in unserved.items()
     ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -37,14 +38,22 @@ def remedy(problem: SceneProblem) -> str:
 
     if problem.serves_turned:
         return "add 180 deg to 'grasp_yaw' and 'place_yaw': the hand so turned holds it alike and serves every waypoint"
+    if problem.place_yaw_rad is not None:
+        yaw = f"{math.degrees(problem.place_yaw_rad):.3g} deg"
+        return f"state 'place_yaw: {yaw}': the hand, and the object with it, so turned, the arm serves every waypoint"
+    turn = "turn the grasp or the place about the vertical"
+    if problem.is_yaw_stated:
+        turn = f"turn the tool about the vertical there ('{'place' if problem.is_at_place else 'grasp'}_yaw')"
     if problem.reason is not None and problem.reason.obstacle is Obstacle.ORIENTATION:
-        return "move it, turn the tool otherwise there, or change the task's heights"
+        return f"move it, {turn}, or change the task's heights"
     if problem.reason is None or problem.reason.obstacle is Obstacle.OUT_OF_REACH:
         return "move it nearer to the robot, or lower the task's heights"
+    if problem.reason.is_slide:
+        return "widen the joint's range in the robot's file, or move it or the robot's base by that much"
     if problem.reason.obstacle is Obstacle.JOINT_RANGE:
-        return "widen the joint's range in the robot's file, or turn the grasp or the place about the vertical"
+        return f"widen the joint's range in the robot's file, or {turn}"
     if problem.reason.obstacle is Obstacle.TILT:
         return "allow more tilt with 'largest_carry_tilt'"
     if problem.reason.obstacle is Obstacle.CLEARANCE:
         return "move one of them, or lower the study's clearance"
-    return "move one of them, or turn the grasp or the place about the vertical"
+    return f"move one of them, or {turn}"

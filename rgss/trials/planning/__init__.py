@@ -18,6 +18,6 @@ if TYPE_CHECKING:
         stops_of,
         waypoint_configurations,
     )
-    from rgss.trials.planning.turned_grasp import objects_served_turned
+    from rgss.trials.planning.turned_grasp import objects_served_turned, serving_place_yaw
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

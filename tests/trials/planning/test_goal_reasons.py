@@ -13,6 +13,7 @@ from rgss.scenes import Pose
 from rgss.studies.checks.scene_texts import remedy
 from rgss.trials.planning.direct_moves import _obstacle
 from rgss.trials.planning.goal_reasons import Obstacle, infeasibility_reason
+from rgss.trials.scene_check import SceneProblem, SceneProblemKind
 from tests.fixtures.serial_arms import SCARA, serial_robot
 
 LIMIT_RAD = math.radians(45.0)
@@ -79,11 +80,11 @@ NEAREST_M = math.hypot(0.35 + 0.25 * math.cos(2.9), 0.25 * math.sin(2.9))
 @pytest.mark.parametrize(
     ("x_m", "words", "hint"),
     [
-        (0.5, "the tool comes to this position in other orientations alone, ", "turn the tool otherwise there"),
+        (0.5, "the tool comes to this position in other orientations alone, ", "the vertical there ('grasp_yaw')"),
         (
             0.05,
             f"the tool comes no nearer to this position than {(NEAREST_M - 0.05) * 1e3:.0f} mm in any orientation, ",
-            "turn the tool otherwise there",
+            "turn the tool about the vertical there",
         ),
         (1.5, "out of reach: ", "move it nearer to the robot"),
     ],
@@ -98,4 +99,4 @@ def test_a_pose_that_nothing_reaches_is_named_with_what_is_measured(x_m, words, 
 
     told = f"{words}{from_m:.2f} m from the origin of the arm's first joint, reach {arm.reach_m:.2f} m from there "
     assert f"{told}with the gripper" in str(reason)
-    assert hint in remedy(SimpleNamespace(reason=reason, serves_turned=False))
+    assert hint in remedy(SceneProblem(kind=SceneProblemKind.UNSERVED, first="cup", is_yaw_stated=True, reason=reason))

@@ -43,6 +43,21 @@ def test_and_not_where_it_does_not(spec_of):
     assert not any(one.serves_turned for one in found)
 
 
+def test_the_yaw_at_the_place_that_serves_is_named(spec_of):
+    spec = spec_of(19)
+    yaws = {one.place_yaw_rad for one in problems(spec, -60.0, 60.0)}
+    assert len(yaws) == 1
+    (yaw_rad,) = yaws
+    assert yaw_rad is not None
+    hint = f"state 'place_yaw: {math.degrees(yaw_rad):.3g} deg'"
+    assert {remedy(one)[: len(hint)] for one in problems(spec, -60.0, 60.0)} == {hint}
+    assert problems(spec, -60.0, 60.0, place_yaw_rad=yaw_rad) == ()
+    # Where the grasp is in the way too, another yaw at the place does not help, and the key is named.
+    both = problems(spec, 100.0, 120.0)
+    assert {one.place_yaw_rad for one in both} == {None}
+    assert any("('grasp_yaw')" in remedy(one) for one in both)
+
+
 def test_three_fingers_hold_it_otherwise_when_turned(spec_of):
     spec = spec_of(5)
     assert spec.gripper.geometry.fingers == 3
