@@ -28,6 +28,12 @@ def failure_hint(record: TrialRecord, project: Project, controller: JointControl
             f"give the planner more time (what sets planning.time_limit in {study.design_space}), try another planner "
             f"there, lower planning.clearance in {study.label}, or move bodies apart in {study.scene}"
         )
+    if record.failure is Failure.OBJECT_DROPPED and " tilted by " in record.failure_detail:
+        return (
+            "the weight turns the object about the line between the pads, which the grip margin does not contain (rgss "
+            f"check does: scene.grip-load); grip it nearer to its centre of mass, in {study.scene}, or with more force "
+            f"or friction (what sets gripper.finger.force and gripper.finger.friction in {study.design_space})"
+        )
     if record.failure is Failure.TRACKING_ERROR:
         if "torque limit" in record.failure_detail:
             return (
