@@ -9,7 +9,7 @@ from rgss.physics import ContactWorld
 from rgss.scenes import ObjectPlacement, Pose, Scene, initial_placements, scene_about
 from rgss.tasks import HandAction, Stage, TaskProgram, stages_of
 from rgss.trials.object_checks import moved_by_itself
-from rgss.trials.present_object import with_object_named
+from rgss.trials.planning import with_object_named
 
 
 class TaskObjects:

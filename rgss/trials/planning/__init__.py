@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from rgss.trials.planning.planned_moves import PlannedMove, TaskPlan
     from rgss.trials.planning.planner_searches import searches_of
     from rgss.trials.planning.planning_costs import state_cost
+    from rgss.trials.planning.present_object import with_object_named
     from rgss.trials.planning.task_stops import (
         every_stop_is_feasible,
         infeasible_waypoints,

@@ -25,8 +25,8 @@ from rgss.tasks import MoveKind, MoveStep
 from rgss.trials.planning.direct_moves import direct_move
 from rgss.trials.planning.planned_moves import PlannedMove, TaskPlan
 from rgss.trials.planning.planning_costs import state_cost
+from rgss.trials.planning.present_object import with_object_named
 from rgss.trials.planning.task_stops import goal_pose_of, inverse_at, stops_of
-from rgss.trials.present_object import with_object_named
 from rgss.trials.reference import Array
 from rgss.trials.route import Leg
 from rgss.trials.settings import PlanningSettings

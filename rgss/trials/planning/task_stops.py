@@ -23,7 +23,7 @@ from rgss.scenes import Pose
 from rgss.tasks import MoveKind
 from rgss.trials.planning.direct_moves import move_obstacle
 from rgss.trials.planning.goal_reasons import GoalReason, infeasibility_reason
-from rgss.trials.present_object import with_object_named
+from rgss.trials.planning.present_object import with_object_named
 from rgss.trials.reference import Array
 from rgss.trials.route import Leg, Stop
 from rgss.trials.workcell import Workcell

@@ -8,7 +8,7 @@ import pytest
 
 from rgss.scenes import initial_placements
 from rgss.tasks import stages_of
-from rgss.trials.present_object import with_object_named
+from rgss.trials.planning import with_object_named
 from rgss.trials.task_objects import TaskObjects
 
 
