@@ -241,6 +241,8 @@ class _Places:
             hint = "let the task try more approaches, turn or move the object, or take another gripper"
             if problem.reason is not None:
                 hint = f"{remedy(problem)}; or {hint}"
+            elif grippers and serves:
+                severity, hint = Severity.INFO, OF_ONE_GRIPPER
         elif problem.kind is SceneProblemKind.CLOSING:
             message, hint = closing_texts(problem, grippers)
             severity = Severity.INFO if grippers else Severity.ERROR

@@ -5,8 +5,10 @@ from __future__ import annotations
 import pytest
 
 import rgss.trials
+from rgss.findings import Severity
 from rgss.studies.project import load_project
 from rgss.studies.scene_findings import check_scene
+from rgss.trials import SceneProblem, SceneProblemKind
 
 SCENE = "scenes/restaurant.yaml"
 
@@ -51,3 +53,17 @@ def test_grasps_are_searched_in_a_sound_scene(folder, edit, searched):
     edit(SCENE, "\ntask:\n", "\ntask:\n  grasp: automatic\n")
     assert check_scene(load_project(folder)).skipped == ""
     assert set(searched) == {"hand_step_problems", "reach_problems"}
+
+
+@pytest.mark.parametrize(("fingers", "severity"), [({2}, Severity.INFO), ({2, 3}, Severity.ERROR)])
+def test_a_hand_of_some_designs_that_no_candidate_fits_is_a_result(folder, edit, monkeypatch, fingers, severity):
+    def problems(scene, geometry, **_):
+        none = SceneProblem(kind=SceneProblemKind.NO_GRASP, first=scene.workpiece.id, detail="too narrow: 38")
+        return (none,) if geometry.fingers in fingers else ()
+
+    monkeypatch.setattr(rgss.trials, "hand_step_problems", lambda *_, **__: ())
+    monkeypatch.setattr(rgss.trials, "reach_problems", problems)
+    edit(SCENE, "\ntask:\n", "\ntask:\n  grasp: automatic\n")
+    found = [one for one in check_scene(load_project(folder)).findings if one.rule == "scene.no-grasp"]
+    assert {one.severity for one in found} == {severity}
+    assert ("designs with this gripper fail there" in found[0].hint) is (severity is Severity.INFO)
