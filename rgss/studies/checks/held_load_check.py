@@ -38,20 +38,37 @@ class _Failing:
         hand: What it leaves, with the variants, and the hint.
         load: What the hand bears, with the most that a variant bears.
         borne_1: That, divided by what it needs.
+        is_note: True if the object may be carried all the same.
     """
 
     includes: Callable[[HeldLoad], bool]
     hand: tuple[str, str]
     load: str
     borne_1: Callable[[HeldLoad], float]
+    is_note: bool = False
 
 
 _LIFT = "{one.factor:.3g} times its weight at most, and a lift at full acceleration takes {one.needed:.3g} times"
 _ASIDE = "{one.aside_1:.3g} times the load of a move aside at full acceleration at most"
+_FIRST = (
+    "{one.first_load:.3g} times its weight with the force of the grip and {one.factor:.3g} times once the hand has "
+    "tightened, and a lift at full acceleration takes {one.needed:.3g} times"
+)
+_TURNS = (
+    "turns, as its lift begins, between the pads of {variants}: they bear",
+    "it is carried tilted or dropped: grip it nearer to its centre of mass, or with more force or friction",
+)
 _WAYS = (
     _Failing(lambda one: not one.is_borne and not one.has_cup, _PADS, _LIFT, lambda one: one.factor / one.needed),
     _Failing(lambda one: not one.is_borne and one.has_cup, _CUP, _LIFT, lambda one: one.factor / one.needed),
     _Failing(lambda one: one.is_borne and not one.is_carried, _CUP, _ASIDE, lambda one: one.aside_1),
+    _Failing(
+        lambda one: one.is_borne and not one.is_borne_at_first,
+        _TURNS,
+        _FIRST,
+        lambda one: one.first_load / one.needed,
+        is_note=True,
+    ),
 )
 
 
@@ -75,7 +92,7 @@ def held_load_findings(project: Project, document: Document) -> Iterator[Finding
             stated = replace(spec, uncertainty=NOTHING_UNCERTAIN, workload=ONE_WORKLOAD)
             loads[alike] = tuple(held_loads(stated))
         for load in loads[alike]:
-            if not (load.is_borne and load.is_carried):
+            if not (load.is_borne and load.is_carried and load.is_borne_at_first):
                 unborne.setdefault(load.object, []).append((load, spec.variant))
     unborne_at_rest = unborne_objects(project)
     for index, object_ in enumerate(project.scene.objects):
@@ -95,6 +112,8 @@ def held_load_findings(project: Project, document: Document) -> Iterator[Finding
                 "scene.grip-load",
                 f"{name} {of_designs} {way.load.format(one=best)}",
                 mass_location(document, index),
-                severity=Severity.WARNING if is_of_all else Severity.INFO,
-                hint=hint if is_of_all else "these designs fail once it is lifted, and the others do not",
+                severity=Severity.WARNING if is_of_all and not way.is_note else Severity.INFO,
+                hint=hint
+                if is_of_all or way.is_note
+                else "these designs fail once it is lifted, and the others do not",
             )

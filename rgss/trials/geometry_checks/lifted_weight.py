@@ -25,10 +25,13 @@ from rgss.scenes import (
     unsealed,
 )
 from rgss.tasks import HandAction, stages_of
+from rgss.trials.hands import hand_of
 from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.workcell import cell_of, with_grasp_of
 
 _LINES = 8
+# A load factor below this share of that of friction alone is due to the torque of the weight.
+_TURNED = 0.95
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,6 +43,8 @@ class HeldLoad:
         factor: Greatest multiple of its weight that they bear with their whole force, as it rests.
         needed: Multiple with which a lift at the tool's full acceleration loads them.
         has_cup: True for a suction cup.
+        first_1: Share of the whole force with which the hand lifts an object that turns in it, before it tightens; 1 if
+            the weight does not turn the object, or the hand does not tighten.
         aside_1: Factor by which the load of a move aside at the tool's full acceleration could grow before it breaks
             the seal of a cup; infinite for fingers.
     """
@@ -48,12 +53,23 @@ class HeldLoad:
     factor: float
     needed: float
     has_cup: bool = False
+    first_1: float = 1.0
     aside_1: float = math.inf
 
     @property
     def is_borne(self) -> bool:
         """True if the lift leaves the object in place in the hand."""
         return self.factor >= self.needed
+
+    @property
+    def is_borne_at_first(self) -> bool:
+        """True if the force with which the lift begins leaves the object in place too."""
+        return self.first_load >= self.needed
+
+    @property
+    def first_load(self) -> float:
+        """Greatest multiple of the object's weight that the hand bears as the lift begins."""
+        return self.first_1 * self.factor
 
     @property
     def is_carried(self) -> bool:
@@ -84,7 +100,7 @@ def held_loads(spec: TrialSpec) -> Iterator[HeldLoad]:
             if not unsealed(spec.gripper.geometry, view):
                 yield _on_cup(load, spec.gripper, spec.gripper.suction, view)
         elif (factor := _factor(spec, view)) is not None:
-            yield replace(load, factor=factor)
+            yield replace(load, factor=factor, first_1=_first_share(spec, view, factor))
 
 
 def _factor(spec: TrialSpec, view: Scene) -> float | None:
@@ -104,6 +120,19 @@ def _factor(spec: TrialSpec, view: Scene) -> float | None:
         (x, y, z),
         finger_force_limit_n=spec.gripper.finger_force_n,
     )
+
+
+def _first_share(spec: TrialSpec, view: Scene, factor: float) -> float:
+    """Share of the whole force after the grip, which tightens until friction bears the weight without its torque."""
+    gripper, control = spec.gripper, spec.settings.control
+    friction_n = gripper.grip_coefficient(view.workpiece.friction) * gripper.finger_force_n * gripper.geometry.fingers
+    by_friction = friction_n / (view.workpiece.mass_kg * view.gravity_m_s2)
+    if not hand_of(gripper).has_force_feedback or factor > _TURNED * by_friction:
+        return 1.0
+    share = control.holding_share
+    while share * by_friction < 1.0 and share < 1.0:
+        share = min(1.0, share + control.tightening_share)
+    return share
 
 
 def _on_cup(load: HeldLoad, gripper: Gripper, suction: Suction, view: Scene) -> HeldLoad:
