@@ -92,7 +92,7 @@ def _contradicting_comparisons(model: TraceModel) -> Iterator[Violation]:
         # A quantity in a condition, such as 'If the force exceeds 10 N', is not a required value.
         start = response_start(requirement.text)
         for quantity in quantities_in(requirement.text):
-            in_condition = quantity.start < start or is_in_trailing_condition(requirement.text, quantity, start)
+            in_condition = quantity.start < start or is_in_trailing_condition(requirement.text, quantity.start, start)
             if in_condition or not same_dimension(quantity.unit, criterion.unit):
                 continue
             bound = bound_of(requirement.text, quantity) if _equal(quantity, criterion) else None

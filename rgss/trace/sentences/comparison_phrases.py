@@ -11,11 +11,14 @@ LOWER_BEFORE = (
     "at a minimum",
     "at least",
     "at minimum",
+    "at or above",
     "at the least",
     "at the very least",
     "beyond",
     "bigger than",
     "deeper than",
+    "equal or greater than",
+    "equal or more than",
     "equal to or above",
     "equal to or greater than",
     "equal to or higher than",
@@ -25,7 +28,9 @@ LOWER_BEFORE = (
     "exceed",
     "exceeding",
     "exceeds",
+    "farther away than",
     "farther than",
+    "further away than",
     "further than",
     "greater or equal",
     "greater or equal to",
@@ -35,6 +40,7 @@ LOWER_BEFORE = (
     "higher or equal to",
     "higher than",
     "higher than or equal to",
+    "hotter than",
     "in excess of",
     "larger or equal to",
     "larger than",
@@ -42,11 +48,13 @@ LOWER_BEFORE = (
     "later than",
     "longer than",
     "longer than or equal to",
+    "louder than",
     "min",
     "minimum",
     "minimum of",
     "more than",
     "more than or equal to",
+    "older than",
     "over",
     "stronger than",
     "surpass",
@@ -55,6 +63,7 @@ LOWER_BEFORE = (
     "taller than",
     "thicker than",
     "upwards of",
+    "warmer than",
     "wider than",
 )
 """Phrases before a number that the quantity may exceed."""
@@ -63,6 +72,7 @@ UPPER_BEFORE = (
     "at a maximum",
     "at maximum",
     "at most",
+    "at or below",
     "at the most",
     "at the very most",
     "below",
@@ -70,7 +80,11 @@ UPPER_BEFORE = (
     "bounded by",
     "capped at",
     "closer than",
+    "colder than",
+    "cooler than",
     "earlier than",
+    "equal or fewer than",
+    "equal or less than",
     "equal to or below",
     "equal to or fewer than",
     "equal to or less than",
@@ -93,6 +107,7 @@ UPPER_BEFORE = (
     "maximum of",
     "narrower than",
     "nearer than",
+    "quieter than",
     "restricted to",
     "shorter than",
     "shorter than or equal to",
@@ -100,12 +115,12 @@ UPPER_BEFORE = (
     "smaller or equal to",
     "smaller than",
     "smaller than or equal to",
+    "sooner than",
     "thinner than",
     "time limit of",
     "under",
-    "up to",
-    "up to and including",
     "within",
+    "younger than",
 )
 """Phrases before a number that the quantity must not exceed."""
 
@@ -156,6 +171,27 @@ UPPER_BEHIND = (
 )
 """Phrases behind a number that the quantity must not exceed."""
 
+UPPER_OF_A_TIME = ("faster than", "quicker than")
+"""Phrases before a number that a time must not exceed, and that a speed may exceed."""
+
+LOWER_OF_A_TIME = ("slower than",)
+"""Phrases before a number that a time may exceed, and that a speed must not exceed."""
+
+EITHER_BEFORE = ("better than", "down to", "up to", "up to and including", "worse than")
+"""Phrases that bound a number to a side which the measured quantity decides: 'lift up to 3 kg' asks for 3 kg."""
+
+EITHER_BEHIND = ("or better", "or worse")
+"""The same behind a number: of an accuracy ``or better`` is less, of a margin more."""
+
+BOUND_PHRASES = frozenset(
+    {*LOWER_BEFORE, *UPPER_BEFORE, *UPPER_OF_A_TIME, *LOWER_OF_A_TIME, *EITHER_BEFORE}
+    | {*LOWER_BEHIND, *UPPER_BEHIND, *EITHER_BEHIND}
+)
+"""Every phrase before or behind a number that bounds it, to whichever side."""
+
+STATES = ("active", "closed", "disabled", "enabled", "inactive", "locked", "off", "on", "open", "shut", "unlocked")
+"""Words behind which 'above' and 'below' say when something is in a state: 'stay closed below 8 bar'."""
+
 SIGNS: Mapping[str, bool] = MappingProxyType(
     {">=": True, "=>": True, "≥": True, "≧": True, "⩾": True, ">": True}
     | {"<=": False, "=<": False, "≤": False, "≦": False, "⩽": False, "<": False}
@@ -176,24 +212,35 @@ BETWEEN = (
     "circumstances",
     "condition",
     "conditions",
+    "decrease",
+    "decreasing",
     "drop",
     "dropping",
-    "ever",
     "event",
+    "ever",
     "fall",
     "falling",
     "get",
     "getting",
     "go",
     "going",
+    "grow",
+    "growing",
     "in",
+    "increase",
+    "increasing",
     "last",
     "moment",
+    "move",
     "permitted",
     "point",
+    "raised",
     "reach",
+    "reduced",
     "rise",
     "rising",
+    "sink",
+    "sinking",
     "take",
     "time",
     "to",
@@ -219,7 +266,18 @@ HOLDING = (
 )
 """Verbs behind a negator whose object is the bounded quantity: 'not have a mass exceeding'."""
 
-GERUNDS = ("dropping", "exceeding", "falling", "getting", "going", "rising", "surpassing")
+GERUNDS = (
+    "decreasing",
+    "dropping",
+    "exceeding",
+    "falling",
+    "getting",
+    "going",
+    "increasing",
+    "rising",
+    "sinking",
+    "surpassing",
+)
 """Words behind a 'from' that forbids: 'keep the force from exceeding'."""
 
 CLAUSE_OPENINGS = ("and", "but", "or", "so", "that", "then", "where", "which", "who", "whose")

@@ -20,6 +20,12 @@ _THEN = re.compile(r"(?P<condition>if\b.*\S)\s+(?P<rest>then\b.*)", re.IGNORECAS
 _TOKEN = re.compile(r"[^\W_]+(?:['’\-][^\W_]+)*")
 # "shall: a) stop; b) open", whose verbs are in the list.
 _LIST_MARK = re.compile(r"[:\s]*(?:[-•*]|\(?(?:[a-z]|[ivx]+|\d+)[).])\s+", re.IGNORECASE)
+# "shall at all times report", "shall, upon loss of power, engage", where the verb follows.
+_ADVERBIAL = re.compile(
+    r"\s*(?:,[^,]+,|(?:at\s+(?:all\s+times|any\s+time|no\s+(?:time|point(?:\s+in\s+time)?)|a\s+minimum|least)|by\s+default|"
+    r"in\s+(?:addition|(?:all|any|each|every|no)\s+(?:cases?|events?|modes?|states?)))\b,?)\s+(?=\w)",
+    re.IGNORECASE,
+)
 _SHALL = re.compile(r"\bshall\b", re.IGNORECASE)
 _QUOTED = re.compile(r"\"[^\"]*\"|“[^”]*”|`[^`]*`")
 # A full stop ends a sentence if a capital follows and it belongs to no abbreviation.
@@ -235,6 +241,8 @@ def _without_shall(tokens: tuple[Token, ...]) -> str:
 
 
 def _flaw_of_response(response: str) -> str:
+    adverbial = _ADVERBIAL.match(response)
+    response = response[adverbial.end() :] if adverbial is not None else response
     first = _first_word(_LIST_MARK.sub("", response, count=1) if _LIST_MARK.match(response) else response)
     if not first:
         return "says nothing after 'shall'"

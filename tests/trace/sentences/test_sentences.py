@@ -13,6 +13,9 @@ from rgss.trace.sentences.terms import TermList
     ("text", "pattern", "kinds", "subject", "response"),
     [
         ("The gripper shall open.", "ubiquitous", [], "The gripper", "open."),
+        ("The arm shall at all times stay.", "ubiquitous", [], "The arm", "at all times stay."),
+        ("The arm shall, on loss of power, stop.", "ubiquitous", [], "The arm", ", on loss of power, stop."),
+        ("The force shall in no case exceed 5 N.", "ubiquitous", [], "The force", "in no case exceed 5 N."),
         ("Each finger joint shall stay closed.", "ubiquitous", [], "Each finger joint", "stay closed."),
         ("While it rains, the arm shall stay.", "state", ["while"], "the arm", "stay."),
         ("When a cup is seen, the arm shall stop.", "event", ["when"], "the arm", "stop."),
@@ -52,6 +55,8 @@ def test_patterns_are_recognised(text, pattern, kinds, subject, response):
         ("When a cup is seen, the shall stop.", "has no subject before 'shall'"),
         ("If a cup slips, then the shall stop.", "has no subject before 'shall'"),
         ("Upon a, when b the gripper shall close.", "has no comma between its last condition and its subject"),
+        ("The arm shall at all times.", "has no verb after 'shall', but 'at'"),
+        ("The arm shall, on loss of power, the brake.", "has no verb after 'shall', but 'the'"),
         ("The arm shall: the cup.", "has no verb after 'shall', but 'the'"),
     ],
 )

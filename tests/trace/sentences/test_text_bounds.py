@@ -84,6 +84,16 @@ def test_signs(sign, is_lower, space):
         ("The slip shall stay within the 5 mm.", False),
         ("The cell shall keep 5 kg, or less, in store.", False),
         ("The cell shall keep max. 5 kg in store.", False),
+        ("The tool shall move no faster than 250 mm/s.", False),
+        ("The tool shall not move faster than 250 mm/s.", False),
+        ("The tool shall move faster than 250 mm/s.", True),
+        ("The tool shall be no slower than 250 mm/s.", True),
+        ("The valve shall close faster than 20 ms.", False),
+        ("The valve shall be no slower than 20 ms.", False),
+        ("The surface shall not become hotter than 48 degC.", False),
+        ("The error shall stay within ± 5 mm.", False),
+        ("The grip force shall not decrease below 5 N.", True),
+        ("The pressure shall stay below 8 bar.", False),
     ],
 )
 def test_phrases_as_they_are_written(sentence, is_lower):
@@ -100,6 +110,14 @@ def test_phrases_as_they_are_written(sentence, is_lower):
         "The arm shall wait for 5 s.",
         "The arm shall lift, above the table, a load of 5 kg.",
         "The gripper shall exceed the other one, and lift 5 kg.",
+        "The gripper shall lift up to 5 kg.",
+        "The gripper shall carry cups of up to and including 5 kg.",
+        "The cell shall work at temperatures down to -10 degC.",
+        "The jitter shall be no worse than 5 ms.",
+        "The margin shall be 50 % or better.",
+        "The accuracy shall be better than 0.5 mm.",
+        "The valve shall stay closed below 8 bar.",
+        "The compressor shall switch off above 8 bar.",
     ],
 )
 def test_numbers_that_are_no_bounds(sentence):
@@ -125,6 +143,11 @@ def test_what_stands_behind_one_number_may_be_about_the_next():
         ("The gripper shall avoid exceeding 5 N.", False),
         ("The gripper shall not have a mass exceeding 5 kg.", False),
         ("No finger shall exceed 5 N.", False),
+        ("No contact force shall be greater than 5 N.", False),
+        ("None of the fingers shall exert more than 5 N.", False),
+        ("Neither finger shall exert less than 5 N.", True),
+        ("The gripper shall at no point in time exert more than 5 N.", False),
+        ("The gripper shall under no circumstances apply a force greater than 5 N.", False),
         ("The gripper shall not slip, and exceed 5 N.", True),
     ],
 )
@@ -137,6 +160,7 @@ def test_distant_negators(sentence, is_lower):
 
 def test_a_negator_that_may_be_about_something_else_leaves_the_side_open():
     assert only_bound("The robot shall not drop cups of more than 5 N.") is None
+    assert only_bound("No finger shall touch cups of more than 5 N.") is None
 
 
 def test_both_ends_of_a_range():

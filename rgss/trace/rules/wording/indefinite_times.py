@@ -43,7 +43,9 @@ _PLACE_AFTER = re.compile(
     r"(?=\s*(?:[.,;:)]|$)|\s+(?:and|at|by|for|in|of|on|or|to|when|while|with|within)\b)",
     re.IGNORECASE,
 )
-_TIME_GIVEN = re.compile(r"\d\s?(?:ns|us|µs|ms|s|sec|seconds?|min|minutes?|h|hours?|d|days?)\b")
+_TIME_GIVEN = re.compile(r"\d\s?(?:ns|us|µs|ms|s|sec|seconds?|min|minutes?|h|hours?|d|days?|weeks?|months?|years?)\b")
+# "after 3 invalid samples"
+_NUMBER_AFTER = re.compile(r"\s+(?:at\s+(?:least|most)\s+)?\d")
 
 
 def _indefinite_time(sentence: Sentence, terms: TermList, _: Worded) -> Iterator[Flaw]:
@@ -53,10 +55,15 @@ def _indefinite_time(sentence: Sentence, terms: TermList, _: Worded) -> Iterator
     found = listed(
         match
         for match in terms.find(sentence, start=sentence.response_start)
-        if not (is_timed and match.term in _SEQUENCE_WORDS) and not _is_no_time(sentence, match)
+        if not (match.term in _SEQUENCE_WORDS and (is_timed or _is_counted(sentence, match)))
+        and not _is_no_time(sentence, match)
     )
     if found:
         yield Flaw(message=f"says {found}, which sets no time", hint="say within which time of which event")
+
+
+def _is_counted(sentence: Sentence, match: Match) -> bool:
+    return _NUMBER_AFTER.match(sentence.text, sentence.tokens[match.after - 1].end) is not None
 
 
 def _is_no_time(sentence: Sentence, match: Match) -> bool:
@@ -103,6 +110,8 @@ RULES: tuple[SentenceRule, ...] = (
         passing=(
             "The arm shall stop within 2 s after the alarm.",
             "The cell shall report once per day.",
+            "The cell shall report a fault after 3 invalid samples.",
+            "The supplier shall deliver the arm at least 4 weeks before the start.",
             "The arm shall stop before the shelf.",
             "The arm shall stop at least 50 mm before the end of travel.",
             "The cell shall report the counters in Time Services telemetry.",

@@ -39,16 +39,21 @@ def _without_target(sentence: Sentence, terms: TermList, element: Worded) -> Ite
     if terms.is_absent(sentence):
         return
     matches = terms.find(sentence, start=sentence.response_start)
-    found = listed(match for match in matches if not _is_named_extreme(sentence, match))
+    found = listed(match for match in matches if not _is_named(sentence, match))
     if found and not any(quantity.start >= sentence.response_start for quantity in sentence.quantities):
         yield Flaw(message=f"says {found}, but sets no target", hint="give a number to measure by, or a criterion")
 
 
-def _is_named_extreme(sentence: Sentence, match: Match) -> bool:
-    """'the maximum rate' is the name of a quantity; 'maximum uptime' is as much of it as there can be."""
+def _is_named(sentence: Sentence, match: Match) -> bool:
+    """'the maximum rate' is the name of a quantity; 'maximum uptime' is as much of it as there can be.
+
+    Of 'IP54 or better' the class before it is the target.
+    """
+    tokens = sentence.tokens
+    if match.term == "better":
+        return match.first > 0 and tokens[match.first - 1].word == "or"
     if match.term not in _EXTREMES:
         return False
-    tokens = sentence.tokens
     is_bound = match.after < len(tokens) and tokens[match.after].word == "of"
     return is_bound or match.first == 0 or tokens[match.first - 1].word not in _EXTREMES_AFTER
 
@@ -76,10 +81,12 @@ RULES: tuple[SentenceRule, ...] = (
             "The cell shall minimise the cost of a task.",
             "The gripper shall close smoothly.",
             "The planner shall find the optimal path.",
+            "The planner shall find better paths.",
         ),
         passing=(
             "The message shall include the maximum number of resets.",
             "The arm shall have a maximum speed of 2 m/s.",
+            "The cell shall have a protection class of IP54 or better.",
             "The script shall accept a maximum of 3 studies.",
         ),
     ),

@@ -12,20 +12,18 @@ from rgss.findings import Severity
 from rgss.trace.rules.rule import Flaw, SentenceRule, Worded
 from rgss.trace.rules.wording.units_of_numbers import FUNCTION_WORDS
 from rgss.trace.sentences import (
-    LOWER_BEFORE,
-    LOWER_BEHIND,
-    UPPER_BEFORE,
-    UPPER_BEHIND,
+    BOUND_PHRASES,
     Sentence,
     TermList,
     TextQuantity,
+    is_in_trailing_condition,
     phrases,
 )
 
 _OTHER_BOUNDS = phrases("""
-    accuracy, between, confidence, every, from, limit, or better, plus or minus, range, tolerance
+    accuracy, between, confidence, every, from, limit, plus or minus, range, tolerance
 """)
-_BOUNDS = tuple(sorted({*LOWER_BEFORE, *UPPER_BEFORE, *LOWER_BEHIND, *UPPER_BEHIND, *_OTHER_BOUNDS}))
+_BOUNDS = tuple(sorted({*BOUND_PHRASES, *_OTHER_BOUNDS}))
 _SIGN_OF_BOUND = re.compile(r"[±≤≥⩽⩾≦≧<>–]|\+/-|\d\s?[A-Za-z°%µ/^*]{0,10}\sto\s[+-]?\d")
 # "a 0.2 kg cup" names a cup; "lift 0.2 kg" sets a target.
 _ATTRIBUTE = re.compile(r"\s+(?P<word>[A-Za-z]+)")
@@ -38,7 +36,10 @@ def _without_tolerance(sentence: Sentence, terms: TermList, _: Worded) -> Iterat
     exact = [
         quantity
         for quantity in sentence.quantities
-        if quantity.unit != "1" and quantity.start >= start and not _is_attribute(sentence, quantity)
+        if quantity.unit != "1"
+        and quantity.start >= start
+        and not _is_attribute(sentence, quantity)
+        and not is_in_trailing_condition(sentence.text, quantity.start, start)
     ]
     if exact:
         numbers = ", ".join(repr(quantity.text) for quantity in exact)
@@ -87,6 +88,10 @@ RULES: tuple[SentenceRule, ...] = (
             "The pump shall deliver between 2 and 3 litres per minute.",
             "The tower shall withstand a wind speed of at least 50 m/s.",
             "The archive shall store each record for at least 10 years.",
+            "The leak rate shall be no worse than 3 mm/s.",
+            "The arm shall move faster than 1 m/s.",
+            "The cell shall work at temperatures down to -10 degC.",
+            "The controller shall reset if no command arrives for 1 s.",
         ),
     ),
 )

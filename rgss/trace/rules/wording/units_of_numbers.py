@@ -16,8 +16,10 @@ from rgss.trace.rules.rule import Flaw, SentenceRule, Worded
 from rgss.trace.sentences import Sentence, TermList, TextQuantity, phrases, words_of
 
 _PURE_NUMBERS = phrases("""
-    coefficient, coefficients, count, exponent, factor, fraction, gain, index, number, order, probability,
-    proportion, quotient, rank, rate, ratio, score, seed, share, value
+    absorptivity, albedo, availability, coefficient, coefficients, confidence, count, duty cycle, efficiency,
+    emissivity, exponent, factor, fraction, gain, index, likelihood, Mach, number, order, permittivity, pH,
+    probability, proportion, quotient, rank, rate, ratio, recall, reflectivity, reliability, score, seed, sensitivity,
+    share, specificity, transmittance, utilisation, utilization, value
 """)
 # "3 fingers" is a count; "a mass of 3 for each" and "3." are not.
 _COUNTED = re.compile(r"(?:\s+|-)(?P<word>[A-Za-z][A-Za-z-]*)")
@@ -53,6 +55,9 @@ _RANGE = re.compile(
 _IN_WORDS = re.compile(
     rf"\b(?:an?\s+(?={_LARGE}))?{_NUMBER_WORD}(?:(?:[\s-]|\s+and\s+)(?:one|{_NUMBER_WORD}))*\b", re.IGNORECASE
 )
+# "(1) the mode, (2) the voltage" are the marks of a list, "three (3) fingers" repeats a number, "[2]" is a reference.
+_OPENING_OF_A_MARK = re.compile(r"[(\[]$|(?:^|[\s:;,])$")
+_MARK = re.compile(r"\s*[)\]]")
 _YEAR = re.compile(r"(?:19|20)\d\d")
 
 
@@ -77,6 +82,8 @@ def _without_unit(sentence: Sentence, terms: TermList, element: Worded) -> Itera
 def _needs_no_unit(sentence: Sentence, start: int, end: int) -> bool:
     """True if a number from one place of a sentence to another is a name, counts something, or is a part of one."""
     text = sentence.text
+    if _is_mark(text, start, end):
+        return True
     if _RANGE.match(text, end) or _YEAR.fullmatch(text, start, end) or _PART.match(text, end):
         return True
     count = bisect_right(sentence.tokens, start, key=lambda token: token.end)
@@ -86,6 +93,13 @@ def _needs_no_unit(sentence: Sentence, start: int, end: int) -> bool:
             return True
     counted = _COUNTED.match(text, end)
     return counted is not None and counted["word"].lower() not in FUNCTION_WORDS
+
+
+def _is_mark(text: str, start: int, end: int) -> bool:
+    if _MARK.match(text, end) is None or (opening := _OPENING_OF_A_MARK.search(text, 0, start)) is None:
+        return False
+    # "1) the mode", where no bracket is open.
+    return opening[0] in ("(", "[") or text.count("(", 0, start) <= text.count(")", 0, start)
 
 
 def _is_threshold(quantity: TextQuantity, element: Worded) -> bool:
@@ -117,6 +131,8 @@ RULES: tuple[SentenceRule, ...] = (
             "The RGSS shall succeed in 95 out of 100.",
             "The gripper shall weigh at most ten.",
             "The arm shall stop in less than twenty-five.",
+            "The gripper shall weigh at most 3 (as before).",
+            "The gripper shall weigh (with cable at most 3) little.",
         ),
         passing=(
             "The cell shall fit on a table of at most 2 × 3 m.",
@@ -144,6 +160,11 @@ RULES: tuple[SentenceRule, ...] = (
             "The contact shall have a friction coefficient of at least 0.5.",
             "The screw shall have a gear ratio of 3 to 1.",
             "The trial shall end with one of the outcomes in table 4.",
+            "The cell shall report (1) the mode, (2) the state of the heater.",
+            "The cell shall report, in this order: 1) the mode, 2) the state of the heater.",
+            "The pump shall have a reliability of at least 0.98.",
+            "The charger shall have an efficiency of at least 0.94.",
+            "The detector shall have a sensitivity of at least 0.99.",
         ),
     ),
 )
