@@ -36,12 +36,15 @@ class Power:
         seeds: The seeds at the last look.
         seeds_needed: The least seeds with a power of `TARGET` at the last look; None if that takes more than
             `MOST_SEEDS`.
+        detectable: The least loss of a mean that is found with a power of `TARGET` by these seeds, in the metric's
+            unit; None for a success, and where no loss is.
     """
 
     loss: float
     probability: float
     seeds: int
     seeds_needed: int | None
+    detectable: float | None = None
 
 
 def powers(
@@ -147,17 +150,41 @@ def _of_mean(
     # Two independent draws differ with twice the variance of one.
     spread = max(math.sqrt(2.0) * float(np.std(rows, ddof=1)), LEAST_SPREAD * margin)
 
-    def power(count: int) -> float:
-        return mean_power((MEAN_LOSS - 1.0) * margin, spread, count, levels[-1] * share)
+    def power(count: int, beyond: float = (MEAN_LOSS - 1.0) * margin) -> float:
+        return mean_power(beyond, spread, count, levels[-1] * share)
 
     # A loss beyond the margin may be called the same at an earlier look, with at most the part of that look.
     called_same = math.fsum(levels[:-1])
+    beyond = _least_found(lambda size: power(seeds[-1], size) - called_same, spread)
     return Power(
         loss=MEAN_LOSS * margin,
         probability=max(0.0, power(seeds[-1]) - called_same),
         seeds=seeds[-1],
         seeds_needed=_least(power),
+        detectable=None if beyond is None else margin + beyond,
     )
+
+
+def _least_found(power: Callable[[float], float], spread: float) -> float | None:
+    """How far beyond its margin a mean must be to be found with the wanted power, by bisection.
+
+    Args:
+        power: The power by the distance from the margin, increasing.
+        spread: Standard deviation of the differences.
+
+    Returns:
+        The distance to a thousandth; None if a hundred standard deviations are not enough.
+    """
+    low, high = 0.0, 100.0 * spread
+    if power(high) < TARGET:
+        return None
+    while high - low > 1e-3 * high:
+        middle = 0.5 * (low + high)
+        if power(middle) >= TARGET:
+            high = middle
+        else:
+            low = middle
+    return high
 
 
 def mean_power(beyond: float, spread: float, seeds: int, level: float) -> float:

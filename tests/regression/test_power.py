@@ -128,6 +128,26 @@ def test_what_cannot_be_lost_or_told_has_no_power(candidate):
     assert powers([failing, alone, unknown], {"r": [8]}, error_rate=0.05) == {}
 
 
+@pytest.mark.parametrize("looks", [(24,), (8, 24)])
+def test_the_detectable_loss_is_found_as_often_as_stated(candidate, looks):
+    """Independent draws on both sides, worse by that much: the formula knows the spread of the baseline alone."""
+    baseline = np.random.default_rng(3).normal(size=24)
+    one = candidate(baseline.tolist(), baseline.tolist(), margin=0.8)
+    (power,) = powers([one], {"r": looks}, error_rate=0.05).values()
+    spread, last, before = float(np.std(baseline, ddof=1)) * 2.0**0.5, 0.05, 0.0
+    if len(looks) > 1:
+        last, before = 0.0375, 0.0125
+    reached = mean_power(power.detectable - 0.8, spread, 24, last * 0.8) - before
+    assert reached == pytest.approx(TARGET, abs=0.003)
+    assert power.detectable > power.loss
+
+
+def test_the_detectable_loss_of_quiet_values_is_just_beyond_the_margin(candidate):
+    still = candidate([2.0] * 24, [2.0] * 24, margin=0.8)
+    (power,) = powers([still], {"r": [24]}, error_rate=0.05).values()
+    assert 0.8 < power.detectable < 0.81
+
+
 def test_without_noise_any_loss_is_found(candidate):
     still = candidate([2.0] * 6, [2.0] * 6)
     (power,) = powers([still], {"r": [6]}, error_rate=0.05).values()

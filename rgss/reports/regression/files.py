@@ -178,6 +178,7 @@ def _comparison(one: Comparison, power: Power | None) -> dict[str, Any]:
             "seeds": power.seeds,
             "target": TARGET,
             "seeds_needed": power.seeds_needed,
+            "detectable": power.detectable,
         },
     }
 

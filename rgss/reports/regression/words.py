@@ -142,6 +142,8 @@ def power_text(power: Power, guard: Guard) -> str:
     loss = f"{power.loss:.0%}" if guard.is_success else quantity(power.loss, guard.unit)
     size = f"a loss of {loss}" if guard.is_success else f"a change by {loss}, {MEAN_LOSS:g} times the margin,"
     needed = f"more than {MOST_SEEDS}" if power.seeds_needed is None else str(power.seeds_needed)
+    if power.detectable is not None:
+        needed += f", or a change by {quantity(power.detectable, guard.unit)}"
     return (
         f"{size} is found with a probability of at least {power.probability:.0%} with up to {power.seeds} seeds; "
         f"{TARGET:.0%} takes {needed}"

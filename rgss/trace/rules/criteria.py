@@ -179,7 +179,7 @@ RULES: tuple[ModelRule, ...] = (
         severity=Severity.ERROR,
         explanation=(
             "Where a requirement's text bounds the threshold in words, such as 'at least', the criterion bounds it on "
-            "the same side."
+            "the same side. Words whose side depends on the quantity, such as 'up to' and 'or better', are passed over."
         ),
         check=_contradicting_comparisons,
     ),

@@ -68,7 +68,7 @@ def report():
         inputs=INPUTS,
         powers={
             Subject(run="contact", metric="slip_m", phase="lift"): Power(
-                loss=0.004, probability=0.31, seeds=12, seeds_needed=38
+                loss=0.004, probability=0.31, seeds=12, seeds_needed=38, detectable=0.0062
             ),
             Subject(run="contact", metric="slip_m", phase="grasp"): Power(
                 loss=0.004, probability=0.91, seeds=12, seeds_needed=9
@@ -114,7 +114,7 @@ def test_one_line_for_each_finding_that_names_metric_and_phase(report):
         "note: decision: variant 3 left the Pareto front; within the noise",
         (
             "power: slip_m at lift (run contact): a change by 0.004 m, 2 times the margin, is found with a "
-            "probability of at least 31% with up to 12 seeds; 80% takes 38"
+            "probability of at least 31% with up to 12 seeds; 80% takes 38, or a change by 0.0062 m"
         ),
     ]
     everything = list(report_lines(report, everything=True))
@@ -216,7 +216,14 @@ def test_as_json(report):
         "look": 1,
         "identical": False,
         "p_values": {"worse": 0.001, "better": 1.0, "same": 0.9},
-        "power": {"loss": 0.004, "probability": 0.31, "seeds": 12, "target": 0.8, "seeds_needed": 38},
+        "power": {
+            "loss": 0.004,
+            "probability": 0.31,
+            "seeds": 12,
+            "target": 0.8,
+            "seeds_needed": 38,
+            "detectable": 0.0062,
+        },
     }
     assert document["comparisons"][2]["power"] is None
     assert (document["changed"], document["accepted"]) == (True, "")
