@@ -22,7 +22,7 @@ from rgss.evidence.records import is_digest
 from rgss.evidence.store import error_of
 from rgss.measures import Verdict
 
-FILE = ".rgss/verdicts.json"
+VERDICT_FILE = ".rgss/verdicts.json"
 """The record, relative to the project; it is beside the evidence, to which it belongs."""
 
 SCHEMA_VERSION = 1
@@ -92,23 +92,25 @@ def read_record(folder: Path) -> VerdictRecord:
     Raises:
         EvidenceError: The file is damaged or was written by another version.
     """
-    path = folder / FILE
+    path = folder / VERDICT_FILE
     try:
         with path.open("rb") as file:
             content = file.read(LARGEST_FILE_BYTES + 1)
     except FileNotFoundError:
         return VerdictRecord()
     except OSError as error:
-        raise EvidenceError(f"{FILE} cannot be read: {error.strerror}", hint="check its permissions") from error
+        raise EvidenceError(f"{VERDICT_FILE} cannot be read: {error.strerror}", hint="check its permissions") from error
     if len(content) > LARGEST_FILE_BYTES:
-        raise EvidenceError(f"{FILE} is too large", hint=_HINT)
+        raise EvidenceError(f"{VERDICT_FILE} is too large", hint=_HINT)
     try:
         data = json.loads(content)
         if data["schema"] != SCHEMA_VERSION:
-            raise EvidenceError(f"{FILE} has schema {data['schema']!r}; this rgss reads {SCHEMA_VERSION}", hint=_HINT)
+            raise EvidenceError(
+                f"{VERDICT_FILE} has schema {data['schema']!r}; this rgss reads {SCHEMA_VERSION}", hint=_HINT
+            )
         studies = {str(key): _book(book) for key, book in data["studies"].items()}
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
-        raise EvidenceError(f"{FILE} is not a record of verdicts", hint=_HINT) from error
+        raise EvidenceError(f"{VERDICT_FILE} is not a record of verdicts", hint=_HINT) from error
     return VerdictRecord(studies=MappingProxyType(studies))
 
 
@@ -125,7 +127,7 @@ def write_record(folder: Path, record: VerdictRecord) -> Path:
     Raises:
         EvidenceError: The file cannot be written.
     """
-    path = folder / FILE
+    path = folder / VERDICT_FILE
     data = {"schema": SCHEMA_VERSION, "studies": {key: _plain(book) for key, book in record.studies.items()}}
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -134,7 +136,7 @@ def write_record(folder: Path, record: VerdictRecord) -> Path:
     except OSError as error:
         kind = error_of(error)
         hint = "free some space, or check the disk" if kind is StorageError else "check the folder"
-        raise kind(f"{FILE} cannot be written: {error.strerror}", hint=hint) from error
+        raise kind(f"{VERDICT_FILE} cannot be written: {error.strerror}", hint=hint) from error
     return path
 
 

@@ -47,8 +47,7 @@ def study_application(observer: StudyObserver, page: str, replays: TrialReplays)
         return HTMLResponse(page, headers={**_HEADERS, "Content-Security-Policy": policy})
 
     async def show_state(request: Any) -> Any:
-        seen = request.query_params.get("seen", "")
-        state = observer.state(seen=int(seen) if seen.isdecimal() and len(seen) < 10 else -1)
+        state = observer.state(seen=request.query_params.get("seen", ""))
         return JSONResponse(state, headers={**_HEADERS, "Content-Security-Policy": _POLICY})
 
     async def show_replay(request: Any) -> Any:

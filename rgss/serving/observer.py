@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
+import secrets
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-from rgss.assessment import VariantMeasures, failed_verifications, read_record
+from rgss.assessment import VERDICT_FILE, VariantMeasures, failed_verifications, read_record
 from rgss.decision import ScreeningResult, measure_survivors
 from rgss.decision.study_decision import StudyDecision, decide_study
 from rgss.errors import DocumentError, RgssError
@@ -19,6 +21,7 @@ from rgss.serving.ending_thread import EndingThread
 from rgss.serving.pace import Pace
 from rgss.serving.replays import can_replay
 from rgss.studies import FOLDERS, Project
+from rgss.trace.evidence import JUNIT_FILE
 
 _PAUSE_PER_WORK = 3.0
 """Seconds of rest for each second of work, so that a concurrent sweep keeps its cores."""
@@ -42,8 +45,10 @@ class StudyObserver:
         self._files: object = None
         self._seen: object = None
         self._pace = Pace()
+        # A page may outlive its server; a state of the next one must not pass for one that the page has.
+        self._versions = (f"{secrets.token_hex(4)}-{count}" for count in itertools.count())
         self._state: dict[str, Any] = {
-            "version": 0,
+            "version": next(self._versions),
             "sentence": "The evidence is being read for the first time.",
             "problem": "",
             "study": None,
@@ -69,11 +74,12 @@ class StudyObserver:
         found = self._project
         return self._load() if found is None else found
 
-    def state(self, *, seen: int = -1) -> dict[str, Any]:
+    def state(self, *, seen: str = "") -> dict[str, Any]:
         """The last state that was read; requests an update without waiting for it.
 
         Args:
-            seen: The version that the caller has; for the same version the study is omitted.
+            seen: The version that the caller has, of this server or of an earlier one; for the present version the
+                study is omitted.
         """
         self._wanted.set()
         with self._lock:
@@ -85,7 +91,7 @@ class StudyObserver:
     def look(self) -> None:
         """Read files and evidence if they changed since the last look."""
         files = _files_state(self._folder)
-        now = (files, state_of(self._evidence))
+        now = (files, state_of(self._evidence), _results_state(self._folder))
         if now == self._seen:
             return
         study, problem = None, ""
@@ -104,10 +110,12 @@ class StudyObserver:
         except (OSError, ValueError) as error:
             # A file was replaced while it was read; the next look reads it again.
             problem = f"The project cannot be read: {error}"
+        except Exception as error:  # noqa: BLE001, RUF100 - the thread must go on, and the page say why it has no study
+            problem = f"The study cannot be shown: {type(error).__name__}: {error}"
         clock = time.strftime("%H:%M:%S")
         with self._lock:
             self._state = {
-                "version": self._state["version"] + 1,
+                "version": next(self._versions),
                 "sentence": f"As of {clock}: {study['progress']['sentence']}" if study else f"As of {clock}.",
                 "problem": problem,
                 "study": study,
@@ -154,12 +162,20 @@ class StudyObserver:
 
 def _files_state(folder: Path) -> tuple[tuple[str, int, int], ...]:
     """Name, size and time of change of the project's files."""
+    return _states(path for name in FOLDERS for path in (folder / name).rglob("*"))
+
+
+def _results_state(folder: Path) -> tuple[tuple[str, int, int], ...]:
+    """The same of the results beside the evidence: a sweep records its verdicts after its last trial."""
+    return _states(folder / name for name in (VERDICT_FILE, JUNIT_FILE))
+
+
+def _states(paths: Iterable[Path]) -> tuple[tuple[str, int, int], ...]:
     found = []
-    for name in FOLDERS:
-        for path in (folder / name).rglob("*"):
-            try:
-                state = path.stat()
-            except OSError:
-                continue
-            found.append((str(path), state.st_size, state.st_mtime_ns))
+    for path in paths:
+        try:
+            state = path.stat()
+        except OSError:
+            continue
+        found.append((str(path), state.st_size, state.st_mtime_ns))
     return tuple(sorted(found))

@@ -13,8 +13,10 @@ import urllib.request
 import pytest
 from starlette.testclient import TestClient
 
+from rgss.assessment import record_verdicts
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore, Provenance
+from rgss.evidence.store import observed
 from rgss.reports.live import live_page_to_html
 from rgss.serving import StudyObserver, TrialReplays, listen, require_server, study_application
 from rgss.serving.pace import Pace
@@ -134,6 +136,40 @@ def test_a_mistake_in_the_project_is_shown_until_it_is_mended(observer, sweep, p
     assert observer.state()["study"]["progress"]["done"] == 2
 
 
+def test_a_page_of_an_earlier_server_gets_the_study_again(observer, sweep, project):
+    sweep({1})
+    observer.look()
+    later = StudyObserver(project.folder, lambda: project, evidence=project.evidence, label="the evidence")
+    later.look()
+    assert later.state(seen=observer.state()["version"])["study"] == later.state()["study"] is not None
+
+
+def test_verdicts_that_are_recorded_after_the_last_trial_are_read(observer, sweep, project):
+    sweep({1})
+    observer.look()
+    before = observer.state()["version"]
+    observed(project.evidence, lambda store: record_verdicts(project, store), label="the evidence")
+    observer.look()
+    assert observer.state()["version"] != before
+
+
+def test_an_unforeseen_error_is_shown_and_the_next_change_is_read(observer, sweep, monkeypatch):
+    sweep({1})
+
+    def break_off(*_, **__):
+        raise KeyError("P_max")
+
+    with monkeypatch.context() as broken:
+        broken.setattr("rgss.serving.observer.live_study_document", break_off)
+        observer.look()
+    assert observer.state()["problem"] == "The study cannot be shown: KeyError: 'P_max'"
+    assert observer.state()["study"] is None
+    sweep({2})
+    observer.look()
+    assert observer.state()["problem"] == ""
+    assert observer.state()["study"]["progress"]["done"] == 4
+
+
 def test_routes(client):
     page = client.get("/")
     policy = page.headers["content-security-policy"]
@@ -142,8 +178,9 @@ def test_routes(client):
     assert "connect-src 'self'" in policy
     assert len(re.findall("'sha256-", policy)) == page.text.count("<script>") == 2
     assert not re.search(r"(src|href)=.?https?:", page.text)
-    assert client.get("/state.json?seen=x").json()["version"] == 0
-    assert "study" not in client.get("/state.json?seen=0").json()
+    version = client.get("/state.json?seen=x").json()["version"]
+    assert "study" in client.get("/state.json?seen=x").json()
+    assert "study" not in client.get(f"/state.json?seen={version}").json()
 
 
 @pytest.mark.parametrize("method", ["POST", "PUT", "DELETE", "PATCH"])

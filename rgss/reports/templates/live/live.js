@@ -52,7 +52,7 @@
     put("more-failures", found.more_failures ? `${found.more_failures} more are not listed.` : "");
   };
 
-  let version = -1;
+  let version = "";
   const look = async () => {
     try {
       const answer = await fetch(`state.json?seen=${version}`, { cache: "no-store" });
