@@ -9,13 +9,13 @@ from rgss.counted import counted
 from rgss.reports.decision import variants_text
 from rgss.reports.plain_numbers import Plain
 from rgss.reports.study.column_entries import entry_at, entry_text
-from rgss.trace.views import value_in_words
+from rgss.trace.views import rounded_away, value_in_words
 
 MOST_BULLETS = 6
 """Most requirements with a chart; the verdicts below have all."""
 
 _OPEN = ("inconclusive", "stale", "not_run")
-_WORDS = {"<=": "at most", "<": "below", ">=": "at least", ">": "above", "==": "exactly"}
+_WORDS = {"<=": "at most", "<": "below", ">=": "at least", ">": "above"}
 _ROOM = 1.12
 
 MOST_CHANGES = 2
@@ -102,11 +102,11 @@ def _bullet(requirement: Mapping[str, Any], measures: Mapping[str, Any], place: 
         return None
     low, high = (entry_at(measure.get(name), place) for name in ("low", "high"))
     limit, at_most = requirement["threshold"], requirement["comparison"] in ("<=", "<")
-    top = max(abs(limit), abs(value), 0.0 if high is None else min(abs(high), 2.0 * abs(limit))) * _ROOM or 1.0
+    scale = bottom, top = _scale(value, limit, low, high)
     unit = measure["unit"]
     interval, beyond = None, [False, False]
     if low is not None and high is not None and low < high:
-        interval, beyond = [_percent(low, top), _percent(high, top)], [low < 0.0, high > top]
+        interval, beyond = [_percent(low, scale), _percent(high, scale)], [low < bottom, high > top]
     verdict = entry_at(requirement["verdict"], place)
     words = f"{_WORDS[requirement['comparison']]} {value_in_words(limit, unit)}"
     between = "" if interval is None else f" ({value_in_words(low)} to {value_in_words(high, unit)})"
@@ -120,16 +120,30 @@ def _bullet(requirement: Mapping[str, Any], measures: Mapping[str, Any], place: 
         "limit_text": words,
         "label": f"{measure['name']}: {value_in_words(value, unit)}{between}, demanded {words}: "
         f"{verdict.replace('_', ' ')}",
-        "at": _percent(value, top),
-        "limit": _percent(limit, top),
+        "at": _percent(value, scale),
+        "limit": _percent(limit, scale),
         "interval": interval,
         "beyond": beyond,
-        "allowed": [0.0, _percent(limit, top)] if at_most else [_percent(limit, top), 100.0],
+        "allowed": [0.0, _percent(limit, scale)] if at_most else [_percent(limit, scale), 100.0],
     }
 
 
-def _percent(value: float, top: float) -> float:
-    return round(min(max(100.0 * value / top, 0.0), 100.0), 2)
+def _scale(value: float, limit: float, low: float | None, high: float | None) -> tuple[float, float]:
+    """Ends of a bullet chart: 0 and, with some room, the value, its limit and the interval up to twice the limit.
+
+    Below 0 it goes only if the value or the limit is negative.
+    """
+    reach = 2.0 * abs(limit)
+    ends = [min(max(one, -reach), reach) for one in (low, high) if one is not None]
+    top = _ROOM * max(0.0, limit, value, *ends)
+    if value >= 0.0 and limit >= 0.0:
+        return 0.0, top or 1.0
+    return _ROOM * min(0.0, limit, value, *ends), top
+
+
+def _percent(value: float, scale: tuple[float, float]) -> float:
+    bottom, top = scale
+    return round(min(max(100.0 * (value - bottom) / (top - bottom), 0.0), 100.0), 2)
 
 
 def _changes(decision: Mapping[str, Any], names: Mapping[str, str]) -> Iterator[str]:
@@ -164,6 +178,6 @@ def _nearest_weight(ranges: Sequence[Mapping[str, Any]], names: Mapping[str, str
     if not found:
         return None
     _, measure, weight, side, bound, winners = min(found)
-    least = f"{side} {bound:.3g}" if bound >= _LEAST_WEIGHT else "nearly 0"
+    least = f"{side} {rounded_away(weight, bound, '1', 3):.3g}" if bound >= _LEAST_WEIGHT else "nearly 0"
     come = "comes" if len(winners) == 1 else "come"
     return f"Weight of {names[measure]}: {least} instead of {weight:.3g}. Then {variants_text(winners)} {come} first."

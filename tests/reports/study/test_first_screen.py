@@ -162,6 +162,38 @@ def test_an_interval_that_goes_far_is_cut_at_the_end_of_the_chart():
     assert time["limit"] == pytest.approx(100 / 2 / 1.12, abs=0.01)
 
 
+@pytest.mark.parametrize(
+    ("value", "low", "high", "limit", "ends"),
+    [
+        (-91.0, -91.7, -89.4, -80.0, (-91.7, 0.0)),
+        (-3.0, -12.0, 4.0, 2.0, (-4.0, 4.0)),
+        (5.0, 1.0, 9.0, -4.0, (-4.0, 8.0)),
+    ],
+)
+def test_a_chart_of_negative_quantities_is_to_scale(value, low, high, limit, ends):
+    document = copy.deepcopy(DOCUMENT)
+    document["measures"][0] |= {"value": value, "low": low, "high": high}
+    document["requirements"][0] |= {"threshold": limit}
+    chart = next(one for one in first_screen_content(document)["bullets"] if one["requirement"] == "R1")
+    bottom, top = (1.12 * end for end in ends)
+
+    def place(quantity):
+        return pytest.approx(min(max(100.0 * (quantity - bottom) / (top - bottom), 0.0), 100.0), abs=0.01)
+
+    assert (chart["at"], chart["limit"]) == (place(value), place(limit))
+    assert chart["interval"] == [place(low), place(high)]
+    assert chart["beyond"] == [low < bottom, high > top]
+    assert chart["allowed"] == [0.0, place(limit)]
+
+
+def test_the_weight_at_which_the_choice_changes_is_rounded_so_that_it_does():
+    one = {"measure": "time", "weight": 0.4, "low": 0.1486, "high": 0.5514, "below": [1], "above": [3]}
+    for low, high, wanted in ((0.1486, 1.0, "below 0.148"), (0.0, 0.5514, "above 0.552")):
+        ends = {"low": low, "high": high, "below": [1] if low else [], "above": [3] if high < 1.0 else []}
+        (sentence,) = first_screen_content(changed(modelling={"rows": []}, weight_ranges=[one | ends]))["changes"]
+        assert f"Weight of TIME: {wanted} instead of 0.4." in sentence
+
+
 def test_what_would_change_it():
     shown = first_screen_content(DOCUMENT)
     assert shown["changes"] == [
