@@ -7,12 +7,14 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 from rgss.decision.sensitivity import InputKind, RangeBasis, Tornado, TornadoBar, TornadoEnd
 from rgss.reports.decision.json.sensitivity import tornado_to_json
 from rgss.reports.decision.meanings import meanings
+from rgss.reports.decision.sensitivity_sentences import keep_rule
 from rgss.reports.decision.text.tornado import PAGE_WIDTH, tornado_lines
 from rgss.reports.decision.tornado_picture import tornado_svg
 
@@ -76,6 +78,18 @@ def test_bars_are_drawn_to_scale_within_eighty_columns(tornado):
     assert "1 more input moves nothing within its range (--json names them)." in lines
     assert any("catalogue.free.cost" in line for line in lines)
     assert any(re.match(r"weight\.<a>\s+below 0\.42\s+variants 2, 3", line) for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("margin", "bounded", "rule"),
+    [
+        (0.0, False, "best for some weights"),
+        (0.0, True, "best for some elicited weights"),
+        (0.05, False, "within 0.05 of the best for some weights, and no other ahead by more at all weights"),
+    ],
+)
+def test_the_rule_of_designs_worth_keeping_names_a_margin_only_if_there_is_one(margin, bounded, rule):
+    assert keep_rule(SimpleNamespace(keep_margin=margin, bounded_weights=bounded)) == rule
 
 
 def test_a_choice_without_rival(tornado):

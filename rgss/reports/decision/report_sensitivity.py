@@ -9,6 +9,7 @@ from rgss.reports.decision.sensitivity_sentences import (
     agreement_sentences,
     beaten_sentences,
     bend_sentences,
+    keep_rule,
     kept_groups,
     no_rival_clause,
     range_sentence,
@@ -26,7 +27,7 @@ def sensitivity_part(found: Sensitivity | None, *, with_noise: bool) -> Plain | 
     """
     if found is None or found.refused:
         return None
-    tornado = found.tornado
+    tornado, rule = found.tornado, keep_rule(found)
     return {
         "tornado": None
         if tornado is None
@@ -43,7 +44,7 @@ def sensitivity_part(found: Sensitivity | None, *, with_noise: bool) -> Plain | 
             "ranges": range_sentence(tornado),
         },
         "bends": list(bend_sentences(found.bends)),
-        "keep_margin": found.keep_margin,
+        "keep_rule": f"{rule[0].upper()}{rule[1:]}.",
         "kept": [
             {"variants": list(group.variants), "why": group.why, "behind": score(group.behind)}
             for group in kept_groups(found)

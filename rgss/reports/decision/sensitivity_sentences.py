@@ -25,6 +25,18 @@ class KeptGroup:
     behind: float
 
 
+def keep_rule(found: Sensitivity) -> str:
+    """Rule by which a design is worth keeping, without a capital and a full stop.
+
+    Args:
+        found: The sensitivity, with the margin of the rule; 0 if the study states none.
+    """
+    weights = "elicited weights" if found.bounded_weights else "weights"
+    if found.keep_margin == 0.0:
+        return f"best for some {weights}"
+    return f"within {found.keep_margin:g} of the best for some {weights}, and no other ahead by more at all weights"
+
+
 def kept_groups(found: Sensitivity) -> tuple[KeptGroup, ...]:
     """The designs worth keeping, those that do not differ together, the best at the study's weights first."""
     groups: dict[tuple[str, float], list[KeptAlternative]] = {}

@@ -18,7 +18,7 @@ def ids_text(variants: Iterable[int], *, longest: int = LONGEST_IDS) -> str:
 
     Args:
         variants: The ids.
-        longest: Runs that are written out; more are three dots.
+        longest: Runs that are written out; of the others, the number of their ids.
     """
     runs: list[list[int]] = []
     for variant in sorted(variants):
@@ -29,8 +29,8 @@ def ids_text(variants: Iterable[int], *, longest: int = LONGEST_IDS) -> str:
     parts = []
     for run in runs:
         parts += [f"{run[0]}–{run[-1]}"] if len(run) > 2 else [str(variant) for variant in run]
-    more = " …" if len(parts) > longest else ""
-    return ", ".join(parts[:longest]) + more
+    more = sum(run[-1] - run[0] + 1 for run in runs[longest:])
+    return ", ".join(parts[:longest]) + (f" and {more} more" if more else "")
 
 
 def basis_text(*, shown_feasible: bool) -> str:

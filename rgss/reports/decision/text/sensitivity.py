@@ -11,6 +11,7 @@ from rgss.reports.decision.sensitivity_sentences import (
     agreement_sentences,
     beaten_sentences,
     bend_sentences,
+    keep_rule,
     kept_groups,
     range_sentence,
 )
@@ -33,18 +34,13 @@ def sensitivity_lines(found: Sensitivity) -> Iterator[str]:
         yield range_sentence(found.tornado)
     if found.kept is not None:
         yield ""
-        within = f"within {found.keep_margin:g} of the best for some {_weights(found)}weights"
-        yield f"Designs worth keeping ({within}, and no other ahead by more at all weights)"
+        yield f"Designs worth keeping ({keep_rule(found)})"
         yield from _kept(kept_groups(found))
         yield from beaten_sentences(found)
     if found.agreement is not None:
         yield ""
         yield from _stakeholders(found)
     yield from not_computed_lines(found.not_computed)
-
-
-def _weights(found: Sensitivity) -> str:
-    return "elicited " if found.bounded_weights else ""
 
 
 def _kept(groups: tuple[KeptGroup, ...]) -> list[str]:
