@@ -96,6 +96,7 @@ def test_a_line_of_parallel_coordinates_is_a_design(study, plot):
     assert [text.split("\n")[-1] for text in (one.get_text() for one in ax.get_xticklabels())] == 2 * [
         "lower is better"
     ]
+    assert f"the chosen design has C_total {values(study, 'C_total')[chosen]:,.0f} USD; t_p " in figure.alt_text
     with pytest.raises(DefinitionError, match=r"measures: all designs have the same values \(name measures that"):
         plot.parallel(["t_gc"])
 

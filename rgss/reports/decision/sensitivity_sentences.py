@@ -58,11 +58,12 @@ def beaten_sentences(found: Sensitivity) -> Iterator[str]:
             rivals = tuple(found.variants[row] for row in one.beaten_by)
             beaten.setdefault((one.reason, rivals), []).append(found.variants[one.row])
     for (reason, rivals), variants in sorted(beaten.items(), key=lambda one: (one[0][1], one[0][0].value)):
+        others = variants_text(variants, counted=True)
         if reason is KeptFor.DOMINATED:
-            yield f"Variant {rivals[0]} is at least as good at all weights as {variants_text(variants)}."
+            yield f"Variant {rivals[0]} is at least as good at all weights as {others}."
         else:
             several = " or ".join(map(str, rivals))
-            yield f"At any weights one of variants {several} beats {variants_text(variants)} by more than the margin."
+            yield f"At any weights one of variants {several} beats {others} by more than the margin."
 
 
 def bend_sentences(bends: Sequence[BentValue]) -> Iterator[str]:

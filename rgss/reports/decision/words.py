@@ -13,12 +13,13 @@ LONGEST_IDS = 12
 UNKNOWN = "–"
 
 
-def ids_text(variants: Iterable[int], *, longest: int = LONGEST_IDS) -> str:
+def ids_text(variants: Iterable[int], *, longest: int = LONGEST_IDS, counted: bool = False) -> str:
     """Ids in ascending order, runs of three and more joined: ``28–30, 64``.
 
     Args:
         variants: The ids.
-        longest: Runs that are written out; of the others, the number of their ids.
+        longest: Runs that are written out; more are three dots.
+        counted: Whether the number of the other ids takes the place of the dots, as at the end of a sentence.
     """
     runs: list[list[int]] = []
     for variant in sorted(variants):
@@ -26,11 +27,13 @@ def ids_text(variants: Iterable[int], *, longest: int = LONGEST_IDS) -> str:
             runs[-1].append(variant)
         else:
             runs.append([variant])
-    parts = []
+    parts: list[list[int]] = []
     for run in runs:
-        parts += [f"{run[0]}–{run[-1]}"] if len(run) > 2 else [str(variant) for variant in run]
-    more = sum(run[-1] - run[0] + 1 for run in runs[longest:])
-    return ", ".join(parts[:longest]) + (f" and {more} more" if more else "")
+        parts += [run] if len(run) > 2 else [[variant] for variant in run]
+    written = ", ".join(str(part[0]) if len(part) == 1 else f"{part[0]}–{part[-1]}" for part in parts[:longest])
+    if len(parts) <= longest:
+        return written
+    return f"{written} and {sum(map(len, parts[longest:]))} more" if counted else f"{written} …"
 
 
 def basis_text(*, shown_feasible: bool) -> str:
@@ -42,11 +45,11 @@ def basis_text(*, shown_feasible: bool) -> str:
     return "verdicts" if shown_feasible else "estimates"
 
 
-def variants_text(variants: Sequence[int]) -> str:
-    """``variant 28``, ``variants 28–30``, or ``nothing``."""
+def variants_text(variants: Sequence[int], *, counted: bool = False) -> str:
+    """``variant 28``, ``variants 28–30``, or ``nothing``; see `ids_text`."""
     if not variants:
         return "nothing"
-    return f"variant{'s' if len(variants) > 1 else ''} {ids_text(variants)}"
+    return f"variant{'s' if len(variants) > 1 else ''} {ids_text(variants, counted=counted)}"
 
 
 def amount(value: float, unit: str) -> str:

@@ -21,6 +21,7 @@ from rgss.reports.study_plots.canvas import (
 )
 from rgss.reports.study_plots.plotted import Limit, PlottedDesigns, PlottedMeasure, Role
 from rgss.reports.study_plots.scatter import finite_span
+from rgss.trace.views import value_in_words
 
 _LINE_WORDS = 14
 _SHIFT = 0.022
@@ -62,7 +63,7 @@ def parallel_figure(measures: Sequence[PlottedMeasure], designs: PlottedDesigns,
     ax.spines[["top", "right", "left", "bottom"]].set_visible(False)
     legend_below(figure, role_handles(designs, lines=True), designs, note)
     chosen = designs.with_role(Role.CHOSEN)
-    shown = "; ".join(f"{one.id} {one.value(chosen[0]):.4g} {one.unit}" for one in measures) if chosen else ""
+    shown = "; ".join(f"{one.id} {value_in_words(one.value(chosen[0]), one.unit)}" for one in measures if chosen)
     set_alt_text(
         figure,
         f"Parallel coordinates of {len(designs.roles)} designs over {', '.join(one.id for one in measures)}, the "
