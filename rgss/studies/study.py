@@ -52,12 +52,14 @@ class ValueAnchors:
         weight: Its share of the value, in the whole.
         worst: The quantity worth 0; of a target, what is too low.
         best: The quantity worth 1.
+        too_high: Of a target, what is worth 0 above it; None for other values.
     """
 
     measure: str
     weight: float
     worst: float
     best: float
+    too_high: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -282,6 +284,7 @@ def value_anchors(trade_off: TradeOff, quantity_of: Callable[[Anchor, str], floa
             weight=weights[valued.measure],
             worst=quantity_of(valued.worst_anchor, valued.measure),
             best=quantity_of(valued.best_anchor, valued.measure),
+            too_high=quantity_of(valued.anchors["too_high"], valued.measure) if "too_high" in valued.anchors else None,
         )
         for valued in trade_off.valued
     )

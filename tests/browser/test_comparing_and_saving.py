@@ -94,8 +94,7 @@ def test_distributions_have_the_quartiles_of_each_measure(reader, page, study):
         assert dict(map(tuple, boxes))[measure["id"]] == len(values)
 
     reader.script(
-        "const by = document.getElementById('distribution-by'); by.value = 'stands';"
-        "by.dispatchEvent(new Event('change'))"
+        "const by = document.getElementById('distribution-by'); by.value = 'role';by.dispatchEvent(new Event('change'))"
     )
     reader.until("return document.querySelectorAll('#distributions-table tbody tr').length > arguments[0]", len(rows))
     assert reader.complaints() == []

@@ -60,6 +60,22 @@ def test_a_weight_ranks_the_variants_anew_as_the_figures_say(reader, page, study
     assert [int(row[1]) for row in reader.rows("#ranking-table")] == before
 
 
+def test_the_scale_of_a_target_names_both_of_its_ends(reader, study, tmp_path):
+    document = deepcopy(study.document)
+    first, second = document["weights"]["measures"][:2]
+    first |= {"worst": 2, "best": 4, "too_high": 6}
+    second |= {"worst": 2, "best": 4}
+    file = tmp_path / "report.html"
+    file.write_text(study_report_to_html(document, study.trace), encoding="utf-8")
+    reader.open(file)
+    scales = reader.script(
+        "return Array.from(document.querySelectorAll('#weight-rows .small'), (one) => one.textContent)"
+    )
+    units = {one["id"]: "" if one["unit"] == "1" else f" {one['unit']}" for one in document["measures"]}
+    unit, other = units[first["id"]], units[second["id"]]
+    assert scales[:2] == [f"0 at 2{unit} and 6{unit}, 1 at 4{unit}", f"0 at 2{other}, 1 at 4{other}"]
+
+
 def test_of_equals_only_measures_that_have_a_weight_now_are_compared(reader, study, tmp_path):
     document = deepcopy(study.document)
     weighted = document["weights"]["measures"]

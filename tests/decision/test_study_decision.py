@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from rgss.assessment.measuring import measure_variants
@@ -169,6 +171,20 @@ def test_a_measure_with_weight_zero_is_named_where_it_has_no_part(shipped, measu
     assert not found.decision.surpassed
     columns = weight_columns(project, found.robustness.analysis)
     assert ([one["id"] for one in columns["measures"]], columns["unweighted"]) == (["S"], ["t_p"])
+
+
+def test_a_target_has_an_end_on_each_side(shipped, read_trade_off_of):
+    study = read_trade_off_of(
+        "values:",
+        "  - {measure: S, weight: 0.5, worst: 0.8, best: 1.0}",
+        "  - {measure: t_p, weight: 0.5, target: 5 s, too_low: 1 s, too_high: 15 s}",
+    )
+    analysis = SimpleNamespace(
+        measures=("S", "t_p"), weights=np.full(2, 0.5), more_is_better=(True, None), values=np.ones((1, 2))
+    )
+    columns = weight_columns(dataclasses.replace(shipped, study=study), analysis)["measures"]
+    ends = [(one["worst"], one["best"], one["too_high"]) for one in columns]
+    assert ends == [(0.8, 1, None), (1, 5, 15)]
 
 
 def test_a_missing_part_is_not_final(made):

@@ -142,6 +142,7 @@ def weight_columns(project: Project, found: Robustness) -> Plain:
                 "weight": float(weight),
                 "worst": plain_number(anchors[measure].worst) if measure in anchors else None,
                 "best": plain_number(anchors[measure].best) if measure in anchors else None,
+                "too_high": plain_number(anchors[measure].too_high) if measure in anchors else None,
                 "more_is_better": found.more_is_better[place],
                 "worth": condensed(plain_numbers(found.values[:, place].tolist(), WORTH_DIGITS)),
             }

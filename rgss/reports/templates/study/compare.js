@@ -75,11 +75,17 @@ const startCompare = () => {
   draw();
 };
 
+// A scale for values that are all alike: a tenth of them on both sides, where the library takes 1, whatever they are.
+const rangeAlike = (values) => {
+  const [low, high] = [Math.min(...values), Math.max(...values)], room = Math.abs(low) / 10 || 1;
+  return high - low > 1e-9 * Math.abs(low) ? {} : { range: [low - room, low + room] };
+};
+
 const startDistributions = () => {
   const by = byId("distribution-by");
   const level = (one) => (place) => show(at(one.values, place), one.unit);
-  const groupings = new Map([["", () => "shown variants"], ["stands", (place) => KINDS[kindOf[place]].name], ...varying.filter((one) => new Set(one.values).size <= 8).map((one) => [one.id, level(one)])]);
-  options(by, [["", "nothing"], ["stands", "role in the decision"], ...varying.filter((one) => groupings.has(one.id)).map((one) => [one.id, one.name])]);
+  const groupings = new Map([["", () => "shown variants"], ["role", (place) => KINDS[kindOf[place]].name], ...varying.filter((one) => new Set(one.values).size <= 8).map((one) => [one.id, level(one)])]);
+  options(by, [["", "nothing"], ["role", "role in the decision"], ...varying.filter((one) => groupings.has(one.id)).map((one) => [one.id, one.name])]);
   const rows = () => {
     const groupOf = groupings.get(by.value);
     const groups = new Map();
@@ -100,12 +106,12 @@ const startDistributions = () => {
     const names = [...new Set(found.map((row) => row.name))];
     const measures = effectiveness.filter((measure) => found.some((row) => row.measure === measure));
     const each = 1 / measures.length, layout = { height: 60 + measures.length * (92 + 22 * (names.length - 1)), boxmode: "group", showlegend: names.length > 1, margin: { l: 90, r: 16, t: 48, b: 40 } };
-    const colourOf = (name) => (by.value === "stands" ? KINDS.find((one) => one.name === name).colour : PALETTE[names.indexOf(name) % PALETTE.length]);
+    const colourOf = (name) => (by.value === "role" ? KINDS.find((one) => one.name === name).colour : PALETTE[names.indexOf(name) % PALETTE.length]);
     const traces = [];
     measures.forEach((measure, index) => {
       const number = index === 0 ? "" : String(index + 1), from = 1 - each * (index + 1);
       // Each measure has its own scale, with its name and its preferred direction below it.
-      layout[`xaxis${number}`] = { anchor: `y${number}`, title: { text: plotText(withBetter(measure)), standoff: 4, font: { size: 12 } }, automargin: false };
+      layout[`xaxis${number}`] = { anchor: `y${number}`, title: { text: plotText(withBetter(measure)), standoff: 4, font: { size: 12 } }, automargin: false, ...rangeAlike(found.filter((one) => one.measure === measure).flatMap((one) => one.values)) };
       layout[`yaxis${number}`] = { anchor: `x${number}`, domain: [from + each * 0.5, from + each * 0.98], showticklabels: false, type: "category", automargin: false };
       for (const row of found.filter((one) => one.measure === measure)) {
         const few = row.places.length <= MOST_POINTS;

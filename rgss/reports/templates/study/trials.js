@@ -29,7 +29,7 @@ const startPlanning = () => {
     // A time includes the simplification, beyond the limit of the search. The margin shows the last step; no curve turns back.
     const end = 1.04 * found.reduce((most, row) => Math.max(most, row.planner.longest_limit_s, row.times[row.times.length - 1] ?? 0), 0);
     return { traces: found.map((row, index) => ({ x: [0, ...row.times, end], y: [0, ...row.times.map((_, place) => ((place + 1) / row.times.length) * (row.solved / row.count)), row.solved / row.count], mode: "lines", name: plotText(row.planner.name), line: { shape: "hv", color: PALETTE[index % PALETTE.length], dash: DASHES[index % DASHES.length], width: 2.5 }, hovertemplate: "%{x:.3g} s: %{y:.0%}<extra>%{fullData.name}</extra>" })),
-      layout: { xaxis: { title: { text: "planning time [s]" }, range: [0, end] }, yaxis: { title: { text: "searches that had found a path" }, tickformat: ".0%", range: [0, 1.02] } } };
+      layout: { showlegend: true, xaxis: { title: { text: "planning time [s]" }, range: [0, end] }, yaxis: { title: { text: "searches that had found a path" }, tickformat: ".0%", range: [0, 1.02] } } };
   });
   onShown(tableIn("planning-table", {
     label: "Planning times by planner",

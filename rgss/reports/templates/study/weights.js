@@ -117,7 +117,8 @@ const drawSliders = () => {
       told.textContent = share.toFixed(3);
       slider.setAttribute("aria-valuetext", `${share.toFixed(3)} of the weight`);
     });
-    const scale = known(one.worst) ? `0 at ${show(one.worst, measure.unit)}, 1 at ${show(one.best, measure.unit)}` : "";
+    const worst = [one.worst, one.too_high].filter(known).map((end) => show(end, measure.unit)).join(" and ");
+    const scale = worst ? `0 at ${worst}, 1 at ${show(one.best, measure.unit)}` : "";
     byId("weight-rows").append(element("div", { class: "weight" },
       element("label", { for: `weight-${index}` }, `${one.id}: ${measure.name}`), told, slider, element("span", { class: "small" }, scale)));
     return slider;
