@@ -289,6 +289,19 @@ def test_a_trial_that_is_not_there_has_no_replay(client, trial, said):
     assert said in answer.text
 
 
+def test_a_replay_that_cannot_be_made_says_why(client, monkeypatch):
+    def fail(*_):
+        raise ValueError("the mesh has no faces")
+
+    monkeypatch.setattr("rgss.serving.replays.replay_page", fail)
+    answer = client.get("/replay/4/1")
+    assert (answer.status_code, answer.text) == (
+        500,
+        "The replay cannot be made: ValueError: the mesh has no faces\n",
+    )
+    assert answer.headers["content-type"].startswith("text/plain")
+
+
 def test_a_trial_is_run_again_for_its_replay(client, project):
     before = sorted(project.folder.rglob("*"))
     answer = client.get("/replay/1/1")
