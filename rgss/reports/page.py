@@ -13,8 +13,8 @@ from typing import Any
 from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible
 
-_OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
-"""Option of a command, between whose hyphens a browser would break the line."""
+_WHOLE = re.compile(r"(?<![\w-])(?:--[a-z][a-z-]*|[A-Z]{2,}-\d+(?![\w-]))")
+"""Option of a command, or id of a requirement: at its hyphens a browser would break the line."""
 
 
 def render_page(
@@ -74,8 +74,8 @@ def render_page(
 
 
 def options_to_html(text: str) -> str:
-    """A text as HTML in which no line breaks between the hyphens of an option, such as ``--what-if``."""
-    return _OPTION.sub(r'<span class="option">\g<0></span>', escape(visible(text)))
+    """A text as HTML in which no line breaks within an option or an id, such as ``--what-if`` or ``SYS-3``."""
+    return _WHOLE.sub(r'<span class="option">\g<0></span>', escape(visible(text)))
 
 
 def script_hash(script: str) -> str:

@@ -48,7 +48,7 @@ def provenance_of(
             ["charge for a check", f"{planning.charge_per_check_s * 1e3:g} ms"],
             ["simplification limit", f"{planning.simplification_limit_s:g} s"],
             ["clearance", f"{planning.clearance_m * 1e3:g} mm"],
-            ["physics steps", f"{study.rate_hz:g} Hz"],
+            *([] if study.fidelity is Fidelity.KINEMATIC else [["physics steps", f"{study.rate_hz:g} Hz"]]),
             ["evidence", evidence],
         ],
         "files": sorted(file_digests(project.folder, FOLDERS).items()),

@@ -99,6 +99,12 @@ def test_a_held_script_is_carried_but_not_run():
     assert "img-src" not in page
 
 
+def test_a_browser_cannot_break_an_id_at_its_hyphen():
+    assert options_to_html("open (by SYS-2, SYS-030), an A-1-B, UTF-8-like") == (
+        'open (by <span class="option">SYS-2</span>, <span class="option">SYS-030</span>), an A-1-B, UTF-8-like'
+    )
+
+
 def test_a_browser_cannot_break_an_option_between_its_hyphens():
     assert options_to_html('rgss trade --what-if "a<b--c" --run, -- 5') == (
         'rgss trade <span class="option">--what-if</span> &quot;a&lt;b--c&quot; <span class="option">--run</span>, -- 5'
