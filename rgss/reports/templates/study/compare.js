@@ -75,12 +75,6 @@ const startCompare = () => {
   draw();
 };
 
-// A scale for values that are all alike: a tenth of them on both sides, where the library takes 1, whatever they are.
-const rangeAlike = (values) => {
-  const [low, high] = [Math.min(...values), Math.max(...values)], room = Math.abs(low) / 10 || 1;
-  return high - low > 1e-9 * Math.abs(low) ? {} : { range: [low - room, low + room] };
-};
-
 const startDistributions = () => {
   const by = byId("distribution-by");
   const level = (one) => (place) => show(at(one.values, place), one.unit);

@@ -20,6 +20,16 @@ const KINDS = [
 ];
 const PALETTE = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442", "#8a8a8a"];
 const DASHES = ["solid", "dash", "dot", "dashdot", "longdash", "longdashdot"];
+// Whether the known values of a measure differ.
+const varies = (measure) => {
+  const values = Array.isArray(measure.value) ? measure.value.filter(known) : [];
+  return values.some((value) => value !== values[0]);
+};
+// The measure that a plot of one measure opens with: the first that says most about the decision.
+const openingMeasure = (measures) => {
+  const merit = (one) => (varies(one) ? 4 : 0) + (one.weight !== null ? 2 : 0) + (one.from_trials ? 1 : 0);
+  return measures.reduce((best, one) => (merit(one) > merit(best) ? one : best), measures[0]);
+};
 const kindOf = variants.id.map((id, place) => {
   if (id === data.decision.chosen) return CHOSEN;
   if (!variants.feasible[place]) return INFEASIBLE;

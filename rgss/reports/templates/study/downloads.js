@@ -53,20 +53,28 @@ const savePng = (name, svgAddress, width, height) => {
 };
 const svgAddress = (text) => `data:image/svg+xml,${encodeURIComponent(text)}`;
 
-// ways: {svg() → a promise of [address, width, height], csv} for the content of the host.
+// ways: {svg() → a promise of [address, width, height], csv} for the content of the host. Returns a function that offers
+// only what there is, given whether the host has a picture.
 const downloadsFor = (host, id, { svg = null, csv = false }) => {
   const button = (text, act) => {
     const made = element("button", { type: "button", "aria-label": `Save ${id} as ${text}` }, text);
     made.addEventListener("click", act);
     return made;
   };
-  const bar = element("p", { class: "downloads" }, "Save as ");
+  const bar = element("p", { class: "downloads" }, "Save as "), pictures = element("span");
   if (svg) {
-    bar.append(button("PNG", () => svg().then(([address, width, height]) => savePng(fileName(id, "png"), address, width, height))), " ");
-    bar.append(button("SVG", () => svg().then(([address]) => save(fileName(id, "svg"), address))), " ");
+    pictures.append(button("PNG", () => svg().then(([address, width, height]) => savePng(fileName(id, "png"), address, width, height))), " ");
+    pictures.append(button("SVG", () => svg().then(([address]) => save(fileName(id, "svg"), address))), " ");
+    bar.append(pictures);
   }
-  if (csv) bar.append(button("CSV", () => saveText(fileName(id, "csv"), "text/csv", csvOf(specifications.get(`${id}-table`)))));
+  const table = button("CSV", () => saveText(fileName(id, "csv"), "text/csv", csvOf(specifications.get(`${id}-table`))));
+  if (csv) bar.append(table);
   host.after(bar);
+  return (drawn) => {
+    pictures.hidden = !drawn;
+    table.hidden = !drawn && !specifications.get(`${id}-table`)?.rows().length;
+    bar.hidden = pictures.hidden && table.hidden;
+  };
 };
 
 // Canvas context that writes SVG: only the methods that the parallel coordinates use.

@@ -1,12 +1,21 @@
 // ------------------------------------------------------- coinciding marks, titles of axes
+// A scale for values that are all alike: a tenth of them on both sides, where the library takes 1, whatever they are.
+const rangeAlike = (values) => {
+  const [low, high] = [Math.min(...values), Math.max(...values)], room = Math.abs(low) / 10 || 1;
+  return high - low > 1e-9 * Math.abs(low) ? {} : { range: [low - room, low + room] };
+};
+// Width and height in pixels that the marks of a plot have: some nine tenths of the room between its margins.
+const roomOf = (host) => [0.9 * Math.max(100, host.clientWidth - 110), 0.85 * 220];
 // Variants whose marks would cover each other are one mark, that of the most prominent, with their number.
-const coinciding = (places, horizontal, vertical) => {
+const coinciding = (places, horizontal, vertical, host) => {
   const ends = (measure) => {
     let low = Infinity, high = -Infinity;
     for (const place of places) { const value = at(measure.value, place); low = Math.min(low, value); high = Math.max(high, value); }
     return high - low || 1;
   };
-  const near = [ends(horizontal) / 90, ends(vertical) / 45];
+  // Two marks of 9 pixels, one of which may be larger for their number.
+  const apart = 10, room = roomOf(host);
+  const near = [ends(horizontal) * apart / room[0], ends(vertical) * apart / room[1]];
   const groups = [];
   for (const place of places.slice().sort((one, other) => kindOf[other] - kindOf[one] || variants.id[one] - variants.id[other])) {
     const group = groups.find(([first]) => Math.abs(at(horizontal.value, first) - at(horizontal.value, place)) <= near[0] && Math.abs(at(vertical.value, first) - at(vertical.value, place)) <= near[1]);
@@ -42,17 +51,21 @@ const countLabels = (groups, horizontal, vertical, size, host) => {
     return [low, high - low || 1];
   };
   const [[left, width], [foot, height]] = [span(horizontal), span(vertical)];
-  // The marks lie within some nine tenths of the room between the margins.
-  const room = [0.9 * Math.max(100, host.clientWidth - 110), 0.85 * 220];
-  const taken = [], found = new Map();
+  const room = roomOf(host), middle = (group) => [room[0] * (at(horizontal.value, group[0]) - left) / width, -room[1] * (at(vertical.value, group[0]) - foot) / height];
+  // No number lies on a mark or on another number.
+  const found = new Map();
+  const taken = groups.map((group) => {
+    const [x, y] = middle(group), half = size(group) / 2;
+    return [x - half, y - half, 2 * half, 2 * half];
+  });
   for (const group of groups.filter((one) => one.length > 1).sort((one, other) => other.length - one.length)) {
     const text = `×${group.length}`, wide = 7.5 * text.length + 6, tall = 19, gap = size(group) / 2 + 1;
-    const x = room[0] * (at(horizontal.value, group[0]) - left) / width, y = -room[1] * (at(vertical.value, group[0]) - foot) / height;
+    const [x, y] = middle(group);
     const [before, behind, above, below] = [x - gap - wide, x + gap, y - gap - tall, y + gap];
     const places = [["top right", behind, above], ["bottom right", behind, below], ["top left", before, above], ["bottom left", before, below], ["middle right", behind, y - tall / 2]];
-    const free = places.find(([, from, top]) => taken.every(([one, other, w]) => from + wide <= one || one + w <= from || top + tall <= other || other + tall <= top));
+    const free = places.find(([, from, top]) => taken.every(([one, other, w, h]) => from + wide <= one || one + w <= from || top + tall <= other || other + h <= top));
     if (!free) continue;
-    taken.push([free[1], free[2], wide]);
+    taken.push([free[1], free[2], wide, tall]);
     found.set(group, { text, position: free[0] });
   }
   return found;

@@ -28,7 +28,7 @@ const layoutOf = (more) => {
 // make() → {traces, layout}, or null if there is nothing to draw.
 const plot = (id, make) => {
   const host = byId(`${id}-plot`);
-  let near = false, stale = true;
+  let near = false, stale = true, offer = () => {};
   const draw = (always = false) => {
     stale = true;
     // Invisible plots are drawn when they are about to become visible, so that a brush responds fast.
@@ -36,6 +36,7 @@ const plot = (id, make) => {
     stale = false;
     needPlotly();
     const made = make();
+    offer(made !== null);
     if (made === null) {
       Plotly.purge(host);
       host.style.height = "auto";
@@ -66,7 +67,7 @@ const plot = (id, make) => {
   }, { rootMargin: "300px" }).observe(host);
   const redraw = () => draw();
   onShown(redraw);
-  downloadsFor(host, id, { csv: true, svg: async () => {
+  offer = downloadsFor(host, id, { csv: true, svg: async () => {
     if (stale) draw(true);
     if (!host.classList.contains("js-plotly-plot")) throw new Error(`plot ${id} has nothing to draw`);
     const size = { width: host.clientWidth, height: host.clientHeight };
@@ -133,7 +134,8 @@ const startMeasures = () => {
     traces.push(...limits.map((one) => ({ x: [null], y: [null], mode: "lines", line: { color: "#d55e00", dash: "dash", width: 1.5 }, name: plotText(`${one.id}: ${one.criterion}`), hoverinfo: "skip" })));
     return { traces, layout: {
       shapes: limits.map((one) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: one.threshold, y1: one.threshold, line: { color: "#d55e00", dash: "dash", width: 1.5 } })),
-      xaxis: { title: { text: "variants, by this measure" } }, yaxis: { title: { text: plotText(withBetter(measure)) } },
+      xaxis: { title: { text: "variants, by this measure" } },
+      yaxis: { title: { text: plotText(withBetter(measure)) }, ...rangeAlike([...places.flatMap((place) => [measure.value, measure.low, measure.high].map((column) => at(column, place)).filter(known)), ...limits.map((one) => one.threshold)]) },
     } };
   });
   const update = tableIn("measures-table", {
@@ -157,7 +159,7 @@ const startMeasures = () => {
   };
   choice.addEventListener("change", () => { tell(); redraw(); });
   onShown(tell);
-  const first = shownMeasures.find((measure) => measure.from_trials && measure.weight !== null) || shownMeasures[0];
+  const first = openingMeasure(shownMeasures);
   if (first) { choice.value = first.id; tell(); }
 };
 
@@ -165,7 +167,7 @@ const startMeasures = () => {
 const startPareto = () => {
   const across = byId("pareto-x"), up = byId("pareto-y");
   for (const select of [across, up]) options(select, effectiveness.map((measure) => [measure.id, `${measure.id}: ${measure.name}`]));
-  const spread = effectiveness.filter((measure) => Array.isArray(measure.value) && measure.weight !== null);
+  const spread = effectiveness.filter((measure) => varies(measure) && measure.weight !== null);
   across.value = (spread[1] || effectiveness[0]).id;
   up.value = ([spread[2], spread[0], ...effectiveness].find((measure) => measure && measure.id !== across.value) || effectiveness[0]).id;
   const redraw = plot("pareto", () => {
@@ -178,8 +180,8 @@ const startPareto = () => {
       const others = places.filter((place) => kindOf[place] < FRONT);
       traces.push({ type: "histogram2d", x: others.map((place) => at(horizontal.value, place)), y: others.map((place) => at(vertical.value, place)), nbinsx: 60, nbinsy: 40, colorscale: [[0, "rgba(138,138,138,0)"], [0.001, "#e3e6ea"], [1, "#4d5660"]], colorbar: { title: { text: "variants" } }, hovertemplate: "%{z} variants<extra></extra>" });
     }
-    const groups = coinciding(dense ? places.filter((place) => kindOf[place] >= FRONT) : places, horizontal, vertical);
-    const size = (group) => markerOf(kindOf[group[0]]).size + 3 * Math.min(3, Math.log2(group.length));
+    const groups = coinciding(dense ? places.filter((place) => kindOf[place] >= FRONT) : places, horizontal, vertical, byId("pareto-plot"));
+    const size = (group) => markerOf(kindOf[group[0]]).size + Math.min(3, Math.log2(group.length));
     const labels = countLabels(groups, horizontal, vertical, size, byId("pareto-plot"));
     for (const kind of [INFEASIBLE, FEASIBLE, FRONT, CHOSEN]) {
       const mine = groups.filter((group) => kindOf[group[0]] === kind);
@@ -190,7 +192,8 @@ const startPareto = () => {
         text: mine.map((group) => labels.get(group)?.text ?? ""), textposition: mine.map((group) => labels.get(group)?.position ?? "top right"), textfont: { size: 12 }, cliponaxis: false,
         hovertext: mine.map((group) => namesOf(group) + `<br>${plotText(`${horizontal.id}: ${together(horizontal, group)}`)}<br>${plotText(`${vertical.id}: ${together(vertical, group)}`)}`) });
     }
-    return { traces, layout: { xaxis: { title: { text: plotText(withBetter(horizontal)) } }, yaxis: { title: { text: plotText(withBetter(vertical)) } } } };
+    const axis = (measure) => ({ title: { text: plotText(withBetter(measure)) }, ...rangeAlike(places.map((place) => at(measure.value, place))) });
+    return { traces, layout: { xaxis: axis(horizontal), yaxis: axis(vertical) } };
   });
   for (const select of [across, up]) select.addEventListener("change", redraw);
   onShown(tableIn("pareto-table", {
@@ -279,7 +282,7 @@ const startEffects = () => {
   };
   const redraw = plot("effects", () => {
     const one = current();
-    if (!one) return null;
+    if (!one || !varies(measureOf.get(one.measure))) return null;
     if (!one.main.length) {
       return { traces: [{ type: "bar", x: one.shares.map((share) => plotText(share.factor)), y: one.shares.map((share) => share.share), marker: { color: KINDS[FRONT].colour }, error_y: { type: "data", symmetric: false, array: one.shares.map((share) => share.high - share.share), arrayminus: one.shares.map((share) => share.share - share.low) } }], layout: { xaxis: { type: "category" }, yaxis: { title: { text: "share of the variance" }, rangemode: "tozero" } } };
     }
@@ -310,12 +313,17 @@ const startEffects = () => {
       note.textContent = reasons.size ? `Not computed: ${[...reasons].join("; ")}.` : "No factor varies.";
       return;
     }
+    const measure = measureOf.get(one.measure);
+    if (!varies(measure)) {
+      note.textContent = `${one.measure} is ${show(measure.value, measure.unit)} in all ${one.designs} designs: no factor changes it.`;
+      return;
+    }
     const joint = one.interactions.map((term) => `${term.factors.join(" × ")} ${percent(term.share)}`).join(", ");
     note.textContent = `Over ${one.designs} designs${one.left_out.length ? `, without ${one.left_out.join(", ")}, which lack the measure` : ""}; ${one.main.length ? "in brackets the share of the differences between designs" : "the share of the differences between designs that each factor explains alone"}.${joint ? ` Interactions: ${joint}.` : ""}${one.note ? ` ${one.note}` : ""}`;
   };
   choice.addEventListener("change", () => { tell(); redraw(); update(); });
-  const first = shownEffects.find((one) => measureOf.get(one.measure).weight !== null && measureOf.get(one.measure).from_trials) || shownEffects[0];
-  if (first) choice.value = first.measure;
+  const first = openingMeasure(shownEffects.map((one) => measureOf.get(one.measure)));
+  if (first) choice.value = first.id;
   tell();
   update();
 };

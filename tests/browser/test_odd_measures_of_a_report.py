@@ -1,0 +1,114 @@
+"""Charts of measures that are the same everywhere, or that crowd: what opens, what is said, what covers what."""
+
+from __future__ import annotations
+
+import copy
+from itertools import combinations
+
+import pytest
+
+from rgss.reports.study_page import study_report_to_html
+
+pytestmark = pytest.mark.browser
+
+_MARKS_AND_NUMBERS = """
+const boxes = (found) => Array.from(found, (one) => {
+  const box = one.getBoundingClientRect();
+  return [box.left, box.top, box.right, box.bottom];
+});
+const texts = Array.from(document.querySelectorAll('#pareto-plot .textpoint text'));
+return {
+  marks: boxes(document.querySelectorAll('#pareto-plot .scatterlayer .points path')),
+  numbers: boxes(texts.filter((one) => one.textContent.startsWith('\u00d7'))),
+};
+"""
+
+
+def _written(document, study, tmp_path):
+    file = tmp_path / "report.html"
+    file.write_text(study_report_to_html(document, study.trace), encoding="utf-8")
+    return file
+
+
+def _seen(reader, name):
+    reader.script(f"document.getElementById('{name}-plot').scrollIntoView()")
+    reader.until(f"return document.querySelector('#{name}-plot').querySelector('.main-svg, p') !== null")
+
+
+def _choose(reader, select, value):
+    reader.script(
+        "const select = document.getElementById(arguments[0]); select.value = arguments[1];"
+        "select.dispatchEvent(new Event('change'))",
+        select,
+        value,
+    )
+
+
+def _offered(reader, name):
+    return reader.script(
+        "return Array.from(document.getElementById(`${arguments[0]}-plot`).nextElementSibling"
+        ".querySelectorAll('button')).filter((one) => one.checkVisibility()).map((one) => one.textContent)",
+        name,
+    )
+
+
+def test_a_measure_that_is_the_same_everywhere_is_not_the_first_that_is_shown(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    reader.open(_written(document, study, tmp_path))
+    opened = reader.script("return document.getElementById('effect-choice').value")
+    alike = next(one for one in document["measures"] if one["id"] == opened)
+    alike |= {"value": 2e-9, "low": 2e-9, "high": 2e-9}
+    designs = next(one for one in document["effects"] if one["measure"] == opened)["designs"]
+
+    reader.open(_written(document, study, tmp_path))
+    for select in ("effect-choice", "measure-choice"):
+        chosen = reader.script("return document.getElementById(arguments[0]).value", select)
+        assert len(set(next(one for one in document["measures"] if one["id"] == chosen)["value"])) > 1
+    _seen(reader, "effects")
+    assert _offered(reader, "effects") == ["PNG", "SVG", "CSV"]
+
+    _choose(reader, "effect-choice", opened)
+    assert reader.text("#effect-note").startswith(f"{opened} is 2e-9")
+    assert reader.text("#effect-note").endswith(f" in all {designs} designs: no factor changes it.")
+    assert _offered(reader, "effects") == ["CSV"]
+
+    _seen(reader, "pareto")
+    _choose(reader, "pareto-x", opened)
+    ends = reader.script("return Array.from(document.getElementById('pareto-plot').layout.xaxis.range)")
+    assert ends == pytest.approx([1.8e-9, 2.2e-9])
+    assert reader.complaints() == []
+
+
+def test_a_plot_without_a_picture_and_a_table_offers_no_file(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    document["decision"]["acceptability"] = None
+    reader.open(_written(document, study, tmp_path))
+    _seen(reader, "acceptability")
+
+    assert reader.text("#acceptability-plot") == "There is nothing to draw here."
+    assert _offered(reader, "acceptability") == []
+
+
+def test_marks_and_numbers_of_many_variants_do_not_cover_each_other(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    count = len(document["variants"]["id"])
+    document["variants"] |= {"feasible": [1] * count, "pareto": [None] * count, "rank": [None] * count}
+    document["decision"] |= {"chosen": None, "runner_up": None}
+    reader.open(_written(document, study, tmp_path))
+    axes = [reader.script("return document.getElementById(arguments[0]).value", f"pareto-{one}") for one in "xy"]
+    for axis, step in zip(axes, (7, 11), strict=True):
+        measure = next(one for one in document["measures"] if one["id"] == axis)
+        measure["value"] = [float((step * place**2) % 61) for place in range(count)]
+
+    reader.open(_written(document, study, tmp_path), width=1440)
+    _seen(reader, "pareto")
+    found = reader.script(_MARKS_AND_NUMBERS)
+    assert len(found["numbers"]) > 2
+    for one, other in combinations(found["marks"], 2):
+        across = min(one[2], other[2]) - max(one[0], other[0])
+        up = min(one[3], other[3]) - max(one[1], other[1])
+        assert min(across, up) < 4, (one, other)
+    for left, top, right, bottom in found["numbers"]:
+        for mark in found["marks"]:
+            apart = mark[2] <= left + 1 or right - 1 <= mark[0] or mark[3] <= top + 3 or bottom - 3 <= mark[1]
+            assert apart, ((left, top, right, bottom), mark)
