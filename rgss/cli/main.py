@@ -88,8 +88,7 @@ def _run(arguments: Sequence[str] | None, interrupts: Interrupts) -> int:
             if sys.stdout is not None:
                 # Flushed here, where a failure can still be reported, and not at the exit of the interpreter.
                 sys.stdout.flush()
-        if status == BAD_INPUT:
-            _report_interrupted_import(options)
+        _report_interrupted_import(options)
         return status
     except DocumentError as error:
         for finding in error.findings:
@@ -151,7 +150,10 @@ def _interrupted(options: argparse.Namespace | None, interrupts: Interrupts) -> 
 
 
 def _report_interrupted_import(options: argparse.Namespace | None) -> None:
-    """Report an import that was killed while it wrote, which may be why the project cannot be read."""
+    """Report an import that was killed while it wrote: the project is neither the old nor the new one.
+
+    It may be why the project cannot be read; if it can, what a verb has read or run is of a mixture.
+    """
     from rgss.exchange import was_interrupted
     from rgss.studies import find_project
 

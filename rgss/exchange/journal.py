@@ -58,7 +58,7 @@ def journal_of(folder: Path, files: Mapping[str, tuple[bytes, bytes | None]]) ->
         path.parent.mkdir(exist_ok=True)
         journal = path.open("xb")
     except FileExistsError:
-        raise _under_way() from None
+        raise _in_the_way(folder) from None
     except OSError as error:
         raise unwritable(path, error) from error
     try:
@@ -131,13 +131,28 @@ def undone(folder: Path) -> tuple[str, ...]:
 
 
 def _restored(folder: Path, files: Mapping[str, tuple[bytes | None, bytes | None]]) -> tuple[str, ...]:
-    """Give the files that have their new content the old one again."""
+    """Give the files that have their new content, or a part of it, the old one again."""
     restored = []
     for name, (old, new) in files.items():
-        if old is not None and _content(folder / name) == new != old:
+        content = _content(folder / name)
+        if old is not None and content != old and (content == new or _is_half_written(content, old, new)):
             write_output(folder / name, old, replace_source=True)
             restored.append(name)
     return tuple(restored)
+
+
+def _is_half_written(content: bytes | None, old: bytes, new: bytes | None) -> bool:
+    """True for the content of a file whose overwriting in place was killed.
+
+    A file that has another name too, or whose owner cannot be kept, is overwritten from its beginning; the room that it
+    needs is reserved before, and what is beyond the new end is cut off afterwards.
+    """
+    if content is None or new is None or not len(old) <= len(content) <= max(len(old), len(new)):
+        return False
+    done = next(
+        (i for i, (is_now, is_to_be) in enumerate(zip(content, new, strict=False)) if is_now != is_to_be), len(new)
+    )
+    return content[done:] == old.ljust(len(content), b"\0")[done:]
 
 
 def _removed(journal: Path, *, with_folder: bool) -> None:
@@ -186,6 +201,17 @@ def _locked(folder: Path) -> int | None:
 
 def _under_way() -> DefinitionError:
     return DefinitionError("another import writes into this project", hint="wait until it has ended")
+
+
+def _in_the_way(folder: Path) -> DefinitionError:
+    """What has the name of the journal: that of an import under way, or something that no import makes."""
+    if has_journal(folder):
+        return _under_way()
+    name = _JOURNAL if (folder / _JOURNAL.parent).is_dir() else _JOURNAL.parent
+    should = "file" if name == _JOURNAL else "folder"
+    return DefinitionError(
+        f"{folder / name} is in the way of the import: no {should} of rgss", hint="move it away, and import again"
+    )
 
 
 def _content(path: Path) -> bytes | None:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import base64
 import errno
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -178,3 +180,41 @@ def test_a_journal_changes_requirements_alone(project, name):
 
     assert undone(project.folder) == ()
     assert path.read_bytes() == b""
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [(b"owner: a\n", b"owner: somebody\n"), (b"owner: somebody\n", b"owner: b\n"), (b"a\n", b"b\n")]
+)
+def test_a_file_that_is_killed_while_it_is_overwritten_in_place_is_restored(project, old, new):
+    """A file with two names is overwritten: room is reserved, the content copied, and what is over is cut off."""
+    folder, name = project.folder, "requirements/system.yaml"
+    coded = [base64.b64encode(content).decode("ascii") for content in (old, new)]
+    room = old.ljust(len(new), b"\0")
+    for done in range(len(new) + 1):
+        (folder / ".rgss").mkdir(exist_ok=True)
+        (folder / ".rgss" / "import.json").write_text(json.dumps({name: coded}), encoding="utf-8")
+        (folder / name).write_bytes(new[:done] + room[done:])
+
+        undone(folder)
+
+        assert (folder / name).read_bytes() == old, done
+
+
+@pytest.mark.parametrize("place", [".rgss", ".rgss/import.json"])
+@pytest.mark.parametrize("is_link", [False, True])
+def test_what_stands_where_the_journal_is_written_is_named(project, place, is_link):
+    """It is no import under way, for whose end one would wait for ever."""
+    rows = tuple(replace(row, cells={**row.cells, "owner": "somebody"}) for row in project.content.rows)
+    path = project.folder / place
+    path.parent.mkdir(exist_ok=True)
+    if is_link:
+        path.symlink_to("nowhere")
+    elif place == ".rgss":
+        path.touch()
+    else:
+        path.mkdir()
+
+    with pytest.raises(DefinitionError, match=f"{re.escape(str(path))} is in the way of the import") as refused:
+        written(project.folder, project.plan(replace(project.content, rows=rows)))
+
+    assert refused.value.hint == "move it away, and import again"

@@ -348,3 +348,19 @@ def test_an_interrupted_import_is_named_and_undone(rgss, folder, table):
     assert (told.status, told.output) == (0, "No changes.\n")
     assert told.errors == "an import that was interrupted is undone in requirements/stakeholder.yaml\n"
     assert path.read_bytes() == old
+
+
+def test_a_mixture_of_two_imports_that_can_be_read_is_told(rgss, folder):
+    """An import that was killed between two files leaves what may be sound and is neither the old nor the new."""
+    coded = base64.b64encode((folder / "requirements" / "stakeholder.yaml").read_bytes()).decode("ascii")
+    (folder / ".rgss").mkdir(exist_ok=True)
+    (folder / ".rgss" / "import.json").write_text(
+        json.dumps({"requirements/stakeholder.yaml": ["", coded]}), encoding="utf-8"
+    )
+
+    told = rgss("check", "--project", folder)
+
+    assert told.status == 0
+    assert (
+        told.errors == "rgss: an import into this project was interrupted (`rgss import` undoes what it has written)\n"
+    )
