@@ -159,7 +159,8 @@ def _report_interrupted_import(options: argparse.Namespace | None) -> None:
 
     try:
         folder = None if options is None else find_project(getattr(options, "project", None))
-    except RgssError:
+    # A folder that was removed is in no project.
+    except (RgssError, FileNotFoundError):
         return
     if folder is not None and was_interrupted(folder):
         _print_error("rgss: an import into this project was interrupted (`rgss import` undoes what it has written)")
