@@ -154,15 +154,17 @@ def _report_interrupted_import(options: argparse.Namespace | None) -> None:
 
     It may be why the project cannot be read; if it can, what a verb has read or run is of a mixture.
     """
+    if options is None or not hasattr(options, "project"):
+        return
     from rgss.exchange import was_interrupted
     from rgss.studies import find_project
 
     try:
-        folder = None if options is None else find_project(getattr(options, "project", None))
-    # A folder that was removed is in no project.
-    except (RgssError, FileNotFoundError):
+        folder = find_project(options.project)
+    # A folder that was removed, or cannot be read, is in no project.
+    except (RgssError, OSError):
         return
-    if folder is not None and was_interrupted(folder):
+    if was_interrupted(folder):
         _print_error("rgss: an import into this project was interrupted (`rgss import` undoes what it has written)")
 
 
