@@ -14,7 +14,6 @@ if TYPE_CHECKING:
         reopened,
         screen,
         screening_specs,
-        surviving_specs,
     )
     from rgss.decision.screening_result import ScreenedVariant, ScreeningResult, screening_summary
     from rgss.decision.staged_sweep import promoted_by_screening, sweep_in_stages

@@ -60,9 +60,9 @@ def require_sequential_rule(project: Project) -> None:
 def _unsupported(project: Project) -> tuple[str, str] | None:
     trade_off = project.study.trade_off
     program = program_of(project, tuple(value_function_of(project, valued) for valued in trade_off.valued))
-    ends = (
+    ends = [
         (requirement, criterion.measure)
         for requirement, criterion in demanded_criteria(project).items()
         if criterion.statistic is not Statistic.VALUE
-    )
+    ]
     return unsupported_reason(program.name, [risk.id for risk in trade_off.risks], ends)

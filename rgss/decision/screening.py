@@ -99,8 +99,7 @@ def surviving_specs(
         variants: The designs to select from; all by default.
     """
     among = project.designs.expand() if variants is None else variants
-    survivors = set(result.survivors)
-    return trial_specs(project, variants=[variant for variant in among if variant.id in survivors])
+    return trial_specs(project, variants=result.promoted(among))
 
 
 def measure_survivors(

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
+from rgss.designs import DesignVariant
 from rgss.studies import Screening
 
 _MOST_SHOWN = 72
@@ -67,6 +68,15 @@ class ScreeningResult:
     def survivors(self) -> tuple[int, ...]:
         """The ids of the promoted designs."""
         return tuple(one.variant for one in self.variants if one.goes_on)
+
+    def promoted(self, variants: Iterable[DesignVariant]) -> tuple[DesignVariant, ...]:
+        """Those of some designs that are promoted.
+
+        Args:
+            variants: The designs.
+        """
+        survivors = set(self.survivors)
+        return tuple(one for one in variants if one.id in survivors)
 
     @property
     def screened_out(self) -> tuple[ScreenedVariant, ...]:

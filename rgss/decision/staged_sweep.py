@@ -67,7 +67,4 @@ def promoted_by_screening(
     if project.study.screening is not None:
         run(screening_specs(project, variants=among))
     screened = screen(project, store)
-    if screened is None:
-        return among, None
-    survivors = set(screened.survivors)
-    return tuple(variant for variant in among if variant.id in survivors), screened
+    return among if screened is None else screened.promoted(among), screened

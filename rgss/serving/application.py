@@ -60,7 +60,7 @@ def study_application(observer: StudyObserver, page: str, replays: TrialReplays)
             return HTMLResponse(await asyncio.shield(asyncio.wrap_future(made)), headers=headers)
         except RgssError as error:
             return PlainTextResponse(f"{error}\n", status_code=404, headers=headers)
-        except Exception as error:  # noqa: BLE001, RUF100 - the page says why there is no replay
+        except Exception as error:  # the page says why there is no replay
             problem = f"The replay cannot be made: {type(error).__name__}: {error}\n"
             return PlainTextResponse(problem, status_code=500, headers=headers)
 

@@ -110,7 +110,7 @@ class StudyObserver:
         except (OSError, ValueError) as error:
             # A file was replaced while it was read; the next look reads it again.
             problem = f"The project cannot be read: {error}"
-        except Exception as error:  # noqa: BLE001, RUF100 - the thread must go on, and the page say why it has no study
+        except Exception as error:  # the thread must go on, and the page say why it has no study
             problem = f"The study cannot be shown: {type(error).__name__}: {error}"
         clock = time.strftime("%H:%M:%S")
         with self._lock:

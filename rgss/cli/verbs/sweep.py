@@ -128,7 +128,7 @@ def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[D
     from rgss.cli.main import CLEAN
     from rgss.cli.output import print_json, shown_path
     from rgss.cli.sweep import dry_run_as_json, dry_run_lines
-    from rgss.decision import screen, screening_specs, surviving_specs
+    from rgss.decision import screen, screening_specs
     from rgss.evidence import EvidenceStore
     from rgss.studies import trial_specs
     from rgss.sweep import dry_run
@@ -139,17 +139,12 @@ def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[D
         if project.evidence.exists():
             store = stack.enter_context(EvidenceStore.open(project.evidence, create=False, label=label))
         screened = screen(project, store)
-        specs = trial_specs(project, variants=variants)
-        if screened is not None:
-            specs = (
-                *screening_specs(project, variants=variants),
-                *surviving_specs(project, screened, variants=variants),
-            )
+        promoted = variants if screened is None else screened.promoted(variants)
+        specs = (*screening_specs(project, variants=variants), *trial_specs(project, variants=promoted))
         found = dry_run(specs, store, share=not options.no_share, study=project.study.label)
         further: tuple[str, ...] = ()
         if project.study.sweeps_until_decided and not (options.only or options.json):
-            going_on = [one for one in variants if screened is None or one.id in set(screened.survivors)]
-            read = sum(map(len, read_specs(project, store, going_on).values()))
+            read = sum(map(len, read_specs(project, store, promoted).values()))
             further = tuple(_further_trials(project, options.budget, read))
     if options.json:
         print_json(dry_run_as_json(found, label))

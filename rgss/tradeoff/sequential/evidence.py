@@ -226,12 +226,12 @@ class SequentialEvidence:
 
 
 def _check(problem: TradeProblem) -> None:
-    ends = (
+    ends = [
         (threshold.requirement, measure)
         for threshold in problem.thresholds
         for measure, dot, end in [threshold.measure.rpartition(".")]
         if dot and end in ("low", "high")
-    )
+    ]
     refused = unsupported_reason(problem.program.name, [risk.requirement for risk in problem.risks], ends)
     if refused is not None:
         raise TradeoffError(refused[0], hint=refused[1])

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 
 def unsupported_reason(
-    program: str, demands_on_replicates: Sequence[str], interval_ends: Iterable[tuple[str, str]]
+    program: str, demands_on_replicates: Sequence[str], interval_ends: Sequence[tuple[str, str]]
 ) -> tuple[str, str] | None:
     """Reason why a trade-off has no sequential rule, with a remedy; None if it has one.
 
@@ -20,12 +20,13 @@ def unsupported_reason(
             f"replication until decided does not support the {program} program",
             "decide by the weighted value, or run a fixed number of replicates",
         )
-    for demand in demands_on_replicates:
+    if demands_on_replicates:
         return (
-            f"replication until decided does not support demands on replicates, such as {demand}",
+            f"replication until decided does not support demands on replicates, such as {demands_on_replicates[0]}",
             "take the risks out, or run a fixed number of replicates",
         )
-    for requirement, measure in interval_ends:
+    if interval_ends:
+        requirement, measure = interval_ends[0]
         return (
             f"replication until decided cannot judge {requirement} by an end of {measure}'s interval",
             "judge it by the value, or run a fixed number of replicates",
