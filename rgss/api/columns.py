@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 from rgss.api.column import Column, FrameDescription, Kind
 from rgss.api.metric_columns import phase_metric_columns, recorded_column, trial_metric_columns
-from rgss.api.sensitivity_columns import ASSUMPTIONS, STAKEHOLDERS, TORNADO, WORTH_KEEPING
+from rgss.api.sensitivity_columns import ASSUMPTIONS, EXCHANGE_RATES, STAKEHOLDERS, TORNADO, WORTH_KEEPING
 from rgss.api.shared_columns import AS_UNIT, MEASURE, SEED, UNIT, VARIANT
 from rgss.api.trade_columns import ACCEPTABILITY, CHANGES, EFFECTS, PARETO, PORTFOLIO, RANKING, WEIGHTS
 
@@ -203,6 +203,7 @@ FRAMES: Mapping[str, FrameDescription] = MappingProxyType(
             WEIGHTS,
             ACCEPTABILITY,
             TORNADO,
+            EXCHANGE_RATES,
             WORTH_KEEPING,
             STAKEHOLDERS,
             ASSUMPTIONS,

@@ -47,6 +47,39 @@ TORNADO = FrameDescription(
 )
 
 
+AS_REFERENCE = "as `reference_unit` says"
+
+EXCHANGE_RATES = FrameDescription(
+    name="exchange_rates",
+    row="a measure with a weight, other than the one in which all is paid",
+    index=(Column(name="measure", meaning="the measure"),),
+    columns=(
+        UNIT,
+        Column(name="quantity", meaning="quantity of the chosen variant", unit=AS_UNIT, kind=Kind.NUMBER),
+        Column(name="step", meaning="a change for the better", unit=AS_UNIT, kind=Kind.NUMBER),
+        Column(name="gain", meaning="weighted value that it adds", unit="1", kind=Kind.NUMBER),
+        Column(name="reference", meaning="the measure in which all is paid"),
+        Column(name="reference_unit", meaning="its unit"),
+        Column(name="worth", meaning="worth of the step in the reference", unit=AS_REFERENCE, kind=Kind.NUMBER),
+        Column(name="is_bound", meaning="true if it is worth more than that", kind=Kind.TRUTH),
+        Column(
+            name="better_variant",
+            meaning="variant with a better quantity and the least worsening of the reference; missing if none",
+            unit="1",
+            kind=Kind.COUNT,
+        ),
+        Column(name="better_quantity", meaning="its quantity", unit=AS_UNIT, kind=Kind.NUMBER),
+        Column(
+            name="extra",
+            meaning="its quantity of the reference minus that of the choice",
+            unit=AS_REFERENCE,
+            kind=Kind.NUMBER,
+        ),
+        Column(name="misses", meaning="requirements that it misses, separated by commas; none if it is feasible"),
+    ),
+)
+
+
 WORTH_KEEPING = FrameDescription(
     name="worth_keeping",
     row="a feasible variant",

@@ -53,6 +53,34 @@ def tornado_frame(found: Sensitivity) -> pd.DataFrame:
     return described_frame("tornado", rows)
 
 
+def exchange_rates_frame(found: Sensitivity) -> pd.DataFrame:
+    """One row for each measure with a weight but the one in which all is paid.
+
+    Raises:
+        TradeoffError: They were not analysed, or could not be computed.
+    """
+    exchange = _computed(found, Part.EXCHANGE_RATES, found.exchange)
+    rows = [
+        {
+            "measure": rate.measure,
+            "unit": rate.unit,
+            "quantity": rate.quantity,
+            "step": rate.step,
+            "gain": rate.gain,
+            "reference": exchange.reference,
+            "reference_unit": exchange.unit,
+            "worth": rate.worth.amount,
+            "is_bound": rate.worth.is_bound,
+            "better_variant": None if rate.better is None else rate.better.variant,
+            "better_quantity": None if rate.better is None else rate.better.quantity,
+            "extra": None if rate.better is None else rate.better.extra,
+            "misses": "" if rate.better is None else ", ".join(rate.better.misses),
+        }
+        for rate in exchange.rates
+    ]
+    return described_frame("exchange_rates", rows)
+
+
 def worth_keeping_frame(found: Sensitivity) -> pd.DataFrame:
     """One row for each feasible variant.
 

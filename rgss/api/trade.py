@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rgss.api.argument_terms import ErrorsNameArguments
 from rgss.api.plots import Plots, require_matplotlib
-from rgss.api.sensitivity_frames import stakeholders_frame, tornado_frame, worth_keeping_frame
+from rgss.api.sensitivity_frames import exchange_rates_frame, stakeholders_frame, tornado_frame, worth_keeping_frame
 from rgss.api.trade_frames import (
     acceptability_frame,
     changes_frame,
@@ -120,6 +120,10 @@ class Trade:
     def tornado(self) -> pd.DataFrame:
         """Effects of the uncertain inputs on the lead of the choice, the largest swing first."""
         return tornado_frame(self.sensitivity())
+
+    def exchange_rates(self) -> pd.DataFrame:
+        """Worth of a better quantity of each measure to the choice, in units of one measure."""
+        return exchange_rates_frame(self.sensitivity())
 
     def worth_keeping(self) -> pd.DataFrame:
         """The feasible variants, each with the reason to keep it or the variants that beat it."""

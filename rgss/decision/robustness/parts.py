@@ -31,6 +31,7 @@ class Part(str, Enum):
     TORNADO = "sensitivity.tornado"
     KEPT = "sensitivity.worth_keeping"
     STAKEHOLDERS = "sensitivity.stakeholders"
+    EXCHANGE_RATES = "sensitivity.exchange_rates"
 
     @property
     def words(self) -> str:
@@ -55,6 +56,7 @@ _TITLES = MappingProxyType(
         Part.TORNADO: "tornado",
         Part.KEPT: "designs worth keeping",
         Part.STAKEHOLDERS: "stakeholders",
+        Part.EXCHANGE_RATES: "exchange rates",
     }
 )
 

@@ -1,4 +1,4 @@
-"""Sensitivity of a decision as one value: tornado, bent values, kept designs, stakeholders, flat weights."""
+"""Sensitivity of a decision: tornado, bent values, exchange rates, kept designs, stakeholders, flat weights."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from rgss.assessment import VariantMeasures
 from rgss.decision.robustness import NotComputed, Part, PartComputer, Remeasuring, Robustness
 from rgss.decision.sensitivity.bends import BentValue, bent_values_of
+from rgss.decision.sensitivity.exchange_rates import ExchangeRates, exchange_rates_of
 from rgss.decision.sensitivity.flat_weights import FlatWeight, flat_weights
 from rgss.decision.sensitivity.ranges import RangeBook
 from rgss.decision.sensitivity.standings import Standings, standings_of
@@ -39,6 +40,8 @@ class Sensitivity:
         weights: Their weights, shape (m,).
         tornado: Swing of the advantage over each input; None if `refused` or `not_computed` has the reason.
         bends: The choice under bent value functions.
+        exchange: What better quantities are worth to the choice; None without two measures of which one can pay,
+            or if it could not be computed.
         kept: The feasible designs, each with the reason to keep it or the designs that beat it; None if it
             could not be computed.
         keep_margin: Distance from the best within which a design is worth keeping.
@@ -55,6 +58,7 @@ class Sensitivity:
     weights: NDArray[np.float64]
     tornado: Tornado | None
     bends: tuple[BentValue, ...]
+    exchange: ExchangeRates | None
     kept: tuple[KeptAlternative, ...] | None
     keep_margin: float
     bounded_weights: bool
@@ -91,6 +95,7 @@ def analyse_sensitivity(
     parts = PartComputer()
     tornado: Tornado | None = None
     bends: tuple[BentValue, ...] = ()
+    exchange: ExchangeRates | None = None
     kept, agreement, bounded = None, None, False
     if not refused:
         table = tabulated(problem.alternatives)
@@ -99,6 +104,8 @@ def analyse_sensitivity(
         if isinstance(moved, DocumentError):
             raise moved
         tornado = moved
+        if moved is not None:
+            exchange = parts.compute(Part.EXCHANGE_RATES, lambda: exchange_rates_of(standings, moved), None)
         bends = () if tornado is None else bent_values_of(project, tornado, problem.value_functions)
         keep = trade_off.practical_margin if margin is None else margin
         kept = parts.compute(Part.KEPT, lambda: _kept(standings, keep), None)
@@ -110,6 +117,7 @@ def analyse_sensitivity(
         weights=found.weights,
         tornado=tornado,
         bends=bends,
+        exchange=exchange,
         kept=kept,
         keep_margin=trade_off.practical_margin if margin is None else margin,
         bounded_weights=bounded,

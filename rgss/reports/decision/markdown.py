@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from rgss.decision.robustness import not_computed_lines
+from rgss.decision.sensitivity import ExchangeRates
 from rgss.decision.study_decision import RobustnessFindings, SideBySide, StudyDecision
 from rgss.documents import LARGEST_FILE_BYTES, chunks_of
 from rgss.errors import DefinitionError
@@ -20,6 +21,7 @@ from rgss.reports.decision.conclusion import (
     standing_sentence,
     uncertainty_sentences,
 )
+from rgss.reports.decision.exchange_sentences import exchange_clause, lead_sentence
 from rgss.reports.decision.sensitivity_sentences import tied_by_weights_sentence
 from rgss.reports.decision.words import (
     UNKNOWN,
@@ -45,13 +47,15 @@ def decision_section(made: StudyDecision) -> str:
         made: The decision, whose robustness was analysed.
     """
     parts = [BEGIN, ""]
-    found = made.robustness
+    found, exchange = made.robustness, None if made.sensitivity is None else made.sensitivity.exchange
     if made.comparison is None:
         basis = basis_text(shown_feasible=made.shown_feasible)
         parts += [f"No variant of study `{made.study}` meets every requirement by its {basis}.", ""]
     elif found is not None:
         parts += [*_choice(made, made.comparison), ""]
         parts += [*_deciding(made, made.comparison, found), ""]
+        if exchange is not None:
+            parts += [*_exchange(exchange), ""]
         parts += [*_costs(found), ""]
     if made.assumptions:
         parts += [*_assumptions(made), ""]
@@ -193,6 +197,13 @@ def _shares(made: StudyDecision, found: RobustnessFindings) -> Iterator[str]:
             f"over all weights and the noise of the replicates it comes first in {first} of the draws, and at the "
             f"weights that are typical for it with a probability of {confidence}"
         )
+
+
+def _exchange(found: ExchangeRates) -> Iterator[str]:
+    clause, lead = exchange_clause(found), lead_sentence(found)
+    if clause or lead:
+        worth = f"By the weights and value functions these are worth: {clause}." if clause else ""
+        yield f"*What differences are worth to it, in `{found.reference}`.* {' '.join(filter(None, (worth, lead)))}"
 
 
 def _costs(found: RobustnessFindings) -> Iterator[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rgss.decision.robustness import not_computed_lines
 from rgss.decision.sensitivity import Sensitivity, TornadoBar, TornadoEnd
+from rgss.reports.decision.exchange_sentences import exchange_rows, exchange_sentences, exchange_title
 from rgss.reports.decision.meanings import meanings
 from rgss.reports.decision.sensitivity_sentences import (
     agreement_sentences,
@@ -44,6 +45,7 @@ def sensitivity_part(found: Sensitivity | None, *, with_noise: bool) -> Plain | 
             "ranges": range_sentence(tornado),
         },
         "bends": list(bend_sentences(found.bends)),
+        "exchange": _exchange(found),
         "keep_rule": f"{rule[0].upper()}{rule[1:]}.",
         "kept": [
             {"variants": list(group.variants), "why": group.why, "behind": score(group.behind)}
@@ -54,6 +56,24 @@ def sensitivity_part(found: Sensitivity | None, *, with_noise: bool) -> Plain | 
         "meanings": list(meanings(with_noise=with_noise)),
         "not_computed": list(not_computed_lines(found.not_computed)),
     }
+
+
+def _exchange(found: Sensitivity) -> Plain | None:
+    exchange = found.exchange
+    if exchange is None:
+        return None
+    rows = [
+        {
+            "measure": row.measure,
+            "quantity": row.quantity,
+            "step": row.step,
+            "worth": row.worth,
+            "variant": row.variant,
+            "better": row.better,
+        }
+        for row in exchange_rows(exchange)
+    ]
+    return {"title": exchange_title(exchange), "rows": rows, "sentences": list(exchange_sentences(exchange))}
 
 
 def _row(bar: TornadoBar) -> Plain:

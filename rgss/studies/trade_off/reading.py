@@ -33,7 +33,7 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
     deciding = [measure for measure, weight in weights.items() if weight > 0.0]
     stakeholders = read_stakeholders(places, entry.stakeholders, deciding) if deciding else ()
     sensitivity = SensitivityChoice() if entry.sensitivity is None else entry.sensitivity
-    range_places = check_sensitivity(places, sensitivity)
+    range_places = check_sensitivity(places, sensitivity, reader.valued, deciding)
     program = ProgramReader(places, reader.valued, weights).read(entry.decide_by)
     name = entry.decide_by.program
     risks = read_risks(places, entry.chance, entry.tail)

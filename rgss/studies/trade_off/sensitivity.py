@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from pydantic.dataclasses import dataclass
 
-from rgss.documents import STRICT, Dimensionless, Text
+from rgss.documents import STRICT, Dimensionless, Identifier, Text
 from rgss.findings import Finding
-from rgss.tradeoff import QuantityField
+from rgss.tradeoff import AnchoredValue, QuantityField
 
 if TYPE_CHECKING:
     from rgss.studies.trade_off.places import TradeOffPlaces
@@ -49,6 +50,8 @@ class SensitivityChoice:
         risk_tolerance: The least risk tolerance, as a share of the range from worst to best, with which value
             functions are bent.
         keep_within: Distance from the best up to which a design is worth keeping; None for the practical margin.
+        priced_in: Measure in which differences of the others are paid; None for the first one in money, or the one
+            with the greatest weight.
         ranges: Stated ranges.
     """
 
@@ -58,15 +61,20 @@ class SensitivityChoice:
     assumptions: Dimensionless = 0.25
     risk_tolerance: Dimensionless = 0.3
     keep_within: Dimensionless | None = None
+    priced_in: Identifier | None = None
     ranges: tuple[StatedRange, ...] = ()
 
 
-def check_sensitivity(places: TradeOffPlaces, choice: SensitivityChoice) -> tuple[Finding, ...]:
+def check_sensitivity(
+    places: TradeOffPlaces, choice: SensitivityChoice, valued: Sequence[AnchoredValue], deciding: Sequence[str]
+) -> tuple[Finding, ...]:
     """Check the section, with a finding for each mistake.
 
     Args:
         places: Takes the findings.
         choice: The section.
+        valued: The value functions of the study.
+        deciding: The measures with a weight above 0; none if the weights are wrong.
 
     Returns:
         For each stated range a finding at its input, which gives later messages their place.
@@ -83,6 +91,13 @@ def check_sensitivity(places: TradeOffPlaces, choice: SensitivityChoice) -> tupl
     if choice.keep_within is not None and not 0.0 <= choice.keep_within <= 1.0:
         message = f"keep_within must be from 0 to 1, got {choice.keep_within:g}"
         places.report("sensitivity", message, (*_SECTION, "keep_within"), hint="a difference of value, such as 0.02")
+    priced = choice.priced_in
+    targets = [one.measure for one in valued if not one.is_monotone]
+    if priced is not None and deciding and (priced not in deciding or priced in targets):
+        why = "has a target" if priced in targets else "has no weight"
+        names = ", ".join(name for name in deciding if name not in targets)
+        hint = f"name one of {names}" if names else "leave it out: all measures have targets"
+        places.report("sensitivity", f"priced_in: {priced!r} {why}", (*_SECTION, "priced_in"), hint=hint)
     inputs = [one.input for one in choice.ranges]
     at = [(*_SECTION, "ranges", index, "input") for index in range(len(inputs))]
     for index, name in enumerate(inputs):

@@ -136,6 +136,18 @@ FINDINGS = [
     ((*WEIGHED, "accept_within: 2"), "5:18: error: accept_within must be from 0 to 1, got 2"),
     ((*WEIGHED, "sensitivity: {weights: 1}"), "5:26: error: weights must be from 0 to below 1, got 1"),
     ((*WEIGHED, "sensitivity: {risk_tolerance: 0}"), "5:33: error: risk_tolerance must be at least 0.02, got 0"),
+    (
+        (*WEIGHED, "sensitivity: {priced_in: C_total}"),
+        "5:28: error: priced_in: 'C_total' has no weight (name one of P_max, t_e)",
+    ),
+    (
+        (
+            *WEIGHED[:2],
+            "  - {measure: t_e, weight: 0.5, target: 15 s, too_low: 5 s, too_high: 25 s}",
+            "sensitivity: {priced_in: t_e}",
+        ),
+        "5:28: error: priced_in: 't_e' has a target (name one of P_max)",
+    ),
     ((*WEIGHED, "sensitivity: {keep_within: 2}"), "5:30: error: keep_within must be from 0 to 1, got 2"),
     (
         (

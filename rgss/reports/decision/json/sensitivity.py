@@ -5,7 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from rgss.decision.sensitivity import BentEnd, BentValue, FlatWeight, Sensitivity, Tornado, TornadoBar, TornadoEnd
+from rgss.decision.sensitivity import (
+    BentEnd,
+    BentValue,
+    ExchangeRate,
+    ExchangeRates,
+    FlatWeight,
+    Sensitivity,
+    Tornado,
+    TornadoBar,
+    TornadoEnd,
+    Worth,
+)
 from rgss.tradeoff.robustness import KeptAlternative, StakeholderAgreement
 
 Plain = dict[str, object]
@@ -16,6 +27,7 @@ def sensitivity_to_json(found: Sensitivity) -> Plain:
     return {
         "tornado": None if found.tornado is None else tornado_to_json(found.tornado),
         "bent_values": [_bend(one) for one in found.bends],
+        "exchange_rates": None if found.exchange is None else _exchange(found.exchange),
         "worth_keeping": None if found.kept is None else _kept(found, found.kept),
         "stakeholders": None if found.agreement is None else _agreement(found, found.agreement),
         "flat_weights": [_flat(one) for one in found.flat],
@@ -83,6 +95,43 @@ def _bent_end(end: BentEnd) -> Plain:
         "flip_risk_tolerance": end.flip_tolerance,
         "flip_halfway": end.flip_halfway,
     }
+
+
+def _exchange(found: ExchangeRates) -> Plain:
+    return {
+        "variant": found.variant,
+        "reference": found.reference,
+        "unit": found.unit,
+        "more_is_better": found.more_is_better,
+        "measures": [_rate(rate) for rate in found.rates],
+        "rival": found.rival,
+        "lead": None if found.lead is None else _worth(found.lead),
+    }
+
+
+def _rate(rate: ExchangeRate) -> Plain:
+    better = rate.better
+    return {
+        "measure": rate.measure,
+        "unit": rate.unit,
+        "quantity": rate.quantity,
+        "step": rate.step,
+        "gain": rate.gain,
+        "worth": _worth(rate.worth),
+        "better_design": None
+        if better is None
+        else {
+            "variant": better.variant,
+            "quantity": better.quantity,
+            "extra": better.extra,
+            "value_change": None if math.isnan(better.value_change) else better.value_change,
+            "misses": list(better.misses),
+        },
+    }
+
+
+def _worth(worth: Worth) -> Plain:
+    return {"amount": worth.amount, "is_bound": worth.is_bound}
 
 
 def _kept(found: Sensitivity, kept: Sequence[KeptAlternative]) -> Plain:

@@ -1,4 +1,4 @@
-"""Sensitivity of a decision to its inputs, designs worth keeping, and stakeholders, for a terminal."""
+"""Sensitivity of a decision to its inputs, exchange rates, designs worth keeping, and stakeholders, for a terminal."""
 
 from __future__ import annotations
 
@@ -6,6 +6,12 @@ from collections.abc import Iterator
 
 from rgss.decision.robustness import not_computed_lines
 from rgss.decision.sensitivity import Sensitivity
+from rgss.reports.decision.exchange_sentences import (
+    EXCHANGE_HEADS,
+    exchange_rows,
+    exchange_sentences,
+    exchange_title,
+)
 from rgss.reports.decision.sensitivity_sentences import (
     KeptGroup,
     agreement_sentences,
@@ -32,6 +38,12 @@ def sensitivity_lines(found: Sensitivity) -> Iterator[str]:
         yield from tornado_lines(found.tornado)
         yield from bend_sentences(found.bends)
         yield range_sentence(found.tornado)
+    if found.exchange is not None:
+        yield ""
+        yield exchange_title(found.exchange)
+        rows = [list(row.cells) for row in exchange_rows(found.exchange)]
+        yield from aligned_table(list(EXCHANGE_HEADS), rows, right=(1, 2, 3))
+        yield from exchange_sentences(found.exchange)
     if found.kept is not None:
         yield ""
         yield f"Designs worth keeping ({keep_rule(found)})"

@@ -77,6 +77,10 @@ class BentFunction:
         """None: the function is curved."""
         return
 
+    def ends_at(self, quantity: float) -> tuple[float, float]:
+        """As before: the mapping keeps 0 and 1."""
+        return self.straight.ends_at(quantity)
+
     def value_at(self, quantity: float) -> float:
         """The value of a quantity, from 0 to 1."""
         return math.expm1(-self.curvature * self.straight.value_at(quantity)) / math.expm1(-self.curvature)

@@ -72,6 +72,10 @@ class TargetValue:
         """The three points (quantity, value), by rising quantity."""
         return ((self.too_low, 0.0), (self.target, 1.0), (self.too_high, 0.0))
 
+    def ends_at(self, quantity: float) -> tuple[float, float]:
+        """What is too low or too high, on the side of a quantity, and the target."""
+        return (self.too_low if quantity < self.target else self.too_high), self.target
+
     def value_at(self, quantity: float) -> float:
         """The value of a quantity, from 0 to 1."""
         return interpolated(self.breakpoints, quantity)
@@ -96,6 +100,7 @@ class AnchoredTarget(AnchoredValue):
     own: ClassVar[tuple[str, ...]] = ("target", "too_low", "too_high")
     label: ClassVar[str] = "a target"
     ends: ClassVar[tuple[str, str]] = ("too_low", "target")
+    is_monotone: ClassVar[bool] = False
 
     measure: str
     target: Anchor

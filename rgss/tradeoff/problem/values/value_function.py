@@ -43,6 +43,10 @@ class ValueFunction(Protocol):
         """Points (quantity, value) by rising quantity, linear between and level beyond; None where it is curved."""
         ...
 
+    def ends_at(self, quantity: float) -> tuple[float, float]:
+        """The quantities worth 0 and 1 on the side of a quantity."""
+        ...
+
     def __hash__(self) -> int:
         """Hash consistent with equality, for caches keyed by functions."""
         ...
@@ -105,6 +109,10 @@ class MonotoneValue:
         """None where the function is curved."""
         return None
 
+    def ends_at(self, _quantity: float) -> tuple[float, float]:
+        """Worst and best, at every quantity."""
+        return self.worst, self.best
+
     def share(self, quantity: float) -> float:
         """Position of a quantity between the anchors: 0 at worst, 1 at best."""
         return (quantity - self.worst) / (self.best - self.worst)
@@ -123,6 +131,7 @@ class AnchoredValue(ABC):
         own: Keys of which each marks an entry as being of this shape.
         label: The shape in messages, before a key that does not belong to it.
         ends: The keys of a quantity worth 0 and of one worth 1.
+        is_monotone: Whether the value only rises, or only falls, with the quantity.
     """
 
     __slots__ = ()
@@ -132,6 +141,7 @@ class AnchoredValue(ABC):
     own: ClassVar[tuple[str, ...]]
     label: ClassVar[str]
     ends: ClassVar[tuple[str, str]]
+    is_monotone: ClassVar[bool] = True
 
     measure: str
 
