@@ -145,7 +145,14 @@ class Trade:
     @ErrorsNameArguments()
     def _sensitivity(self) -> Sensitivity:
         problem = trade_problem(self.project, self.measured)
-        return analyse_sensitivity(self.project, self.measured, self.decision, self._robustness, problem=problem)
+        return analyse_sensitivity(
+            self.project,
+            self.measured,
+            self.decision,
+            self._robustness,
+            problem=problem,
+            is_supposed=self.scenario is not None,
+        )
 
     @cached_property
     @ErrorsNameArguments()

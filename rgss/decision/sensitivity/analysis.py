@@ -76,6 +76,7 @@ def analyse_sensitivity(
     found: Robustness,
     *,
     problem: TradeProblem,
+    is_supposed: bool = False,
 ) -> Sensitivity:
     """Analyse the sensitivity of a decision to its inputs; nothing is simulated.
 
@@ -85,6 +86,7 @@ def analyse_sensitivity(
         decision: The decision between them.
         found: Its robustness.
         problem: The trade-off.
+        is_supposed: Whether suppositions have changed the study.
 
     Raises:
         DocumentError: A stated range names no input, or is wrong.
@@ -100,7 +102,7 @@ def analyse_sensitivity(
     if not refused:
         table = tabulated(problem.alternatives)
         standings = standings_of(Remeasuring.of(project, measured, table), problem)
-        moved = parts.compute(Part.TORNADO, lambda: _tornado(standings, decision, found), None)
+        moved = parts.compute(Part.TORNADO, lambda: _tornado(standings, decision, found, is_supposed=is_supposed), None)
         if isinstance(moved, DocumentError):
             raise moved
         tornado = moved
@@ -137,10 +139,12 @@ def _refused(problem: TradeProblem, decision: Decision) -> str:
     return ""
 
 
-def _tornado(standings: Standings, decision: Decision, found: Robustness) -> Tornado | DocumentError:
+def _tornado(
+    standings: Standings, decision: Decision, found: Robustness, *, is_supposed: bool
+) -> Tornado | DocumentError:
     """The tornado; an error in a range that the user stated is returned in its place."""
     trade_off = standings.project.study.trade_off
-    book = RangeBook(trade_off.sensitivity, trade_off.range_places)
+    book = RangeBook(trade_off.sensitivity, trade_off.range_places, is_supposed=is_supposed)
     inputs = list(uncertain_inputs(standings, found, book))
     try:
         book.check(undecided_inputs(standings, found))

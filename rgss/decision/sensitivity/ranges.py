@@ -20,14 +20,16 @@ class RangeBook:
         choice: Ranges of inputs without a stated range.
     """
 
-    def __init__(self, choice: SensitivityChoice, places: Sequence[Finding]) -> None:
+    def __init__(self, choice: SensitivityChoice, places: Sequence[Finding], *, is_supposed: bool = False) -> None:
         """Create the ranges from the section of the study's file.
 
         Args:
             choice: The section.
             places: A finding at the place of each stated range.
+            is_supposed: Whether suppositions have moved inputs: a range that one leaves then reaches to it.
         """
         self.choice = choice
+        self._is_supposed = is_supposed
         self._stated = {one.input: one for one in choice.ranges}
         self._places = {one.input: place for one, place in zip(choice.ranges, places, strict=True)}
         self._findings: list[Finding] = []
@@ -50,6 +52,8 @@ class RangeBook:
         except QuantityError as error:
             self._report(one, f"{name}: {error.message}", error.hint)
             return None
+        if self._is_supposed:
+            return min(low, base), max(high, base)
         if not low <= base <= high:
             message = f"{name} is {base:g}{'' if unit == '1' else ' ' + unit}, outside of its range {low:g} to {high:g}"
             self._report(one, message, "give a low and a high end with the value of the study between them")

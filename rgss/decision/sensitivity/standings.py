@@ -15,7 +15,7 @@ from rgss.decision.what_if import ModelNumber
 from rgss.errors import DefinitionError
 from rgss.studies import Project
 from rgss.tradeoff import AnchoredValue, TradeProblem
-from rgss.tradeoff.problem import Array, EvidenceTable, Mask, bent_values
+from rgss.tradeoff.problem import AnchoredBent, Array, EvidenceTable, Mask, bent_values
 from rgss.tradeoff.programs import Preferences, single_values, violations, weighted_values
 from rgss.tradeoff.robustness import Standing
 
@@ -77,12 +77,18 @@ class Standings:
 
         return standing
 
+    def curvature_of(self, place: int) -> float:
+        """Curvature by which a supposition has bent the value function of a measure; 0 if none has."""
+        valued = self._anchored(place)
+        return valued.curvature if isinstance(valued, AnchoredBent) else 0.0
+
     def with_curvature(self, places: tuple[int, ...]) -> Callable[[float], Standing]:
-        """Some value functions bent by a curvature."""
+        """Some value functions bent by a curvature, which replaces one that they have."""
+        straight = np.column_stack([self._straight_values(place) for place in places])
 
         def standing(curvature: float) -> Standing:
             values = self.values.copy()
-            values[:, places] = bent_values(values[:, places], curvature)
+            values[:, places] = bent_values(straight, curvature)
             return self._valued(values)
 
         return standing
@@ -111,6 +117,17 @@ class Standings:
             return Standing(totals=found.totals, feasible=found.feasible & mask)
 
         return standing
+
+    def _anchored(self, place: int) -> AnchoredValue:
+        measure = self.measures[place]
+        return next(one for one in self.project.study.trade_off.valued if one.measure == measure)
+
+    def _straight_values(self, place: int) -> Array:
+        """The values in a measure before a supposition bends its value function."""
+        valued = self._anchored(place)
+        if not isinstance(valued, AnchoredBent):
+            return self.values[:, place]
+        return value_function_of(self.project, valued.straight).values_at(self.table.column(valued.measure))
 
     def _with_column(self, place: int, column: Array) -> Standing:
         values = self.values.copy()

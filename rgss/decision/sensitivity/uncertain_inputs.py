@@ -133,13 +133,17 @@ def _shapes(standings: Standings, book: RangeBook) -> Iterator[UncertainInput]:
     most = 1.0 / book.choice.risk_tolerance
     every = tuple(range(len(standings.measures)))
     named = [(measure, (place,)) for place, measure in enumerate(standings.measures)]
-    for measure, places in [*named, *([(ALL, every)] if len(every) > 1 else [])]:
+    # Functions that are bent differently have no common curvature.
+    together = len(every) > 1 and len({standings.curvature_of(place) for place in every}) == 1
+    for measure, places in [*named, *([(ALL, every)] if together else [])]:
+        base = standings.curvature_of(places[0])
         low, high, basis = book.range_of(f"{SHAPE}.{measure}", "1", 0.0, most)
+        low, high = min(low, base), max(high, base)
         yield UncertainInput(
             id=f"{SHAPE}.{measure}",
             kind=InputKind.SHAPE,
             unit="1",
-            base=0.0,
+            base=base,
             low=low,
             high=high,
             basis=basis,

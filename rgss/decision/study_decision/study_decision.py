@@ -256,7 +256,9 @@ def study_decision(
         double_counted=double_counting(project),
         shared_parts=shared_measures(project),
         robustness=None if found is None else robustness_findings(project, found, chosen=decision.chosen),
-        sensitivity=None if found is None else analyse_sensitivity(project, measured, decision, found, problem=problem),
+        sensitivity=None
+        if found is None
+        else analyse_sensitivity(project, measured, decision, found, problem=problem, is_supposed=what_if is not None),
         elicited=project.study.trade_off.elicited,
         elicited_by=project.study.trade_off.elicited_by,
         portfolio=portfolio,

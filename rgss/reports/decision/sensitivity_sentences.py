@@ -74,13 +74,18 @@ def bend_sentences(bends: Sequence[BentValue]) -> Iterator[str]:
         for end, word in ((bend.convex, "convex"), (bend.concave, "concave")):
             if end.flip is not None:
                 yield _flip(bend, end, word)
-    steady = [bend.measure or "all together" for bend in bends if not bend.flips]
-    tolerances = [abs(1.0 / end.curvature) for bend in bends for end in (bend.convex, bend.concave) if end.curvature]
-    if steady and tolerances:
-        yield (
-            f"Bent to a risk tolerance of {min(tolerances):.2g} of the range, convex or concave, these value "
-            f"functions do not change the choice: {', '.join(steady)}."
+    steady: dict[tuple[float, float], list[str]] = {}
+    for bend in bends:
+        if not bend.flips:
+            ends = (bend.convex.curvature, bend.concave.curvature)
+            steady.setdefault(ends, []).append(bend.measure or "all together")
+    for (low, high), names in steady.items():
+        bent = (
+            f"to a risk tolerance of {1.0 / high:.2g} of the range, convex or concave"
+            if high == -low
+            else f"with a curvature from {low:.2g} to {high:.2g}"
         )
+        yield f"Bent {bent}, these value functions do not change the choice: {', '.join(names)}."
 
 
 def range_sentence(tornado: Tornado) -> str:

@@ -14,7 +14,7 @@ from rgss.decision.robustness import robustness
 from rgss.decision.sensitivity import RangeBasis, analyse_sensitivity
 from rgss.decision.what_if import measured_in, suppose
 from rgss.errors import DocumentError, TradeoffError
-from rgss.reports.decision.sensitivity_sentences import range_sentence
+from rgss.reports.decision.sensitivity_sentences import bend_sentences, range_sentence
 from rgss.tradeoff import ExponentialValue, Weighting
 from rgss.tradeoff.programs import enumerate_alternatives
 
@@ -50,17 +50,25 @@ def measured(shipped, filled, record_of):
 def analysed(shipped, measured, read_trade_off_of):
     """A study with other ranges and its sensitivity."""
 
-    def analyse(*lines, choice=CHOICE):
+    def analyse(*lines, choice=CHOICE, supposed=()):
         changed = bool(lines) or choice is not CHOICE
         project = replace(shipped, study=read_trade_off_of(*choice, *lines)) if changed else shipped
-        problem = trade_problem(project, measured)
-        decision = choose(project, measured, problem=problem)
+        entries = measured
+        if supposed:
+            scenario = suppose(project, supposed)
+            project, entries = scenario.project, measured_in(scenario, measured)
+        problem = trade_problem(project, entries)
+        decision = choose(project, entries, problem=problem)
         with pytest.MonkeyPatch.context() as patch:
             for part in UNREAD:
                 patch.setattr(robustness, part, not_computed)
             patch.setattr(robustness, "_posterior", lambda *_: None)
-            found = robustness.analyse_robustness(project, measured, decision, problem=problem)
-        return project, decision, analyse_sensitivity(project, measured, decision, found, problem=problem)
+            found = robustness.analyse_robustness(project, entries, decision, problem=problem)
+        return (
+            project,
+            decision,
+            analyse_sensitivity(project, entries, decision, found, problem=problem, is_supposed=bool(supposed)),
+        )
 
     return analyse
 
@@ -126,6 +134,57 @@ def test_each_end_is_the_decision_under_that_supposition(wide, measured):
             assert_is_what_if(bar, end, project, decision, measured)
             looked_at += 1
     assert looked_at > 40
+
+
+RANGES = (
+    "sensitivity: {ranges: [{input: weight.S, low: 0.1, high: 0.3}, {input: shape.C_total, low: 0, high: 2},"
+    " {input: catalogue.ur10.cost, low: 30000 USD, high: 35000 USD}]}"
+)
+
+
+@pytest.mark.parametrize(
+    "supposed",
+    [
+        "shape.S=3",
+        "shape.C_total=4",
+        "shape.all=-2",
+        "weight.S=0.4",
+        "catalogue.ur10.cost=36400 USD",
+        "value.S.worst=0.7",
+    ],
+)
+def test_under_a_supposition_each_end_is_the_decision_under_both(analysed, measured, supposed):
+    """Of the same input, its value there takes the place of the supposed one; a stated range reaches to that one."""
+    _, decision, found = analysed(RANGES, supposed=[supposed])
+    study = analysed(RANGES)[0]
+    input_, _, value = supposed.partition("=")
+    for bar in found.tornado.bars:
+        if bar.id == input_:
+            assert bar.base == float(value.split()[0])
+        assert bar.low.value <= bar.base <= bar.high.value
+        if bar.id != input_ and bar.id.partition(".")[0] in ("shape", "weight") and bar.id[:5] == supposed[:5]:
+            # Two suppositions cannot bend a function, and two weights both keep their supposed value.
+            continue
+        kept = [] if bar.id == input_ else [supposed]
+        for end in (bar.low, bar.high):
+            there = suppose(study, [*kept, f"{bar.id}={end.value!r} {'' if bar.unit == '1' else bar.unit}"])
+            anew = enumerated(trade_problem(there.project, measured_in(there, measured)))
+            assert end.winners == anew.ties, bar.id
+            lead = lead_of(anew, decision.chosen, decision.ties)
+            assert end.lead == pytest.approx(lead, abs=1e-9), bar.id
+
+
+def test_sentences_state_the_curvature_that_was_examined(analysed):
+    _, _, found = analysed(RANGES)
+    said = list(bend_sentences([one for one in found.bends if not one.flips]))
+    steady = {name for line in said for name in line.partition("choice: ")[2].rstrip(".").split(", ")}
+    assert steady == {one.measure or "all together" for one in found.bends if not one.flips}
+    assert [line for line in said if "C_total" in line] == [
+        "Bent with a curvature from 0 to 2, these value functions do not change the choice: C_total."
+    ]
+    assert all(
+        "to a risk tolerance of 0.3 of the range, convex or concave" in line for line in said if "0 to 2" not in line
+    )
 
 
 @pytest.mark.parametrize("anchored", [False, True])

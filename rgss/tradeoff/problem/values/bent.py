@@ -120,6 +120,11 @@ class AnchoredBent(AnchoredValue):
             )
 
     @property
+    def ends(self) -> tuple[str, str]:  # type: ignore[override]  # The shape before it is bent decides.
+        """The keys of a quantity worth 0 and of one worth 1."""
+        return self.straight.ends
+
+    @property
     def anchors(self) -> Mapping[str, Anchor]:
         """The anchors of the function before it is bent."""
         return self.straight.anchors
