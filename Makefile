@@ -31,7 +31,7 @@ docs: setup ## build the documentation site in build/site; warnings are errors
 	@$(build_docs)
 	@echo "Open build/site/index.html."
 
-format: setup ## format the code and mend what the linter can mend
+format: setup ## format the code and apply the linter's fixes
 	@.venv/bin/ruff format --quiet .
 	@.venv/bin/ruff check --quiet --fix .
 
@@ -41,7 +41,7 @@ fast: setup ## run the tests that need no engine and take no time, in half a min
 test: setup ## run the whole test suite, on every core
 	@.venv/bin/pytest --quiet --numprocesses=auto --dist=loadfile --no-loadscope-reorder --junitxml=.rgss/junit.xml
 
-regress: setup ## hold metrics and the decision of a small part of the study against the baseline
+regress: setup ## compare metrics and the decision of a small part of the study with the baseline
 	@.venv/bin/rgss regress --junit .rgss/regress.xml
 
 notebooks: setup ## run the notebooks in studies/ and keep their outputs in them

@@ -46,8 +46,8 @@ def main() -> None:
     out = sys.stdout
     out.write("# Validation of the simulation\n\n")
     out.write("Written by `python benchmarks/validation.py > docs/validation.md`; do not edit.\n\n")
-    out.write("Simulation counts as *analysis*: what is held here is the simulation against theory and against\n")
-    out.write("itself, not the real robot.\n\n")
+    out.write("Simulation counts as *analysis*: here the simulation is compared with theory and with itself, not\n")
+    out.write("with the real robot.\n\n")
     _payload(out)
     records = _records(project)
     _rates(out, records)

@@ -60,6 +60,15 @@ def test_lock_pins_what_the_project_asks_for(project, lock):
         assert all(requirement.specifier.contains(version) for version in versions), requirement
 
 
+def test_the_extras_are_on_the_first_page_of_the_documentation(project, repository):
+    page = (repository / "docs" / "index.md").read_text(encoding="utf-8")
+    table = page.split("| extra | needed by |\n")[1].split("\n\n")[0]
+    listed = {name for row in table.splitlines() for name in re.findall(r"`([a-z]+)`", row.split(" | ")[0])}
+
+    # `exchange` is part of every installation, `dev` of a clone.
+    assert listed == set(project["optional-dependencies"]) - {"exchange", "dev"}
+
+
 def test_lock_has_hashes_and_no_place(lock):
     entries = re.split(r"^(?=[a-z0-9])", lock, flags=re.MULTILINE)[1:]
 
