@@ -268,9 +268,11 @@ class ValueReader:
         self.valued.append(valued)
 
     def _anchors(
-        self, field: RequirementAnchor | str | tuple[PointEntry, ...], measure: str, at: Place
+        self, field: RequirementAnchor | str | float | tuple[PointEntry, ...], measure: str, at: Place
     ) -> Anchor | tuple[tuple[Anchor, float], ...] | None:
-        """Content of a key of a shape: an anchor, or points; None where one has a finding."""
+        """Content of a key of a shape: an anchor, points or a pure number; None where one has a finding."""
+        if isinstance(field, float):
+            return field
         if not isinstance(field, tuple):
             return self._places.anchor(field, measure, at)
         points = [

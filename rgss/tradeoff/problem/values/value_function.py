@@ -128,6 +128,7 @@ class AnchoredValue(ABC):
         measure: The measure that is valued.
         required: Keys that the shape needs.
         optional: Further keys that it may have.
+        numbers: Those of the keys that are pure numbers, such as an exponent, and no anchors.
         own: Keys of which each marks an entry as being of this shape.
         label: The shape in messages, before a key that does not belong to it.
         ends: The keys of a quantity worth 0 and of one worth 1.
@@ -138,6 +139,7 @@ class AnchoredValue(ABC):
 
     required: ClassVar[tuple[str, ...]]
     optional: ClassVar[tuple[str, ...]] = ()
+    numbers: ClassVar[tuple[str, ...]] = ()
     own: ClassVar[tuple[str, ...]]
     label: ClassVar[str]
     ends: ClassVar[tuple[str, str]]
@@ -159,7 +161,7 @@ class AnchoredValue(ABC):
     @property
     def anchors(self) -> Mapping[str, Anchor]:
         """The anchors that have a key of their own, by key."""
-        found = {key: getattr(self, key) for key in (*self.required, *self.optional)}
+        found = {key: getattr(self, key) for key in (*self.required, *self.optional) if key not in self.numbers}
         return {key: anchor for key, anchor in found.items() if anchor is not None and not isinstance(anchor, tuple)}
 
     @property
