@@ -95,16 +95,3 @@ def test_attributes_that_a_row_lists_are_there(row, cls):
 
     assert len(names) > 2
     assert [name for name in names if not hasattr(cls, name) and name not in cls.__dataclass_fields__] == []
-
-
-@pytest.mark.engine
-def test_the_first_example_runs(empty, monkeypatch):
-    monkeypatch.chdir(empty)
-    example = re.search(r"```python\n(.*?)```", PAGE, re.DOTALL)[1]
-    names: dict[str, object] = {}
-
-    exec(compile(example, "docs/api.md", "exec"), names)  # noqa: S102 - the page's own example
-
-    assert set(names["tried"]["level_velocity"]) == {"fast"}
-    assert names["trial"].success
-    assert set(names["verdicts"].index.get_level_values("variant")) == set(names["tried"].index)

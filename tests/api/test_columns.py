@@ -12,9 +12,6 @@ from rgss.api.column import Kind
 from rgss.api.column_reference import reference_table, with_reference_tables
 from rgss.api.columns import FRAMES
 from rgss.api.metric_columns import phase_metric_columns, trial_metric_columns
-from rgss.api.study import Study
-from rgss.api.trade import Trade
-from rgss.api.trial import Trial
 from rgss.errors import DefinitionError, RgssError, TradeoffError
 from rgss.quantities import conversion_factor
 from rgss.trials.metrics import METRICS
@@ -179,14 +176,6 @@ def test_the_page_has_the_tables_of_the_code():
     assert reference_table("weights").startswith("One row: a measure with a weight above 0.\n\n| column | unit |")
     with pytest.raises(DefinitionError, match="unknown frame 'x'"):
         reference_table("x")
-
-
-@pytest.mark.parametrize("kind", [Study, Trade, Trial], ids=lambda kind: kind.__name__)
-def test_the_page_names_what_is_public(kind):
-    page = PAGE.read_text(encoding="utf-8")
-    names = [name for name in dir(kind) if not name.startswith("_")]
-
-    assert [name for name in names if not re.search(rf"`(?:\w+\.)?{name}\b", page)] == []
 
 
 def test_the_example_of_the_page_runs(empty, monkeypatch):
