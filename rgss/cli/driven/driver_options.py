@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from rgss.cli.driven.real_drivers import REAL_DRIVERS
 from rgss.errors import DefinitionError, QuantityError
 
-DRIVERS = ("simulated", "xarm", "ur")
+DRIVERS = ("simulated", *(one.name for one in REAL_DRIVERS))
 _ONLY_WITH_DRIVER = ("address", "speed", "go", "recording", "gripper_output")
 
 

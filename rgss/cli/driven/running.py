@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+from rgss.cli.driven.real_drivers import real_driver
 from rgss.errors import DefinitionError, DriverError
 
 if TYPE_CHECKING:
@@ -16,8 +17,6 @@ if TYPE_CHECKING:
     from rgss.scenes import Robot
     from rgss.tasks import TaskProgram
     from rgss.trials import TrialSpec
-
-_JOINTS_OF_DRIVERS = {"ur": (6, 6), "xarm": (5, 7)}
 
 
 def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
@@ -52,7 +51,7 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
     plan = plan_of(spec)
     task = timed_task(spec, plan, timing_of(spec, plan))
     limits = limits_of(cell.scene.robot.joints, tool_speed_m_s=conditions_of(spec).tool_speed_m_s)
-    driver, clock = _driver(options, spec, task, limits)
+    driver, clock = _driver(options, spec, task)
     rehearsal = rehearse(task, limits, cell.arm, settings, rate_hz=driver.rate_hz)
     shown = {"driver": driver.name, "speed": settings.speed, **_rehearsal_as_json(rehearsal, limits)}
     if not options.json:
@@ -92,9 +91,10 @@ def _require_drivable(driver: str, robot: Robot) -> None:
     """
     from rgss.scenes import JointKind
 
-    if driver not in _JOINTS_OF_DRIVERS:
+    real = real_driver(driver)
+    if real is None:
         return
-    least, most = _JOINTS_OF_DRIVERS[driver]
+    least, most = real.fewest_joints, real.most_joints
     sliding = sum(joint.kind is not JointKind.REVOLUTE for joint in robot.joints)
     if sliding or not least <= len(robot.joints) <= most:
         numbers = f"{least}" if least == most else f"{least} to {most}"
@@ -113,41 +113,37 @@ def _require_neutral(driver: str, task: TaskProgram) -> None:
     """
     from rgss.tasks import NeutralStep
 
+    real = real_driver(driver)
     step = next((one for one in task.steps if isinstance(one, NeutralStep)), None)
-    if driver == "ur" and step is not None:
+    if real is not None and real.without_neutral and step is not None:
         raise DefinitionError(
-            f"driver ur sets one output for the gripper, open or closed; {step.name} sets it to neutral",
+            f"driver {driver} {real.without_neutral}; {step.name} sets it to neutral",
             hint="use --driver simulated, or leave the step out",
         )
 
 
-def _driver(
-    options: argparse.Namespace, spec: TrialSpec, task: TimedTask, limits: RobotLimits
-) -> tuple[Driver, StreamClock]:
+def _driver(options: argparse.Namespace, spec: TrialSpec, task: TimedTask) -> tuple[Driver, StreamClock]:
     """The driver that the options name, not yet connected, and its clock."""
-    from rgss.drivers import MonotonicClock, SimulatedDriver, UrDriver, UrSettings, XarmDriver
+    from rgss.drivers import MonotonicClock, SimulatedDriver
     from rgss.tasks import HandAction
     from rgss.trials import cell_of, conditions_of, with_grasp_of
     from rgss.trials.plants import GripSequence
 
-    if options.driver == "simulated":
-        conditions = conditions_of(spec)
-        scene = with_grasp_of(conditions.true_scene, cell_of(spec))
-        gripper = conditions.true_gripper
-        sequence = GripSequence(spec.task, scene, gripper.geometry)
-        simulated = SimulatedDriver(
-            scene,
-            gripper,
-            spec.settings.physics,
-            start_rad=task.start_rad,
-            grips=[sequence.view_of(step) for step in spec.task.steps if step.hand is HandAction.CLOSES],
-        )
-        return simulated, simulated
-    address = options.address or ""
-    if options.driver == "xarm":
-        is_vacuum = spec.gripper.suction is not None
-        return XarmDriver(address, joints=len(limits.names), is_vacuum=is_vacuum), MonotonicClock()
-    return UrDriver(address, settings=UrSettings(gripper_output=options.gripper_output or 0)), MonotonicClock()
+    real = real_driver(options.driver)
+    if real is not None:
+        return real.made(options, spec), MonotonicClock()
+    conditions = conditions_of(spec)
+    scene = with_grasp_of(conditions.true_scene, cell_of(spec))
+    gripper = conditions.true_gripper
+    sequence = GripSequence(spec.task, scene, gripper.geometry)
+    simulated = SimulatedDriver(
+        scene,
+        gripper,
+        spec.settings.physics,
+        start_rad=task.start_rad,
+        grips=[sequence.view_of(step) for step in spec.task.steps if step.hand is HandAction.CLOSES],
+    )
+    return simulated, simulated
 
 
 class _InterruptFlag:
