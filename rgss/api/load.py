@@ -63,7 +63,8 @@ def load(
         replicates = whole_argument("replicates", replicates, hint="omit it for the study's number")
         if not 1 <= replicates <= MOST_REPLICATES:
             raise DefinitionError(
-                f"replicates must be from 1 to {MOST_REPLICATES}", hint="omit it for the study's number"
+                f"replicates must be from 1 to {MOST_REPLICATES}, got {replicates}",
+                hint="omit it for the study's number",
             )
         project = project.with_replicates(replicates)
     return Study(project=project if fidelity is None else project.with_fidelity(fidelity), _drawing=drawing)

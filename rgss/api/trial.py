@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 _LEAST_PIXELS, _LARGEST = 16, 2000
 _IDS = "give an id and a seed"
+_OF_THE_STUDY = "omit it for the study's own"
 _OF_THE_FILE = "omit it for that of the gripper's file"
 _LARGEST_SEED = 2**31
 _LOWEST_HZ, _HIGHEST_HZ = 60.0, 10_000.0
@@ -189,10 +190,10 @@ def run_one(
     """Run one trial; see `rgss.api.study.Study.trial`."""
     spec = _spec(project, variant, seed, fidelity=fidelity)
     if rate_hz is not None:
-        rate_hz = number_argument("rate_hz", rate_hz, hint=f"give from {_LOWEST_HZ:g} to {_HIGHEST_HZ:g}")
+        rate_hz = number_argument("rate_hz", rate_hz, hint=_OF_THE_STUDY)
         if not _LOWEST_HZ <= rate_hz <= _HIGHEST_HZ:
             raise DefinitionError(
-                f"{rate_hz:g} steps a second are out of range", hint=f"give from {_LOWEST_HZ:g} to {_HIGHEST_HZ:g}"
+                f"rate_hz must be from {_LOWEST_HZ:g} to {_HIGHEST_HZ:g}, got {rate_hz:g}", hint=_OF_THE_STUDY
             )
         settings = spec.settings
         spec = replace(spec, settings=replace(settings, physics=replace(settings.physics, rate_hz=rate_hz)))
@@ -232,6 +233,6 @@ def _spec(project: Project, variant: int, seed: int | None, *, fidelity: str | N
     variant = whole_argument("variant", variant, hint=_IDS)
     seed = chosen.study.seed if seed is None else whole_argument("seed", seed, hint=_IDS)
     if not 0 <= seed < _LARGEST_SEED:
-        raise DefinitionError(f"seed {seed} is out of range", hint=f"give a seed from 0 to {_LARGEST_SEED - 1}")
+        raise DefinitionError(f"seed must be from 0 to {_LARGEST_SEED - 1}, got {seed}", hint=_OF_THE_STUDY)
     (spec,) = trial_specs(chosen, variants=[chosen.designs.variant(variant)], seeds=[seed])
     return spec

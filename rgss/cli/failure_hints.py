@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def failure_hint(record: TrialRecord, project: Project, controller: JointController) -> str:
-    """What to change after a failure, with the files; empty for failures whose detail says it.
+    """Remedy of a failure, with the files; empty for failures whose detail says it.
 
     Args:
         record: The record of a trial that failed.

@@ -173,7 +173,8 @@ def chosen_project(options: argparse.Namespace) -> Project:
     if replicates is not None:
         if not 1 <= replicates <= MOST_REPLICATES:
             raise DefinitionError(
-                f"--replicates must be from 1 to {MOST_REPLICATES}", hint="omit it for the study's number"
+                f"--replicates must be from 1 to {MOST_REPLICATES}, got {replicates}",
+                hint="omit it for the study's number",
             )
         project = project.with_replicates(replicates)
     if getattr(options, "nominal", False):

@@ -15,7 +15,7 @@ from rgss.requirements.review import ContentDigest
 
 
 class RecordedResult(str, Enum):
-    """What a verification by a person found."""
+    """Result of a verification by a person."""
 
     MET = "met"
     NOT_MET = "not_met"

@@ -88,7 +88,7 @@ def standing_links(root: ET.Element) -> set[str]:
 
 
 def has_inertia(link: ET.Element) -> bool:
-    """Whether a link states a mass above zero, and an inertia.
+    """True if a link states a mass above zero and an inertia.
 
     Args:
         link: The link.
@@ -98,7 +98,7 @@ def has_inertia(link: ET.Element) -> bool:
 
 
 def has_moments(link: ET.Element) -> bool:
-    """Whether a link states a moment of inertia that is not zero.
+    """True if a link states a moment of inertia that is not zero.
 
     Args:
         link: The link.
@@ -108,7 +108,7 @@ def has_moments(link: ET.Element) -> bool:
 
 
 def _is_zero(text: str) -> bool:
-    """Whether a text is a number that is zero; what is no number is reported elsewhere."""
+    """True if a text is a number that is zero; other texts are reported elsewhere."""
     try:
         return float(text or "0") == 0.0
     except ValueError:

@@ -20,7 +20,7 @@ _HIGHEST_SEED = 2**31 - 1
 
 
 def can_replay(project: Project) -> bool:
-    """Whether trials of a study can be replayed here: contact is simulated, and the engines are installed.
+    """True if trials of a study can be replayed here: contact is simulated, and the engines are installed.
 
     Args:
         project: The project with its study.
@@ -109,7 +109,7 @@ def replay_page(project: Project, variant: int, seed: int) -> str:
             "trials of this study cannot be replayed here", hint="contact fidelity, and pip install 'rgss[sim]'"
         )
     if not 0 <= seed <= _HIGHEST_SEED:
-        raise DefinitionError(f"seed {seed} is out of range", hint=f"give a seed from 0 to {_HIGHEST_SEED}")
+        raise DefinitionError(f"seed must be from 0 to {_HIGHEST_SEED}, got {seed}")
     (spec,) = trial_specs(project, variants=[project.designs.variant(variant)], seeds=[seed])
     replayed = compute(run_replayed_trial, spec)
     if replayed.trace is None or replayed.scene is None:

@@ -24,7 +24,7 @@ class NamedInputs:
     """Inputs of a trial other than its variant's number and its seed.
 
     Attributes:
-        digest: What the store knows them by.
+        digest: Their key in the evidence store.
         values: Plain data; its dotted names are those under which a changed input is reported. A long
             text is represented by a digest.
     """

@@ -276,16 +276,22 @@ def test_a_script_that_sweeps_with_processes(empty, guarded, said):
         (lambda study: study.columns([]), "frame must be a text, got [] (frames: variants, trials"),
         (lambda study: study.columns("trails"), "unknown frame 'trails' (frames: variants, trials"),
         (lambda study: study.trial(99), "unknown variant 99"),
-        (lambda study: study.trial(1, -1), "seed -1 is out of range (give a seed from 0 to 2147483647)"),
+        (lambda study: study.trial(1, -1), "seed must be from 0 to 2147483647, got -1 (omit it for the study's own)"),
         (lambda study: study.trial(1.5), "variant must be a whole number, got 1.5 (give an id and a seed)"),
         (lambda study: study.trial(1, "2"), "seed must be a whole number, got '2'"),
         (lambda study: study.trial(True), "variant must be a whole number, got True"),
-        (lambda study: study.trial(1, rate_hz="x"), "rate_hz must be a finite number, got 'x' (give from 60 to 10000)"),
+        (
+            lambda study: study.trial(1, rate_hz="x"),
+            "rate_hz must be a finite number, got 'x' (omit it for the study's own)",
+        ),
         (lambda study: study.payload(1, friction=True), "friction must be a finite number, got True"),
         (lambda study: study.payload(1, finger_force_n="20 N"), "finger_force_n must be a finite number, got '20 N'"),
         (lambda study: study.sweep(jobs=1.5), "jobs must be a whole number, got 1.5"),
         (lambda study: study.trial(1, fidelity="real"), "unknown fidelity 'real'"),
-        (lambda study: study.trial(1, rate_hz=1), "1 steps a second are out of range (give from 60 to 10000)"),
+        (
+            lambda study: study.trial(1, rate_hz=1),
+            "rate_hz must be from 60 to 10000, got 1 (omit it for the study's own)",
+        ),
         (
             lambda study: study.payload(1, friction=-0.1),
             "friction must be at least 0, got -0.1 (omit it for that of the gripper's file)",
@@ -318,7 +324,7 @@ def test_a_study_is_pickled_by_its_arguments(swept, tmp_path, monkeypatch, asked
 def test_what_cannot_be_loaded(empty, tmp_path):
     with pytest.raises(DefinitionError, match="is not a project"):
         rgss.load_study(tmp_path)
-    with pytest.raises(DefinitionError, match="replicates must be from 1 to"):
+    with pytest.raises(DefinitionError, match="replicates must be from 1 to 10000, got"):
         rgss.load_study(empty, replicates=0)
     for number in (1.5, True, "2", float("nan")):
         with pytest.raises(DefinitionError, match=f"replicates must be a whole number, got {number!r}"):

@@ -280,7 +280,7 @@ def test_only_the_own_page_opens_a_replay(client, monkeypatch):
     ("trial", "said"),
     [
         ("999/1", "999"),
-        ("4/2147483648", "seed 2147483648 is out of range (give a seed from 0 to 2147483647)"),
+        ("4/2147483648", "seed must be from 0 to 2147483647, got 2147483648"),
     ],
 )
 def test_a_trial_that_is_not_there_has_no_replay(client, trial, said):

@@ -50,7 +50,7 @@ def run(options: argparse.Namespace) -> int:
     if options.remove and not options.apply:
         raise DefinitionError("--remove goes with --apply", hint="without --apply nothing is written")
     folder = find_project(options.project)
-    # Who only looks is in nobody's way, unless there is something to undo.
+    # A comparison alone needs no lock, unless an interrupted import has to be undone.
     changes_files = options.apply or has_journal(folder)
     with importing(folder) if changes_files else nullcontext():
         restored = undone(folder) if changes_files else ()

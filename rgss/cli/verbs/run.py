@@ -56,7 +56,7 @@ def run(options: argparse.Namespace) -> int:
     project = chosen_project(options)
     seed = project.study.seed if options.seed is None else options.seed
     if not 0 <= seed < 2**31:
-        raise DefinitionError(f"seed {seed} is out of range", hint="give a seed from 0 to 2147483647")
+        raise DefinitionError(f"--seed must be from 0 to 2147483647, got {seed}", hint="omit it for the study's first")
     variant = project.designs.variant(options.variant)
     (spec,) = trial_specs(project, variants=[variant], seeds=[seed])
     if options.driver is not None:
@@ -76,7 +76,7 @@ def run(options: argparse.Namespace) -> int:
     else:
         _show(record, digest, drawn, control)
         if hint:
-            print(f"To mend it: {hint}.")
+            print(f"To fix it: {hint}.")
     if order is not None and seen is not None:
         lines = made_pictures(order, spec, seen, beside=beside)
         if not options.json:

@@ -34,7 +34,7 @@ def check_performers(declaration: Declaration, activity: Behaviour, blocks: Mapp
 
 
 def _is_within(block_id: str | None, allocated: tuple[str, ...], blocks: Mapping[str, Block]) -> bool:
-    """Whether a block is one of those allocated, or a part or a kind of one over any number of steps."""
+    """True if a block is one of those allocated, or a part or a kind of one over any number of steps."""
     seen: set[str] = set()
     while block_id is not None and block_id in blocks and block_id not in seen:
         if block_id in allocated:

@@ -44,7 +44,7 @@ class TooTall:
 
     @property
     def hint(self) -> str:
-        """What would fit."""
+        """Remedy: another gripper, or a lower clearance or object."""
         text = "a gripper with longer fingers, or let the task choose the grasp ('candidates' of the task)"
         room_m = self.palm_m - self.top_m
         lower = f"lower 'clearance' of 'planning' below {_mm(room_m)}"

@@ -46,7 +46,7 @@ def normal_folder(name: str) -> str:
 
 
 def folder_problem(project: Path, name: str) -> tuple[str, str] | None:
-    """Problem with the name of a set, and how to mend it; None if it can be used.
+    """Problem with the name of a set, and its remedy; None if it can be used.
 
     Args:
         project: The project's folder.

@@ -40,7 +40,7 @@ def study_file(project: Path, name: str | None) -> tuple[Path, str]:
 
 
 def words_of_study(label: str) -> str:
-    """What names a study in a command, with a space before it; empty for the default study.
+    """Argument of a command that names a study, with a space before it; empty for the default study.
 
     Args:
         label: The study's file, relative to the project.

@@ -33,7 +33,7 @@ _PLACES = len(_RADIUS_SHARES) * len(_HEIGHT_SHARES)
 NEVER_DOWN = f"the tool points down at none of {_PLACES} places within its reach"
 DOWN_ELSEWHERE = f"the tool points down, but the joints bring it so to none of {_PLACES} places within its reach"
 UNMENDED = frozenset({NEVER_DOWN, DOWN_ELSEWHERE})
-"""Reasons that no smaller hand mends."""
+"""Reasons that a smaller hand does not resolve."""
 
 Cell = tuple[int, int]
 

@@ -119,7 +119,7 @@ def weak_joint_findings(robot: Robot, urdf: Path, label: str) -> tuple[Finding, 
 
 
 def assumed_subjects(data: Mapping[str, Any]) -> frozenset[str]:
-    """What a robot file's assumptions are about.
+    """Subjects of a robot file's assumptions.
 
     Args:
         data: The file's content.

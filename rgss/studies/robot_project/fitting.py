@@ -177,7 +177,7 @@ class CellSearch:
 
 
 def _carries_straight(cell: Workcell, stops: Mapping[str, Array]) -> bool:
-    """Whether the straight move of the joints that carries the object from table to table is free of collisions."""
+    """True if the straight move of the joints from table to table is free of collisions."""
     start, goal = stops[Waypoint.GRASP_DEPARTURE], stops[Waypoint.PLACE_APPROACH]
     leg = next(leg for leg in cell.route.legs if cell.route.stops[leg.goal].name == Waypoint.PLACE_APPROACH)
     model = cell.planning[leg.step.name]
@@ -185,7 +185,7 @@ def _carries_straight(cell: Workcell, stops: Mapping[str, Array]) -> bool:
 
 
 def _stands_in_pedestal(cell: Workcell) -> bool:
-    """Whether the arm touches its pedestal in most configurations."""
+    """True if the arm touches its pedestal in most configurations."""
     model = next(iter(cell.planning.values()))
     samples = sampled_configurations(cell.scene.robot)[:_POINTING_SAMPLES]
     touching = sum(any(_PEDESTAL in pair for pair in model.contacts(q)) for q in samples)
@@ -193,7 +193,7 @@ def _stands_in_pedestal(cell: Workcell) -> bool:
 
 
 def _points_into_arm(cell: Workcell) -> bool:
-    """Whether the gripper touches the arm in most configurations, as where it is mounted the wrong way round."""
+    """True if the gripper touches the arm in most configurations, as one that points backwards does."""
     robot = cell.scene.robot
     model = next(iter(cell.planning.values()))
     links = {link.get("name") for link in ET.fromstring(robot.urdf).findall("link")}  # noqa: S314 - checked on reading

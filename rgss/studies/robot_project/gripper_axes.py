@@ -46,7 +46,7 @@ def _tried(
     try:
         return draft_gripper(drafted)
     except MechanismError:
-        # No other axis and no other shapes would mend it.
+        # Neither another axis nor other shapes would resolve it.
         raise
     except DefinitionError as error:
         return error

@@ -101,7 +101,8 @@ def dask_cluster(
             )
         except (OSError, ValueError, TypeError) as error:
             raise DefinitionError(
-                f"no Dask scheduler answers at {address}", hint="start one with 'dask scheduler', or mend the address"
+                f"no Dask scheduler answers at {address}",
+                hint="start one with 'dask scheduler', or correct the address",
             ) from error
         try:
             order = Order(

@@ -34,7 +34,7 @@ class RecordEvidence:
 
     @property
     def verdict(self) -> Verdict:
-        """What was found; stale if the requirement or a file has changed since."""
+        """Result of the verification; stale if the requirement or a file has changed since."""
         return Verdict.STALE if self.causes else Verdict(self.record.result.value)
 
 

@@ -34,7 +34,7 @@ def end_in_words(test: TestEvidence) -> str:
 
 
 def record_in_words(found: RecordEvidence) -> str:
-    """What a person found on a requirement, and whether that still holds."""
+    """Result of a person's verification of a requirement, and its state."""
     record = found.record
     told = f"{verdict_in_words(Verdict(record.result.value))} by {record.by} on {record.date}"
     told += f" ({', '.join(record.files)})" if record.files else ""

@@ -86,7 +86,7 @@ def _sources_below(folder: str) -> Iterator[str]:
 
 
 def _read(file: Path, key: str) -> PieceSources | None:
-    """What the file has for a key; None if it has nothing, or is not as it was written."""
+    """Entry of a key; None if the file has none, or is not as it was written."""
     try:
         kept = json.loads(file.read_bytes())
         if kept["key"] != key or kept["checksum"] != _checksum(kept["sources"]):

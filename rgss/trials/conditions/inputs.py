@@ -11,7 +11,7 @@ from rgss.trials.trial_spec import TrialSpec
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConditionInputs:
-    """What the conditions of a trial depend on.
+    """Inputs of the conditions of a trial.
 
     Attributes:
         seed: The trial's seed.
@@ -35,7 +35,7 @@ class ConditionInputs:
 
 
 def condition_inputs(spec: TrialSpec) -> ConditionInputs:
-    """What the conditions of a trial depend on.
+    """Inputs of the conditions of a trial.
 
     Args:
         spec: The trial.

@@ -138,7 +138,7 @@ def test_an_address_without_a_scheduler_is_one_line(sweep, folder, monkeypatch):
 
     assert (told.status, told.output) == (2, "")
     assert told.complaint == (
-        "rgss: no Dask scheduler answers at tcp://127.0.0.1:1 (start one with 'dask scheduler', or mend the address)"
+        "rgss: no Dask scheduler answers at tcp://127.0.0.1:1 (start one with 'dask scheduler', or correct the address)"
     )
     assert not (folder / ".rgss").exists()
 

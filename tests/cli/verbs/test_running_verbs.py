@@ -61,7 +61,7 @@ def test_a_run_that_fails_says_why(rgss, too_short):
 
     assert (told.status, as_json.status) == (1, 1)
     assert "Failed at move_to_grasp: planning_limit: RRT found no path in 0.0092 s" in told.output
-    assert "To mend it: give the planner more time (what sets planning.time_limit in designs/" in told.output
+    assert "To fix it: give the planner more time (what sets planning.time_limit in designs/" in told.output
     assert as_json.document["failure"] == "planning_limit"
     assert "lower planning.clearance in studies/" in as_json.document["failure_hint"]
     assert as_json.document["failure_detail"].startswith("RRT found no path in 0.0092 s")

@@ -272,7 +272,7 @@ def test_an_address_where_no_scheduler_answers_is_refused(address):
     with pytest.raises(DefinitionError) as caught, dask_cluster(address, **LIMITS, patience_s=0.2):
         pytest.fail("it was accepted")
     assert str(caught.value) == (
-        f"no Dask scheduler answers at {address} (start one with 'dask scheduler', or mend the address)"
+        f"no Dask scheduler answers at {address} (start one with 'dask scheduler', or correct the address)"
     )
 
 
