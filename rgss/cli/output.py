@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import os
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -85,10 +86,15 @@ def number(value: float | None, digits: int = 4) -> str:
 def shown_path(path: Path) -> str:
     """A path relative to the current folder where it lies below it."""
     try:
-        return str(path.resolve().relative_to(Path.cwd()))
+        return str(_followed(path).relative_to(Path.cwd()))
     # A folder that was removed is no current folder.
     except (ValueError, FileNotFoundError):
         return str(path)
+
+
+def _followed(path: Path) -> Path:
+    """Path without links; that of a circle of links as it is."""
+    return Path(os.path.realpath(path))
 
 
 def path_in_project(path: Path, folder: Path) -> str:
@@ -99,6 +105,6 @@ def path_in_project(path: Path, folder: Path) -> str:
         folder: The project's folder.
     """
     try:
-        return path.resolve().relative_to(folder.resolve()).as_posix()
+        return _followed(path).relative_to(_followed(folder)).as_posix()
     except ValueError:
         return path.name

@@ -14,6 +14,7 @@ from rgss.evidence.store.connection import Database, translated_errors
 from rgss.evidence.store.contents import TrialName, trial_names
 from rgss.evidence.store.creation import require_content
 from rgss.evidence.store.ledger import require_ledger, write_ledger
+from rgss.evidence.store.place import place_of
 from rgss.evidence.store.schema import prepare, require_sound_pages
 from rgss.evidence.store.tables import FAILURES, INPUTS, PIECES, TRIALS
 
@@ -99,6 +100,7 @@ def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet
     Raises:
         EvidenceError: Another process has the store open, or it is damaged or cannot be written.
     """
+    path = place_of(path, label=label)
     require_content(path, label=label)
     with translated_errors(label):
         connection = connecting.connect(path)

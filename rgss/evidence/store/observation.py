@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
 
 from rgss.errors import EvidenceError, StorageError
+from rgss.evidence.store.place import place_of
 from rgss.evidence.store.store import EvidenceStore
 
 Value = TypeVar("Value")
@@ -38,7 +40,8 @@ def state_of(path: Path) -> StoreState:
     Args:
         path: The file.
     """
-    return StoreState(tuple(_looked_up(path.with_name(f"{path.name}{ending}")) for ending in _FILES))
+    place = Path(os.path.realpath(path))
+    return StoreState(tuple(_looked_up(place.with_name(f"{place.name}{ending}")) for ending in _FILES))
 
 
 def observed(path: Path, read: Callable[[EvidenceStore], Value], *, label: str) -> Value:
@@ -56,6 +59,7 @@ def observed(path: Path, read: Callable[[EvidenceStore], Value], *, label: str) 
         EvidenceError: The file is missing, or is damaged, or cannot be read.
         StorageError: The file changes too often to be read.
     """
+    path = place_of(path, label=label)
     problem: EvidenceError | None = None
     for _ in range(_ATTEMPTS):
         before, had_index = state_of(path), _index(path).exists()

@@ -193,9 +193,9 @@ def _require_sound(connection: sqlite3.Connection, name: str, check: str, hint: 
 
 def _log_ahead(connection: sqlite3.Connection) -> None:
     """Switch the file permanently to write-ahead logging."""
-    attempts_left = int(connecting.BUSY_TIMEOUT_S / _PAUSE_S)
-    while not _is_logging_ahead(connection, may_fail=attempts_left > 0):
-        attempts_left -= 1
+    # SQLite itself waits for a lock in some attempts, and returns at once in others.
+    end_s = time.monotonic() + connecting.BUSY_TIMEOUT_S
+    while not _is_logging_ahead(connection, may_fail=time.monotonic() < end_s):
         time.sleep(_PAUSE_S)
 
 

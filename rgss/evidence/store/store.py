@@ -29,6 +29,7 @@ from rgss.evidence.records import (
 from rgss.evidence.store.connection import Database, Row, connect, is_of_disk, is_writable, translated_errors
 from rgss.evidence.store.creation import create_store, require_content
 from rgss.evidence.store.ledger import require_ledger
+from rgss.evidence.store.place import place_of
 from rgss.evidence.store.schema import prepare, require_present, require_sound_pages
 from rgss.evidence.store.tables import FAILURES, INPUTS, PIECES, TRIALS, Table, brief
 from rgss.evidence.store.writing import EvidenceWriter, RowChanges
@@ -69,9 +70,11 @@ class EvidenceStore:
             label: The file's name in messages; the path itself by default.
 
         Raises:
-            EvidenceError: The file is missing, empty, not a store, of a newer schema, damaged, or cannot be written.
+            EvidenceError: The file is missing, empty, not a regular file, not a store, of a newer schema, damaged, or
+            cannot be written.
         """
         name = label if label is not None else str(path)
+        path = place_of(path, label=name)
         if not path.exists():
             if read_only or not create:
                 raise EvidenceError(f"there is no evidence in {name}", hint="run the sweep first")

@@ -13,6 +13,7 @@ from rgss.errors import EvidenceError
 from rgss.evidence.records import StoredTrial
 from rgss.evidence.store.connection import PROBLEMS, Database, connect, is_writable, problem_of, translated_errors
 from rgss.evidence.store.ledger import differences, write_ledger
+from rgss.evidence.store.place import place_of
 from rgss.evidence.store.salvaging import copy_rows, numbered_row, readable_rows, row_numbers
 from rgss.evidence.store.schema import prepare, require_own_schema, require_present
 from rgss.evidence.store.tables import INPUTS, PIECES, TABLES, TRIALS, Table, brief
@@ -78,6 +79,7 @@ def verify(path: Path, *, label: str) -> Verification:
     Raises:
         EvidenceError: The file does not exist, is not a store, or has a newer schema.
     """
+    path = place_of(path, label=label)
     if not path.exists():
         raise EvidenceError(f"there is no evidence in {label}", hint="run the sweep first")
     with translated_errors(label), _opened(path, label) as (connection, problem):

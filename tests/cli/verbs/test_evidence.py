@@ -384,3 +384,13 @@ def test_a_csv_file_is_one_that_spreadsheets_read(rgss, with_evidence, tmp_path)
         head, *rows = csv.reader(file)
     assert len({len(row) for row in [head, *rows]}) == 1
     assert len(set(head)) == len(head)
+
+
+def test_a_store_that_is_a_circle_of_links_is_named(rgss, spoilt):
+    (spoilt / EVIDENCE).unlink()
+    (spoilt / EVIDENCE).symlink_to(spoilt / EVIDENCE)
+    for verb in (["evidence"], ["evidence", "verify"], ["measure"]):
+        told = rgss(*verb, "--project", spoilt)
+        assert told.status == 2
+        assert told.output == ""
+        assert len(told.errors.splitlines()) == 1, told.errors

@@ -141,10 +141,7 @@ def test_a_missing_store_is_not_made_on_demand(path):
 
 
 def test_a_folder_is_no_store(tmp_path):
-    assert refusal(tmp_path) == (
-        "the evidence store evidence.sqlite cannot be used: unable to open database file "
-        "(check that it is a file in a folder that can be written)"
-    )
+    assert refusal(tmp_path) == "evidence.sqlite must be a regular file, but it is a folder (move it away)"
 
 
 def test_a_folder_that_cannot_be_made_is_named(tmp_path):
