@@ -22,7 +22,7 @@ def collect(options: argparse.Namespace, store: EvidencePlace) -> int:
     from rgss.evidence import EvidenceStore
     from rgss.evidence.store import collect_garbage, find_garbage
 
-    _, studies = contents_and_studies(store)
+    contents, studies = contents_and_studies(store)
     trials = named_trials(studies, strict=options.strict)
     pieces = {digest for study in studies for digest in (study.own if options.strict else study.all).pieces}
     if not options.strict:
@@ -30,7 +30,7 @@ def collect(options: argparse.Namespace, store: EvidencePlace) -> int:
             trials |= confirmation_trials((study.project for study in studies), evidence)
     freed, shrunk = None, True
     if options.apply:
-        done = collect_garbage(store.path, trials=trials, pieces=pieces, label=store.label)
+        done = collect_garbage(store.path, trials=trials, pieces=pieces, label=store.label, then=contents.ledger)
         garbage, freed, shrunk = done.garbage, done.before_bytes - done.after_bytes, done.shrunk
     else:
         with EvidenceStore.open(store.path, create=False, label=store.label) as evidence:

@@ -68,7 +68,7 @@ def _mend(found: Verification, store: EvidencePlace) -> str:
             f"{saved} sound rows are saved in {to.name} beside it. When no sweep is running, remove {path.name} and "
             f"the files {path.name}-wal and {path.name}-shm if they are there, and rename {to.name} to {path.name}."
         )
-    removed = remove_damaged_rows(store.path, found, label=store.label)
+    removed = remove_damaged_rows(store.path, label=store.label)
     if not removed:
         return "The ledger is rewritten for the rows that exist; 'rgss sweep' makes the others again as needed."
     return f"{counted(removed, 'damaged row')} removed; 'rgss sweep' makes their contents again."

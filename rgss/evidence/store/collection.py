@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import sqlite3
+from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from pathlib import Path
 
-from rgss.errors import EvidenceError
+from rgss.errors import EvidenceError, StorageError
 from rgss.evidence.records import provenance_from_json, unpack
 from rgss.evidence.store import connection as connecting
 from rgss.evidence.store.connection import Database, translated_errors
 from rgss.evidence.store.contents import TrialName, trial_names
 from rgss.evidence.store.creation import require_content
-from rgss.evidence.store.ledger import require_ledger, write_ledger
+from rgss.evidence.store.ledger import Total, recorded, require_ledger, write_ledger
 from rgss.evidence.store.place import place_of
 from rgss.evidence.store.schema import prepare, require_sound_pages
 from rgss.evidence.store.tables import FAILURES, INPUTS, PIECES, TRIALS
@@ -86,7 +87,14 @@ def find_garbage(database: Database, *, trials: AbstractSet[str], pieces: Abstra
     )
 
 
-def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet[str], label: str) -> Collection:
+def collect_garbage(
+    path: Path,
+    *,
+    trials: AbstractSet[str],
+    pieces: AbstractSet[str],
+    label: str,
+    then: Mapping[str, Total] | None = None,
+) -> Collection:
     """Remove unreferenced entries in one transaction, and compact the file.
 
     No other process may have the store open: pieces of a running sweep are not referenced by a trial yet.
@@ -96,8 +104,11 @@ def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet
         trials: As in `find_garbage`.
         pieces: As in `find_garbage`.
         label: The file's name in messages.
+        then: Ledger of the store from which the names were determined; None if they do not depend on the store.
 
     Raises:
+        StorageError: Another process has changed the store since then, so that it may contain entries to retain that
+        are not named.
         EvidenceError: Another process has the store open, or it is damaged or cannot be written.
     """
     path = place_of(path, label=label)
@@ -113,6 +124,8 @@ def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet
         _lock_exclusively(database)
         before = database.size_bytes()
         with database.transaction():
+            if then is not None and recorded(connection) != then:
+                raise StorageError(f"{label} was changed by another process meanwhile", hint="try again")
             garbage = find_garbage(database, trials=trials, pieces=pieces)
             for table, keys in (
                 (TRIALS, [name.key for name in garbage.trials]),

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from rgss.errors import EvidenceError
 from rgss.evidence.records import Fidelity, PieceKind, RunFailure, is_digest
 from rgss.evidence.store.connection import Database
+from rgss.evidence.store.ledger import Total, recorded
 from rgss.evidence.store.tables import FAILURES
 
 
@@ -40,6 +41,7 @@ class Contents:
         inputs: The number of sets of named inputs.
         failures: Trials and pieces that could not be computed, in the order of the keys.
         size_bytes: Size of its file in bytes, including the log.
+        ledger: Its ledger, which differs after every change.
     """
 
     trials: tuple[TrialName, ...]
@@ -47,6 +49,7 @@ class Contents:
     inputs: int
     failures: tuple[RunFailure, ...]
     size_bytes: int
+    ledger: Mapping[str, Total]
 
 
 def contents_of(database: Database) -> Contents:
@@ -64,6 +67,7 @@ def contents_of(database: Database) -> Contents:
                 FAILURES.value(row, database.name) for row in database.rows(f"{FAILURES.select} ORDER BY key")
             ),
             size_bytes=database.size_bytes(),
+            ledger=recorded(database.connection),
         )
 
 

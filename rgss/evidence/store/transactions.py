@@ -8,6 +8,25 @@ from contextlib import contextmanager
 
 
 @contextmanager
+def snapshot(connection: sqlite3.Connection) -> Iterator[None]:
+    """One state of a database for several queries, some of which may fail on damaged pages.
+
+    Args:
+        connection: An open database, in autocommit mode.
+
+    Raises:
+        sqlite3.Error: The database cannot be read.
+    """
+    connection.execute("BEGIN DEFERRED")
+    try:
+        yield
+    finally:
+        # SQLite ends a transaction itself at some errors.
+        if connection.in_transaction:
+            connection.execute("ROLLBACK")
+
+
+@contextmanager
 def transaction(connection: sqlite3.Connection, kind: str = "IMMEDIATE") -> Iterator[None]:
     """Atomic transaction of a database.
 

@@ -17,6 +17,7 @@ from rgss.evidence.store.place import place_of
 from rgss.evidence.store.salvaging import copy_rows, numbered_row, readable_rows, row_numbers
 from rgss.evidence.store.schema import prepare, require_own_schema, require_present
 from rgss.evidence.store.tables import INPUTS, PIECES, TABLES, TRIALS, Table, brief
+from rgss.evidence.store.transactions import snapshot
 
 PAGES = "pages"
 """Kind of damage of the file itself."""
@@ -85,7 +86,9 @@ def verify(path: Path, *, label: str) -> Verification:
     with translated_errors(label), _opened(path, label) as (connection, problem):
         if connection is None:
             return Verification(damages=(_pages(problem),), sound={}, orphaned_pieces=0, orphaned_inputs=0)
-        return _Check(Database(connection, label), problem).verification()
+        # A sweep that stores meanwhile also removes rows, namely failures.
+        with snapshot(connection):
+            return _Check(Database(connection, label), problem).verification()
 
 
 @contextmanager
@@ -142,8 +145,8 @@ class _Check:
         self._used_inputs: list[tuple[str, str, int]] = []
 
     def verification(self) -> Verification:
+        """Check everything, within a transaction of the caller."""
         self._damages.extend(_page_damages(self._database.connection))
-        # Trials first: their references were stored before them, even during a sweep.
         for table in TABLES:
             self._sound[table.what] = set()
             numbers, problems = row_numbers(self._database.connection, table)
@@ -165,13 +168,12 @@ class _Check:
 
     def _check_ledger(self) -> None:
         try:
-            with self._database.transaction("DEFERRED"):
-                for table, problem in differences(self._database.connection):
-                    self._damages.append(Damage(what=LEDGER, key=table, problem=problem, row=None))
-        except EvidenceError as error:
+            for table, problem in differences(self._database.connection):
+                self._damages.append(Damage(what=LEDGER, key=table, problem=problem, row=None))
+        except PROBLEMS as error:
             # Damaged pages are reported instead of the ledger.
             if not self._damages:
-                self._damages.append(_pages(error.message))
+                self._damages.append(_pages(problem_of(error)))
 
     def _check(self, table: Table[Any], number: int) -> None:
         row = None
@@ -189,28 +191,33 @@ class _Check:
                 self._used_inputs.append((value.provenance.inputs_digest, value.key, number))
 
 
-def remove_damaged_rows(path: Path, verification: Verification, *, label: str) -> int:
+def remove_damaged_rows(path: Path, *, label: str) -> int:
     """Remove the damaged rows and rewrite the ledger, so that the next sweep computes their content again.
+
+    They are looked up again in the transaction that removes them: since they were found, another process may have
+    removed them, and a sweep may have stored others under their numbers.
 
     Args:
         path: The file, whose pages are valid.
-        verification: Result of `verify`.
         label: Its name in messages.
 
     Returns:
         The number of removed rows.
 
     Raises:
-        EvidenceError: The file cannot be written.
+        EvidenceError: The file cannot be written, or its pages are damaged.
     """
     tables = {table.what: table for table in TABLES}
     with translated_errors(label):
         database = Database(connect(path), label)
     try:
         with database.transaction():
+            found = _Check(database, "").verification()
+            if found.pages_are_damaged:
+                raise EvidenceError(f"{label} was damaged meanwhile", hint="run 'rgss evidence verify' again")
             removed = sum(
                 database.change(f"{tables[damage.what].delete} WHERE rowid = ?", [damage.row])
-                for damage in verification.damages
+                for damage in found.damages
                 if damage.row is not None
             )
             write_ledger(database.connection)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.errors import EvidenceError
+from rgss.errors import EvidenceError, StorageError
 from rgss.evidence import EvidenceStore, Piece, PieceKind, RunFailure, RunFailureKind, inputs_digest, text_digest
 from rgss.evidence.store import collection as collecting
 from rgss.evidence.store.collection import collect_garbage, find_garbage
@@ -173,3 +173,22 @@ def test_what_a_store_holds(used, key):
     assert contents.inputs == TRIALS // 10
     assert sorted(failure.key for failure in contents.failures) == [piece_of(TRIALS + 2)]
     assert contents.size_bytes == used.stat().st_size
+
+
+def test_nothing_is_removed_where_the_store_has_changed_since_the_names_were_determined(used, key, record, provenance):
+    with EvidenceStore.open(used) as store:
+        then = contents_of(store.database).ledger
+        retained = store.has(map(key, range(TRIALS)))
+        # A sweep or a confirmation that ends before the file is locked.
+        assert store.put(key(99), record(variant=99), provenance)
+    before = content(used)
+    with pytest.raises(StorageError) as caught:
+        collect_garbage(used, trials=retained, pieces=set(), label="it", then=then)
+    assert str(caught.value) == "it was changed by another process meanwhile (try again)"
+    assert content(used) == before
+    with EvidenceStore.open(used) as store:
+        then = contents_of(store.database).ledger
+    done = collect_garbage(used, trials=retained | {key(99)}, pieces=set(), label="it", then=then)
+    assert done.garbage.trials == ()
+    with EvidenceStore.open(used) as store:
+        assert len(store) == TRIALS + 1

@@ -7,6 +7,8 @@ import pytest
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Piece, PieceKind, RunFailure, RunFailureKind
+from rgss.evidence.store import verification
+from rgss.evidence.store.tables import FAILURES
 from rgss.evidence.store.verification import Damage, remove_damaged_rows, salvage, verify
 from tests.fixtures.stored_inputs import put_inputs
 
@@ -75,7 +77,7 @@ def test_every_damaged_row_is_told_in_a_line_and_taken_away(whole, change, key):
     assert not found.pages_are_damaged
     assert found.sound["trial"] == 16
 
-    assert remove_damaged_rows(whole, found, label="it") == len(found.damages)
+    assert remove_damaged_rows(whole, label="it") == len(found.damages)
     again = verify(whole, label="it")
     assert again.damages == ()
     # If it was the inputs of the trials that were damaged, the trials go with them.
@@ -89,7 +91,7 @@ def test_trials_whose_inputs_are_gone_are_damaged(whole, change, key):
     assert found.damages[0].what == "trial"
     assert found.damages[0].problem.startswith("its inputs ")
     assert found.damages[0].problem.endswith(" are missing")
-    assert remove_damaged_rows(whole, found, label="it") == 20
+    assert remove_damaged_rows(whole, label="it") == 20
     assert verify(whole, label="it").damages == ()
 
 
@@ -110,10 +112,36 @@ def test_rows_that_were_deleted_are_told_and_mended_by_a_new_ledger(whole, tampe
         "(run 'rgss evidence verify' to see the damage, and with --mend to keep the valid rows)"
     )
     # The trials had inputs that are gone.
-    assert remove_damaged_rows(whole, found, label="it") == 20
+    assert remove_damaged_rows(whole, label="it") == 20
     assert verify(whole, label="it").damages == ()
     with EvidenceStore.open(whole) as store:
         assert len(store) == 0
+
+
+def test_a_failure_that_a_sweep_removes_meanwhile_is_no_damage(whole, monkeypatch):
+    row_numbers = verification.row_numbers
+
+    def then_made(connection, table):
+        listed = row_numbers(connection, table)
+        if table is FAILURES:
+            with EvidenceStore.open(whole) as sweep:
+                sweep.put_many(pieces=[Piece(digest="d" * 64, kind=PieceKind.PLAN, text="{}")])
+        return listed
+
+    monkeypatch.setattr(verification, "row_numbers", then_made)
+    assert verify(whole, label="it").damages == ()
+
+
+def test_a_row_that_another_process_has_made_again_meanwhile_stays(whole, change, key, record, provenance):
+    change(whole, "UPDATE trials SET record = zeroblob(9) WHERE key = ?", key(19))
+    (damage,) = verify(whole, label="it").damages
+    # Another process mends the store first, and a sweep makes the trial again: with the number of the last row.
+    assert remove_damaged_rows(whole, label="it") == 1
+    with EvidenceStore.open(whole) as store:
+        assert store.put(key(19), record(variant=19), provenance)
+        assert store.database.rows("SELECT rowid FROM trials WHERE key = ?", [key(19)]) == [(damage.row,)]
+    assert remove_damaged_rows(whole, label="it") == 0
+    assert verify(whole, label="it").sound["trial"] == 20
 
 
 def test_an_empty_file_has_nothing_left(whole, tmp_path):
