@@ -10,7 +10,8 @@ differ from the recorded ones is stale.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -19,7 +20,7 @@ from typing import Any
 from rgss.documents import canonical_json, replaced_file
 from rgss.errors import EvidenceError, StorageError
 from rgss.evidence.records import is_digest
-from rgss.evidence.store import error_of
+from rgss.evidence.store import error_of, folder_lock
 from rgss.measures import Verdict
 
 VERDICT_FILE = ".rgss/verdicts.json"
@@ -114,6 +115,30 @@ def read_record(folder: Path) -> VerdictRecord:
     return VerdictRecord(studies=MappingProxyType(studies))
 
 
+def update_record(folder: Path, change: Callable[[VerdictRecord], VerdictRecord]) -> VerdictRecord:
+    """Read the record, change it and write it, excluding other processes: each may record another study.
+
+    Args:
+        folder: The project's folder.
+        change: Function that returns the changed record; if it is the same, nothing is written.
+
+    Returns:
+        The changed record.
+
+    Raises:
+        EvidenceError: The file is damaged, or cannot be written.
+    """
+    place = (folder / VERDICT_FILE).parent
+    with _translated_errors():
+        place.mkdir(parents=True, exist_ok=True)
+        with folder_lock(place):
+            recorded = read_record(folder)
+            changed = change(recorded)
+            if changed != recorded:
+                write_record(folder, changed)
+            return changed
+
+
 def write_record(folder: Path, record: VerdictRecord) -> Path:
     """Write the record atomically; the same record gives the same bytes.
 
@@ -129,15 +154,21 @@ def write_record(folder: Path, record: VerdictRecord) -> Path:
     """
     path = folder / VERDICT_FILE
     data = {"schema": SCHEMA_VERSION, "studies": {key: _plain(book) for key, book in record.studies.items()}}
-    try:
+    with _translated_errors():
         path.parent.mkdir(parents=True, exist_ok=True)
         with replaced_file(path, replace_source=True) as part:
             part.write_text(canonical_json(data) + "\n", encoding="ascii")
+    return path
+
+
+@contextmanager
+def _translated_errors() -> Iterator[None]:
+    try:
+        yield
     except OSError as error:
         kind = error_of(error)
         hint = "free some space, or check the disk" if kind is StorageError else "check the folder"
         raise kind(f"{VERDICT_FILE} cannot be written: {error.strerror}", hint=hint) from error
-    return path
 
 
 def _plain(book: Book) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from rgss.assessment.measuring import measure_variants, record_of
-from rgss.assessment.recorded_verdicts import VerdictRecord, read_record, study_key, write_record
+from rgss.assessment.recorded_verdicts import VerdictRecord, read_record, study_key, update_record
 from rgss.evidence import EvidenceStore
 from rgss.studies import Project
 
@@ -27,18 +27,15 @@ def record_verdicts(
         DefinitionError: A measure is not defined for a design.
         EvidenceError: The store or the record is damaged, or the record cannot be written.
     """
-    recorded = read_record(project.folder)
-    again = record_of(project, measure_variants(project, store), recorded, variants=variants)
-    if again != recorded:
-        write_record(project.folder, again)
-    return again
+    measured = measure_variants(project, store)
+    return update_record(project.folder, lambda recorded: record_of(project, measured, recorded, variants=variants))
 
 
 def record_after_sweep(project: Project, store: EvidenceStore, run: Collection[int]) -> VerdictRecord:
     """Record the verdicts with evidence from a sweep, and those that were never recorded.
 
     A verdict with older evidence keeps its record, so that a change of its requirement or measure
-    remains visible.
+    remains visible. A sweep that has run nothing may follow one that was killed before it recorded anything.
 
     Args:
         project: The project with its study.
@@ -52,7 +49,10 @@ def record_after_sweep(project: Project, store: EvidenceStore, run: Collection[i
         DefinitionError: A measure is not defined for a design.
         EvidenceError: The store or the record is damaged, or the record cannot be written.
     """
-    book = read_record(project.folder).of_study(study_key(project.study.label, project.study.fidelity.value))
+    recorded = read_record(project.folder)
+    book = recorded.of_study(study_key(project.study.label, project.study.fidelity.value))
     there = {variant for variants in book.values() for variant in variants}
     new = {variant.id for variant in project.designs.expand()} - there
+    if not (run or new):
+        return recorded
     return record_verdicts(project, store, variants={*run, *new})

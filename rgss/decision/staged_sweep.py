@@ -19,7 +19,7 @@ RunStage = Callable[[Sequence[TrialSpec]], Collection[int]]
 def sweep_in_stages(
     project: Project, variants: Sequence[DesignVariant], store: EvidenceStore, run: RunStage
 ) -> ScreeningResult | None:
-    """Run the stages in sequence, and record the verdicts of the variants that were run.
+    """Run the stages in sequence, and record the verdicts of the variants that were run, and missing ones.
 
     Args:
         project: The project with its study.
@@ -35,9 +35,7 @@ def sweep_in_stages(
         EvidenceError: The store is damaged, or the verdicts cannot be written.
     """
     promoted, screened = promoted_by_screening(project, store, run, variants=variants)
-    run_now = run(trial_specs(project, variants=promoted))
-    if run_now:
-        record_after_sweep(project, store, run_now)
+    record_after_sweep(project, store, run(trial_specs(project, variants=promoted)))
     return screened
 
 

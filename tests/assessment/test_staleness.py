@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import fcntl
+import os
 from collections import Counter
 from dataclasses import replace
 
 import pytest
 
+from rgss.assessment import recording
 from rgss.assessment.measuring import measure_variants, record_of, require_complete
-from rgss.assessment.recorded_verdicts import VerdictRecord, read_record, write_record
+from rgss.assessment.recorded_verdicts import VerdictRecord, read_record, update_record, write_record
 from rgss.assessment.recording import record_after_sweep, record_verdicts
+from rgss.decision import sweep_in_stages
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Provenance, inputs_digest
 from rgss.measures import StaleCause, Verdict
@@ -324,3 +328,39 @@ def test_recording_the_same_again_writes_nothing(folder, swept):
 
     assert record_verdicts(project, swept) == read_record(folder)
     assert (path.stat().st_mtime_ns, path.stat().st_ino) == before
+
+
+def test_verdicts_that_another_process_records_meanwhile_are_kept(folder, swept, recorded, monkeypatch):
+    project = load_project(folder)
+    other = VerdictRecord(studies={"studies/other.yaml at fidelity contact": next(iter(recorded.studies.values()))})
+
+    def measured_beside_another(project, store):
+        write_record(folder, other)
+        return measure_variants(project, store)
+
+    monkeypatch.setattr(recording, "measure_variants", measured_beside_another)
+    again = record_verdicts(project, swept)
+    assert again == read_record(folder)
+    assert len(again.studies) == 2
+    assert other.studies.items() <= again.studies.items()
+
+
+def test_two_processes_do_not_record_at_once(tmp_path, recorded):
+    def change(before):
+        assert before == VerdictRecord()
+        descriptor = os.open(tmp_path / ".rgss", os.O_RDONLY)
+        with pytest.raises(BlockingIOError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        os.close(descriptor)
+        return recorded
+
+    assert update_record(tmp_path, change) == recorded
+    assert read_record(tmp_path) == recorded
+
+
+def test_a_sweep_after_one_that_was_killed_before_it_recorded_verdicts_records_them(folder, swept):
+    project = load_project(folder)
+    # Nothing is left to run.
+    sweep_in_stages(project, project.designs.expand(), swept, lambda _: set())
+    first = read_record(folder)
+    assert {len(variants) for book in first.studies.values() for variants in book.values()} == {72}

@@ -80,7 +80,7 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
             report_lost(lost)
             print(f"rgss: {error}", file=sys.stderr)
             return RUN_FAILED
-        if run_now and project.study.is_sequential:
+        if project.study.is_sequential:
             record_after_sweep(project, store, run_now)
     if options.json:
         document = _as_json(found)

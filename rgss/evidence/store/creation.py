@@ -6,13 +6,12 @@ import contextlib
 import errno
 import os
 import secrets
-import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 from rgss.errors import EvidenceError, StorageError
 from rgss.evidence.store.connection import SPACE_HINT, connect, error_of, translated_errors
+from rgss.evidence.store.locking import folder_lock
 from rgss.evidence.store.schema import make
 
 _NO_LINKS = (errno.EPERM, errno.EOPNOTSUPP, errno.ENOSYS, errno.EMLINK)
@@ -64,30 +63,13 @@ def _make_and_link(path: Path, label: str) -> None:
                 make(connection)
             finally:
                 connection.close()
-        with _creation_lock(path.parent):
+        with folder_lock(path.parent):
             if not path.exists():
                 # The log of a moved file does not belong to this one.
                 _remove(path)
                 _link(part, path)
     finally:
         _remove(part)
-
-
-@contextmanager
-def _creation_lock(folder: Path) -> Iterator[None]:
-    """Lock that excludes other processes from creating a store in a folder, if the file system supports it."""
-    if sys.platform == "win32":
-        yield
-        return
-    import fcntl
-
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        with contextlib.suppress(OSError):
-            fcntl.flock(descriptor, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(descriptor)
 
 
 def _link(part: Path, path: Path) -> None:
