@@ -150,12 +150,10 @@ class _Sweep:
                 self._writer.flush_if_due()
                 self._report_progress()
         except BaseException:
-            self._workers.close()
-            self._write_down()
+            self._end()
             raise
         elapsed_s = time.monotonic() - self._begun
-        self._workers.close()
-        self._write_down()
+        self._end()
         return SweepResult(
             made=dict(self._made),
             reused=dict(self._reused),
@@ -164,10 +162,17 @@ class _Sweep:
             busy_s=self._busy_s,
         )
 
-    def _write_down(self) -> None:
-        """Store finished results and verify that they are in the store; a failure of that is the reported error."""
-        self._writer.flush()
-        self._store.confirm()
+    def _end(self) -> None:
+        """Stop the workers, store finished results and verify that they are in the store.
+
+        A failure of that is the reported error.
+        """
+        try:
+            self._workers.close()
+        finally:
+            # Also where a second interrupt cuts off the end of the workers.
+            self._writer.flush()
+            self._store.confirm()
 
     def _begin_tasks(self) -> None:
         while self._workers.free and self._work.ready:
@@ -238,6 +243,8 @@ class _Sweep:
     ) -> None:
         """Record a failure of the run, and the trials that have no record for it."""
         failure = RunFailure(key=key, what=what, kind=kind, detail=detail_line(detail), attempts=attempts)
+        # First what is finished: if the store is lost, it is saved with what is being written.
+        self._writer.flush()
         self._store.put_failure(failure)
         lost = tuple((trial.spec.variant, trial.spec.seed) for trial in trials)
         self._lost.append(LostTrials(failure=failure, trials=lost))

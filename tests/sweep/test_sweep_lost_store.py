@@ -12,6 +12,7 @@ from rgss.evidence import EvidenceStore
 from rgss.evidence.store.verification import verify
 from rgss.studies.expansion import trial_specs
 from rgss.sweep import evidence_writer as keeping
+from rgss.sweep.inline_workers import InlineWorkers
 from rgss.sweep.running import sweep
 from rgss.sweep.trial_keys import trials_of
 
@@ -97,3 +98,43 @@ def test_an_interrupted_sweep_does_not_say_that_its_store_is_there(doubles, spec
 
     with EvidenceStore.open(path, label="it") as store, pytest.raises(StorageError, match="was removed"):
         sweep(specs, store, jobs=0, maker=interrupted, on_finished=lambda _: None)
+
+
+@pytest.mark.parametrize("loss", ["removed", "without its log"])
+def test_what_was_finished_before_a_task_failed_is_saved_too(doubles, specs, tmp_path, monkeypatch, loss):
+    monkeypatch.setattr(keeping, "LONGEST_S", 1000.0)
+    path = tmp_path / "evidence.sqlite"
+    begun = []
+
+    def failing(made, needed):
+        begun.append(made)
+        if len(begun) < 12:
+            return doubles.quick(made, needed)
+        LOSSES[loss](path)
+        raise RuntimeError("the task failed")
+
+    with EvidenceStore.open(path, label="it") as store, pytest.raises(StorageError, match="while it was in use"):
+        sweep(specs, store, jobs=0, maker=failing, on_finished=lambda _: None)
+    found = verify(path.with_name("evidence.sqlite.rescued"), label="it")
+    assert found.damages == ()
+    assert found.sound["piece"] == 11
+
+
+def test_an_interrupt_while_workers_end_loses_nothing(doubles, specs, tmp_path, monkeypatch):
+    monkeypatch.setattr(keeping, "LONGEST_S", 1000.0)
+    begun = []
+
+    def interrupted(made, needed):
+        begun.append(made)
+        if len(begun) == 12:
+            raise KeyboardInterrupt
+        return doubles.quick(made, needed)
+
+    def interrupted_again(workers):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(InlineWorkers, "close", interrupted_again)
+    with EvidenceStore.open(tmp_path / "evidence.sqlite") as store:
+        with pytest.raises(KeyboardInterrupt):
+            sweep(specs, store, jobs=0, maker=interrupted, on_finished=lambda _: None)
+        assert len(store.database.rows("SELECT * FROM pieces")) == 11

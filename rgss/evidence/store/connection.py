@@ -221,6 +221,12 @@ def is_of_disk(error: StorageError) -> bool:
     )
 
 
+def is_of_lock(error: EvidenceError) -> bool:
+    """True if a translated error of SQLite comes from another process that keeps the file locked."""
+    cause = error.__cause__
+    return isinstance(cause, PROBLEMS) and "locked" in problem_of(cause)
+
+
 def error_of(error: OSError) -> type[EvidenceError]:
     """Error class of an OSError: `StorageError` if the disk is full or fails, or too many files are open."""
     return StorageError if error.errno in _NO_SPACE else EvidenceError

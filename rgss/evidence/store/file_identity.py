@@ -9,6 +9,7 @@ from __future__ import annotations
 from contextlib import suppress
 from pathlib import Path
 
+_OPEN_FILES = Path("/proc/self/fd")
 _LOGS = {"-wal": "write-ahead log", "-shm": "index of its log"}
 
 
@@ -35,6 +36,9 @@ class FileIdentity:
         try:
             identity, size = _looked_up(self.path)
         except OSError as error:
+            moved_to = self.moved_to
+            if moved_to is not None:
+                return f"was moved to {moved_to}"
             removed = isinstance(error, (FileNotFoundError, NotADirectoryError))
             return "was removed" if removed else f"cannot be reached: {error.strerror}"
         if identity != self._identity:
@@ -48,6 +52,24 @@ class FileIdentity:
         self._size = size
         self._note_logs()
         return ""
+
+    @property
+    def is_replaced(self) -> bool:
+        """True if another file has its name."""
+        return _identity_or_none(self.path) not in (None, self._identity)
+
+    @property
+    def moved_to(self) -> Path | None:
+        """Present path of the file if it has another one; None if it has none, or the system does not tell."""
+        # On Linux the names of open files are links in this folder.
+        for link in _OPEN_FILES.glob("*"):
+            if _identity_or_none(link) == self._identity:
+                with suppress(OSError):
+                    place = link.readlink()
+                    # The name of a removed file has an ending.
+                    if place != self.path and _identity_or_none(place) == self._identity:
+                        return place
+        return None
 
     def discard_orphaned_logs(self) -> None:
         """Remove the logs of a file that was renamed: SQLite would apply them to the next file of that name."""

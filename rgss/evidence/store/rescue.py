@@ -6,11 +6,13 @@ import sqlite3
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from enum import Enum
 from pathlib import Path
 from typing import Any
 
 from rgss.errors import EvidenceError
 from rgss.evidence.store.connection import PROBLEMS, Row
+from rgss.evidence.store.ledger import recorded
 from rgss.evidence.store.salvaging import copy_rows, readable_rows
 from rgss.evidence.store.tables import TABLES, Table
 
@@ -32,7 +34,17 @@ class Rescue:
     rows: int = 0
 
 
-def rescued(connection: sqlite3.Connection, path: Path, pending: Sequence[tuple[Table[Any], Row]]) -> Rescue:
+class Loss(Enum):
+    """Way in which an open store was lost; the value is what to do before the saved rows are used."""
+
+    BROKEN = "remove the rest of {name}, rename {saved} to {name} and run the sweep again"
+    REPLACED = "{name} is another store now: keep one of the two under this name, and run the sweep again"
+    LOCKED = "when the other process has ended, replace {name} by {saved}, and run the sweep again"
+
+
+def rescued(
+    connection: sqlite3.Connection, path: Path, pending: Sequence[tuple[Table[Any], Row]], *, loss: Loss = Loss.BROKEN
+) -> Rescue:
     """Save the readable rows of an open store in a new file beside it.
 
     A removed or replaced file is still complete for a process that has it open. Of a truncated file the rows are saved
@@ -42,12 +54,18 @@ def rescued(connection: sqlite3.Connection, path: Path, pending: Sequence[tuple[
         connection: The open store.
         path: Its path.
         pending: Rows that were to be inserted.
+        loss: Way in which it was lost.
     """
     try:
         # The folder may have been removed with the file; its parent does not belong to the store.
         path.parent.mkdir(exist_ok=True)
         target = _free_name(path)
+        # What replaces a sound file must have everything that the file has.
+        least = sum(total.rows for total in recorded(connection).values()) if loss is Loss.LOCKED else 0
         rows = copy_rows(_all(connection, pending), target)
+        if rows < least:
+            target.unlink()
+            raise EvidenceError("not every row of it can be read")
     except (OSError, EvidenceError, *PROBLEMS) as error:
         problem = error.message if isinstance(error, EvidenceError) else str(error)
         return Rescue(text=f"nothing of it could be saved: {problem}", hint="run the sweep again")
@@ -57,7 +75,7 @@ def rescued(connection: sqlite3.Connection, path: Path, pending: Sequence[tuple[
         return Rescue(text="nothing of it could be read any more", hint="run the sweep again")
     return Rescue(
         text=f"{rows} readable rows are saved in {target.name} beside it",
-        hint=f"remove the rest of {path.name}, rename {target.name} to {path.name} and run the sweep again",
+        hint=loss.value.format(name=path.name, saved=target.name),
         rows=rows,
     )
 

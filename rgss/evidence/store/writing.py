@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from rgss.errors import EvidenceError, StorageError
-from rgss.evidence.store.connection import Database, Row, connect, translated_errors
+from rgss.evidence.store.connection import Database, Row, connect, is_of_lock, translated_errors
 from rgss.evidence.store.file_identity import FileIdentity
 from rgss.evidence.store.ledger import LedgerChanges, require_ledger
-from rgss.evidence.store.rescue import rescued
+from rgss.evidence.store.rescue import Loss, Rescue, rescued
 from rgss.evidence.store.schema import require_own_schema, require_sound_pages
 from rgss.evidence.store.tables import FAILURES, TABLES, Table
 
@@ -88,8 +88,8 @@ class EvidenceWriter:
             pending: Rows to be inserted, which are saved elsewhere if the store was lost.
 
         Raises:
-            StorageError: The disk is full or fails; or the store was lost, and the message names the file with the
-            rescued rows.
+            StorageError: The disk is full or fails; or the store was lost or remained locked, and the message names the
+            file with the rescued rows.
             EvidenceError: The file cannot be written.
         """
         if self._lost is not None:
@@ -103,6 +103,8 @@ class EvidenceWriter:
             problem = self._identity.problem()
             if problem:
                 raise self._loss(problem, pending) from error
+            if pending and is_of_lock(error):
+                raise self._loss("was locked by another process", pending, Loss.LOCKED) from error
             raise
         problem = self._identity.problem()
         if problem:
@@ -147,9 +149,13 @@ class EvidenceWriter:
             if row is None or _fingerprint(row) != fingerprint:
                 yield key
 
-    def _loss(self, problem: str, pending: Rows = ()) -> StorageError:
+    def _loss(self, problem: str, pending: Rows = (), loss: Loss = Loss.BROKEN) -> StorageError:
         """Error for a lost store, raised after the rescue of its rows."""
-        saved = rescued(self._database.connection, self._identity.path, pending)
+        if self._identity.is_replaced:
+            loss = Loss.REPLACED
+        saved = rescued(self._database.connection, self._identity.path, pending, loss=loss)
+        if not (saved.rows or pending) and self._identity.moved_to is not None:
+            saved = Rescue(text="everything that was finished is in it", hint="run the sweep again there")
         if saved.rows:
             self._identity.discard_orphaned_logs()
         self._lost = StorageError(

@@ -2,6 +2,8 @@
 
 import os
 import shutil
+import sqlite3
+from contextlib import closing
 
 import pytest
 
@@ -10,6 +12,7 @@ from rgss.evidence import EvidenceStore, Piece, PieceKind, trial_key
 from rgss.evidence.store.verification import verify
 
 HINT = "(remove the rest of evidence.sqlite, rename {0} to evidence.sqlite and run the sweep again)"
+REPLACED = "(evidence.sqlite is another store now: keep one of the two under this name, and run the sweep again)"
 
 
 @pytest.fixture
@@ -32,7 +35,7 @@ def replaced(path):
 LOSSES = {
     "removed": (lambda path: path.unlink(), "was removed"),
     "removed with its folder": (lambda path: shutil.rmtree(path.parent), "was removed"),
-    "moved": (lambda path: path.rename(path.with_name("elsewhere")), "was removed"),
+    "moved": (lambda path: path.rename(path.with_name("elsewhere")), "was moved to {folder}/elsewhere"),
     "replaced": (replaced, "was replaced by another file"),
     "without its log": (lambda path: path.with_name(f"{path.name}-wal").unlink(), "lost its write-ahead log"),
     "without its index": (lambda path: path.with_name(f"{path.name}-shm").unlink(), "lost its index of its log"),
@@ -57,8 +60,9 @@ def test_a_store_that_is_lost_is_saved_as_a_whole(place, put, loss, noticed_by):
         put(store, 5) if noticed_by == "put" else store.confirm()
     rows = 12 if noticed_by == "put" else 10
     saved = f"{rows} readable rows are saved in evidence.sqlite.rescued beside it"
+    words = words.format(folder=place.parent)
     assert caught.value.message == f"the evidence store it {words} while it was in use; {saved}"
-    assert str(caught.value).endswith(HINT.format("evidence.sqlite.rescued"))
+    assert str(caught.value).endswith(REPLACED if loss == "replaced" else HINT.format("evidence.sqlite.rescued"))
     # Said again, and not saved again.
     with pytest.raises(StorageError) as again:
         put(store, 6)
@@ -157,11 +161,55 @@ def test_what_was_saved_before_is_not_written_over(place, put):
 def test_where_nothing_can_be_saved_that_is_said(place, put):
     store = EvidenceStore.open(place)
     put(store, 0)
-    place.parent.rename(place.parent.with_name("elsewhere"))
+    shutil.rmtree(place.parent)
     place.parent.write_text("a file in the place of the folder", encoding="utf-8")
     with pytest.raises(StorageError, match="was removed while it was in use; nothing of it could be saved: "):
         store.confirm()
     store.close()
+
+
+@pytest.mark.parametrize("noticed_by", ["put", "confirm"])
+def test_a_store_that_is_moved_with_its_project_has_everything(tmp_path, put, noticed_by):
+    folder, other = tmp_path / "project", tmp_path / "renamed"
+    place = folder / ".rgss" / "evidence.sqlite"
+    store = EvidenceStore.open(place, label="it")
+    put(store, 0)
+    folder.rename(other)
+    with pytest.raises(StorageError) as caught:
+        put(store, 1) if noticed_by == "put" else store.confirm()
+    store.close()
+    moved = other / ".rgss" / "evidence.sqlite"
+    assert str(caught.value) == (
+        f"the evidence store it was moved to {moved} while it was in use; everything that was finished is in it "
+        "(run the sweep again there)"
+    )
+    assert not folder.exists()
+    assert verify(moved, label="it").damages == ()
+    with EvidenceStore.open(moved) as store:
+        assert len(store) == (2 if noticed_by == "put" else 1)
+
+
+def test_what_is_finished_while_another_process_locks_the_store_is_saved(place, put, monkeypatch):
+    monkeypatch.setattr("rgss.evidence.store.connection.BUSY_TIMEOUT_S", 0.0)
+    store = EvidenceStore.open(place, label="it")
+    put(store, 0)
+    with closing(sqlite3.connect(place, isolation_level=None)) as locking:
+        locking.execute("BEGIN EXCLUSIVE")
+        with pytest.raises(StorageError) as caught:
+            put(store, 1)
+        # What comes later is refused at once, without another wait.
+        with pytest.raises(StorageError) as again:
+            put(store, 2)
+    assert again.value is caught.value
+    store.close()
+    assert str(caught.value) == (
+        "the evidence store it was locked by another process while it was in use; 4 readable rows are saved in "
+        "evidence.sqlite.rescued beside it (when the other process has ended, replace evidence.sqlite by "
+        "evidence.sqlite.rescued, and run the sweep again)"
+    )
+    assert verify(place, label="it").damages == ()
+    with EvidenceStore.open(place.with_name("evidence.sqlite.rescued")) as rescued:
+        assert {trial.record.variant for trial in rescued.all()} == {0, 1}
 
 
 def test_other_users_of_a_store_do_no_harm(place, put):

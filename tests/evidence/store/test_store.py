@@ -226,11 +226,14 @@ def test_a_store_that_another_process_keeps_locked_is_named(path, record, proven
     monkeypatch.setattr("rgss.evidence.store.connection.BUSY_TIMEOUT_S", 0.05)
     other = sqlite3.connect(path, isolation_level=None)
     other.execute("BEGIN IMMEDIATE")
-    with EvidenceStore.open(path, label="evidence.sqlite") as store, pytest.raises(StorageError) as caught:
-        store.put(key(1), record(), provenance)
-    assert str(caught.value) == (
-        "the evidence store evidence.sqlite cannot be used: database is locked "
-        "(another process is using it; try again when it is done)"
-    )
+    with EvidenceStore.open(path, label="evidence.sqlite") as store:
+        with pytest.raises(StorageError) as caught, store.database.transaction():
+            pass
+        assert str(caught.value) == (
+            "the evidence store evidence.sqlite cannot be used: database is locked "
+            "(another process is using it; try again when it is done)"
+        )
+        with pytest.raises(StorageError, match="was locked by another process while it was in use; 1 readable"):
+            store.put(key(1), record(), provenance)
     other.execute("ROLLBACK")
     other.close()
