@@ -22,10 +22,15 @@ def print_report(changes: Sequence[ElementChange], foreign: Content) -> None:
                 continue
             before = f"{old} -> " if change.kind.value == "changed" else ""
             print(f"  {each.attribute.name}: {before}{new}")
-    for note in foreign.notes:
-        print(f"note: {_safe(note)}")
+    print_notes(foreign)
     for loss in foreign.losses:
         print(loss)
+
+
+def print_notes(foreign: Content) -> None:
+    """Print what of the file has no counterpart here."""
+    for note in foreign.notes:
+        print(f"note: {_safe(note)}")
 
 
 def report_as_json(

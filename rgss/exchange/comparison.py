@@ -12,6 +12,7 @@ from rgss.exchange.attributes import ATTRIBUTES, MODELS, Attribute, Form, Part
 from rgss.exchange.cells import CellError, cells_of, entry_of, ids_in
 from rgss.exchange.content import Content, Row, as_written
 from rgss.exchange.files import problem, refusal_of
+from rgss.exchange.foreign_names import choice_hint, likely_attribute, option_for
 from rgss.findings import Finding, shown
 
 _CONTROL = frozenset(map(chr, (*range(9), 11, 12, *range(14, 32), 127)))
@@ -150,8 +151,8 @@ def _change(own: Row | None, foreign: Content, row: Row, assumed: ImportDefaults
     names = {attribute.name for attribute in ATTRIBUTES[part]}
     base: Mapping[str, str] = own.cells if own is not None else _for_new(assumed, names)
     stated = {name: cell for name, cell in row.cells.items() if name in names}
-    if own is None:
-        stated = {name: cell for name, cell in stated.items() if cell.strip() or name not in base}
+    # A default says what an element has if the file does not state it; that of an element here is its value.
+    stated = {name: cell for name, cell in stated.items() if cell.strip() or name not in assumed.defaults}
     cells = {**base, **stated}
     entry, findings = _entry(part, cells, foreign, row)
     if findings:
@@ -226,10 +227,22 @@ def _value_problem(
         name = next((each.name for each in ATTRIBUTES[part] if each.path[0] == keys[0]), "id")
     hint = ""
     if message == "is missing":
-        # A default is for elements that are new; an empty cell of another would take a value away.
-        hint = f"fill it in, or give --default {name}=…" if new else "fill it in"
+        hint = _ways_to_fill(foreign, row, name, new=new)
+    elif keys and (attribute := next((each for each in ATTRIBUTES[part] if each.name == name), None)) is not None:
+        hint = choice_hint(attribute, row.cells.get(name, ""))
     label = f"{row.id}: {name}" if keys else row.id
     return _at(foreign, row, name, "value", f"{label}: {message}", hint)
+
+
+def _ways_to_fill(foreign: Content, row: Row, name: str, *, new: bool) -> str:
+    ways = ["fill it in"]
+    likely = next((each for each in foreign.names if likely_attribute(each) == name), None)
+    if likely is not None and name not in row.cells:
+        ways.append(f"give {option_for(likely)}")
+    # A default is for elements that are new; an empty cell of another would take a value away.
+    if new:
+        ways.append(f"give --default {name}=…")
+    return ", or ".join(ways)
 
 
 def _at(foreign: Content, row: Row, name: str, rule: str, message: str, hint: str = "") -> Finding:

@@ -54,6 +54,7 @@ class Content:
         whole: Parts of which the file has every element, so that a missing one was removed.
         notes: Content of the file that is not imported, since it has no counterpart here.
         losses: Content of elements that is not imported, though it may change their meaning.
+        names: The names of all attributes in the file, as it has them.
         file: The file's name.
     """
 
@@ -63,6 +64,7 @@ class Content:
     whole: frozenset[Part] = frozenset(Part)
     notes: tuple[str, ...] = ()
     losses: tuple[Finding, ...] = ()
+    names: tuple[str, ...] = ()
     file: str = ""
 
 

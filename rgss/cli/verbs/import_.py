@@ -7,13 +7,15 @@ import sys
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from rgss.cli.import_names import add_names, import_names
 from rgss.cli.options import STUDY_HELP
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from rgss.cli.import_names import ImportNames
     from rgss.exchange import Content, ElementChange, FileChange, Part
     from rgss.studies import Project
 
@@ -21,7 +23,6 @@ HELP = "show what a file of another tool would change in the requirements, and a
 EXAMPLE = "rgss import xlsx requirements.xlsx --apply"
 MORE_EXAMPLES = (("rgss import csv requirements.csv", "show what would change, and change nothing"),)
 FORMATS = ("reqif", "csv", "xlsx")
-KINDS = ("stakeholder", "system")
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -30,14 +31,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, metavar="FILE", help="the file to read")
     parser.add_argument("--apply", action="store_true", help="write the changes into the project's YAML files")
     parser.add_argument("--remove", action="store_true", help="with --apply: also remove what the file lacks")
-    parser.add_argument("--as", dest="kind", choices=KINDS, metavar="KIND", help="the kind of new elements")
-    parser.add_argument(
-        "--default",
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="an attribute of new elements that the file does not state",
-    )
+    add_names(parser)
     parser.add_argument("--study", metavar="STUDY", help=STUDY_HELP)
 
 
@@ -60,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _imported(folder: Path, options: argparse.Namespace) -> int:
-    from rgss.cli.import_report import print_report, report_as_json
+    from rgss.cli.import_report import print_notes, print_report, report_as_json
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
     from rgss.errors import DocumentError
@@ -81,14 +75,19 @@ def _imported(folder: Path, options: argparse.Namespace) -> int:
 
     contents = contents_of(folder)
     project = load_project(folder, options.study)
-    assumed = _import_defaults(options)
-    foreign = _read(project, options, assumed.part)
+    given = import_names(options)
+    foreign = _read(project, options, given)
     own = content_of(project.requirements)
     if options.format == "reqif":
         foreign = with_absent_links(own, foreign, remove=options.remove)
         foreign = with_measures_compared(foreign, {one.id: one.definition for one in project.measures.measures})
         foreign = with_records_compared(foreign, record_cells(evidence_of_records(project.requirements, folder)))
-    changes = compare(own, foreign, assumed)
+    try:
+        changes = compare(own, foreign, given.assumed)
+    except DocumentError:
+        if not options.json:
+            print_notes(foreign)
+        raise
     files: Sequence[FileChange] = planned(
         folder, project.requirements, changes, remove=options.remove, contents=contents
     )
@@ -118,31 +117,32 @@ def _is_taken_over(changes: Sequence[ElementChange], foreign: Content, options: 
     return taken and bool(done or not changes)
 
 
-def _import_defaults(options: argparse.Namespace) -> Any:
+def _read(project: Project, options: argparse.Namespace, given: ImportNames) -> Content:
+    """The file with the names and values of rgss.
+
+    Raises:
+        DefinitionError: It has none of the attributes that are mapped on the command line.
+        DocumentError: It cannot be read.
+    """
     from rgss.errors import DefinitionError
-    from rgss.exchange import ATTRIBUTES, ImportDefaults, Part
+    from rgss.exchange import part_of, with_values_mapped
 
-    names = {each.name for attributes in ATTRIBUTES.values() for each in attributes} - {"id"}
-    defaults: dict[str, str] = {}
-    for each in options.default:
-        name, equals, value = each.partition("=")
-        if not equals or name not in names:
-            known = ", ".join(sorted(names))
-            raise DefinitionError(f"--default {each!r} is not NAME=VALUE with a known name", hint=f"names: {known}")
-        defaults[name] = value
-    return ImportDefaults(part=None if options.kind is None else Part(options.kind), defaults=defaults)
-
-
-def _read(project: Project, options: argparse.Namespace, part: Part | None) -> Content:
+    known: Mapping[str, Part] = {element.id: part_of(element) for element in project.requirements.elements}
+    names, part = given.names, given.assumed.part
     if options.format == "reqif":
-        from rgss.exchange import part_of
         from rgss.exchange.reqif import read_reqif
 
-        known: Mapping[str, Part] = {element.id: part_of(element) for element in project.requirements.elements}
-        return read_reqif(options.file, known=known, part=part)
-    from rgss.exchange.tables import read_csv, read_excel
+        foreign = read_reqif(options.file, known=known, part=part, names=names)
+    else:
+        from rgss.exchange.tables import ForeignTable, read_csv, read_excel
 
-    return read_excel(options.file) if options.format == "xlsx" else read_csv(options.file)
+        is_foreign = names.is_given or part is not None
+        table = ForeignTable(names=names, part=part, known=known) if is_foreign else None
+        foreign = (read_excel if options.format == "xlsx" else read_csv)(options.file, table)
+    absent = names.unknown(foreign.names)
+    if wrong := next((name for name in given.typed if name in absent), None):
+        raise DefinitionError(f"--map: the file has no {wrong!r}", hint=f"it has {', '.join(map(repr, foreign.names))}")
+    return with_values_mapped(foreign, names)
 
 
 def _check(copy: Path, options: argparse.Namespace, changes: Sequence[ElementChange], before: Content) -> None:

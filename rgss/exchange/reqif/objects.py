@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import itertools
-from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from rgss.exchange.attributes import ATTRIBUTES, Form, Part
+from rgss.exchange.foreign_names import PART, ForeignNames, ids_text
 from rgss.exchange.reqif.identifiers import type_identifier
+from rgss.exchange.reqif.omissions import ObjectValues, Omissions
 from rgss.exchange.reqif.prose import from_xhtml
-from rgss.exchange.reqif.vocabulary import EXCHANGE_IDS, MEASURE, TOOL, TYPE_NAMES, attribute_name
+from rgss.exchange.reqif.vocabulary import EXCHANGE_IDS, MEASURE, TOOL, TYPE_NAMES
 from rgss.exchange.verification_records import RECORD_ATTRIBUTES
-from rgss.findings import shown
 
-_MOST_NAMED = 8
 _OF_RECORDS = frozenset(attribute.name for attribute in RECORD_ATTRIBUTES)
 
 _ESCAPES_BREAKS = "strictdoc"
@@ -58,19 +56,22 @@ def _id_in(values: Mapping[str, str], *, is_ours: bool) -> str:
 class ObjectReader:
     """Reader of objects, with a list of what could not be imported."""
 
-    def __init__(self, bundle: Any, known: Mapping[str, Part], part: Part | None) -> None:
+    def __init__(
+        self, bundle: Any, known: Mapping[str, Part], part: Part | None, names: ForeignNames | None = None
+    ) -> None:
         """Create a reader of a file.
 
         Args:
             bundle: The file as read by the library.
             known: Part of each element of the project, by id.
             part: Part of elements whose part neither the file nor the project states.
+            names: The mapped names of the file.
         """
         core = bundle.core_content.req_if_content
         tool = getattr(bundle.req_if_header, "req_if_tool_id", None) or ""
         self._exact = tool == TOOL
         self._escapes_breaks = tool.lower() == _ESCAPES_BREAKS
-        self._known, self._part = known, part
+        self._known, self._part, self._mapped = known, part, names or ForeignNames()
         self._types = {each.identifier: each for each in core.spec_types or []}
         self._choices = {
             value.identifier: value.long_name or value.key or ""
@@ -78,12 +79,10 @@ class ObjectReader:
             for value in getattr(each, "values", None) or ()
         }
         self._parts = {name.lower(): kind for kind, name in TYPE_NAMES.items()}
-        self._nameless: Counter[str] = Counter()
-        self._attributes: dict[str, dict[str, None]] = {}
-        """The attributes of the objects that are not imported, by the name of their type."""
-        self._unused: dict[str, None] = {}
-        self.lost: list[tuple[int, str]] = []
-        """Line and message of all content that texts lose with their markup."""
+        self.omissions = Omissions(self._mapped)
+        """What is not imported."""
+        self.names: dict[str, None] = {}
+        """The names of all attributes."""
         self.records: dict[str, dict[str, str]] = {}
         """Attributes of the verification record of each requirement that has one."""
         self.own_parts = [kind for kind in Part if type_identifier(kind.value) in self._types]
@@ -106,25 +105,47 @@ class ObjectReader:
                 found[each.identifier] = made
         return found
 
-    def notes(self) -> Iterator[str]:
-        """Notes on content that was not imported."""
-        for name, count in sorted(self._nameless.items()):
-            had = ", ".join(map(shown, itertools.islice(self._attributes[name], _MOST_NAMED)))
-            has = f" among their attributes {had}" if had else ""
-            yield f"{count} objects of type {shown(name)} are not imported: they have no id or no text{has}"
-        for name in self._unused:
-            yield f"the attribute {name!r} is not imported: rgss has none of that name"
-
     def _object(self, each: Any) -> ForeignObject | None:
         kind = self._types.get(each.spec_object_type)
         if kind is None:
             raise UnsoundObjectError(f"the object {each.identifier!r} is of no type")
-        type_name = kind.long_name or kind.identifier
-        is_ours = kind.identifier in {type_identifier(own) for own in (*[part.value for part in Part], MEASURE)}
+        read = self._values(each, kind)
+        self.names.update(dict.fromkeys(read.stated))
+        sources = self._mapped.sources(read.stated, read.values)
+        by_name = {name: read.values.get(long, "") for name, long in sources.items()}
+        element_id = _id_in(by_name, is_ours=read.is_ours)
+        has = {"id": element_id, "text": by_name.get("text", "").strip()}
+        lacks = tuple(name for name, value in has.items() if not value)
+        if not read.is_ours and lacks:
+            self.omissions.lacking(read.type_name, lacks, read.values)
+            return None
+        is_measure = read.is_ours and kind.identifier == type_identifier(MEASURE)
+        said = by_name[PART].strip() if self._mapped.target(sources.get(PART, "")) == PART else ""
+        stated = self._mapped.stated_part(said)
+        if said and stated is None:
+            self.omissions.of_no_part(sources[PART], said)
+            return None
+        part = None if is_measure else stated or self._part_of(read.type_name, element_id)
+        return ForeignObject(
+            identifier=each.identifier,
+            type_name=MEASURE if is_measure else read.type_name,
+            part=part,
+            is_ours=read.is_ours,
+            id=element_id,
+            cells=self._cells(read, part, element_id, sources),
+            line=read.line,
+        )
+
+    def _values(self, each: Any, kind: Any) -> ObjectValues:
+        """The values of an object by the file's names of its attributes, with the default values of its type."""
         stated = {definition.identifier: definition for definition in kind.attribute_definitions or ()}
-        values: dict[str, str] = {}
-        losses: dict[str, tuple[int, tuple[str, ...]]] = {}
         line = int(getattr(each.xml_node, "sourceline", None) or 1)
+        read = ObjectValues(
+            type_name=kind.long_name or kind.identifier,
+            is_ours=kind.identifier in {type_identifier(own) for own in (*[part.value for part in Part], MEASURE)},
+            stated=tuple(dict.fromkeys(each.long_name or each.identifier for each in stated.values())),
+            line=line,
+        )
         for value in each.attributes:
             definition = stated.get(value.definition_ref)
             if definition is None:
@@ -132,48 +153,47 @@ class ObjectReader:
             long = definition.long_name or definition.identifier
             if value.attribute_type.name == "XHTML":
                 rich = from_xhtml(value.xml_node.find("THE-VALUE"), exact=self._exact)
-                values[long] = rich.text
-                losses[long] = (int(getattr(value.xml_node, "sourceline", None) or line), rich.losses)
+                read.values[long] = rich.text
+                read.losses[long] = (int(getattr(value.xml_node, "sourceline", None) or line), rich.losses)
             else:
-                values[long] = self._text(value)
+                read.values[long] = self._text(value)
         for definition in stated.values():
-            # The value of an object that has none of its own.
             long = definition.long_name or definition.identifier
-            if long not in values and (default := self._default(definition)) is not None:
-                values[long] = default
-        by_name = {attribute_name(long): text for long, text in values.items()}
-        element_id = _id_in(by_name, is_ours=is_ours)
-        if not is_ours and not (element_id and by_name.get("text", "").strip()):
-            self._nameless[type_name] += 1
-            self._attributes.setdefault(type_name, {}).update(dict.fromkeys(values))
-            return None
-        is_measure = is_ours and kind.identifier == type_identifier(MEASURE)
-        part = None if is_measure else self._parts.get(type_name.lower()) or self._known.get(element_id) or self._part
+            if long not in read.values and (default := self._default(definition)) is not None:
+                read.values[long] = default
+        return read
+
+    def _part_of(self, type_name: str, element_id: str) -> Part | None:
+        """The part of an object by its type or its id; None if nothing states it."""
+        of_type = self._mapped.part_of_type(type_name) or self._parts.get(type_name.lower())
+        return of_type or self._known.get(element_id) or self._part
+
+    def _cells(
+        self, read: ObjectValues, part: Part | None, element_id: str, sources: Mapping[str, str]
+    ) -> Mapping[str, str]:
+        """The attributes of an element by the names of rgss; what has none is noted."""
         names = {attribute.name: attribute for attribute in ATTRIBUTES[part]} if part is not None else {}
-        cells = {} if is_ours else {"id": element_id}
-        for definition in stated.values():
-            long = definition.long_name or definition.identifier
-            name = attribute_name(long)
-            if (name in names and not names[name].holds_ids) or (part is None and name in ("id", "text")):
-                cells[name] = element_id if name == "id" else values.get(long, "")
-                where, phrases = losses.get(long, (line, ()))
-                self.lost += [(where, f"{element_id}: {long}: {phrase}") for phrase in phrases]
-                if names and names[name].form is Form.FLAG and cells[name] == "false":
+        cells = {} if read.is_ours else {"id": element_id}
+        taken = {long: name for name, long in sources.items()}
+        for long in read.stated:
+            name, value = taken.get(long, ""), read.values.get(long, "")
+            attribute = names.get(name)
+            if (attribute is None and part is None and name in ("id", "text")) or (
+                attribute is not None and not attribute.holds_ids
+            ):
+                cells[name] = element_id if name == "id" else value
+                where, phrases = read.losses.get(long, (read.line, ()))
+                self.omissions.lost += [(where, f"{element_id}: {long}: {phrase}") for phrase in phrases]
+                if attribute is not None and attribute.form is Form.FLAG and cells[name] == "false":
                     cells[name] = ""
-            elif is_ours and part is Part.SYSTEM and name in _OF_RECORDS:
-                if values.get(long, ""):
-                    self.records.setdefault(element_id, {})[name] = values[long]
-            elif values.get(long, "").strip() and not (name in EXCHANGE_IDS and values[long].strip() == element_id):
-                self._unused.setdefault(long)
-        return ForeignObject(
-            identifier=each.identifier,
-            type_name=MEASURE if is_measure else type_name,
-            part=part,
-            is_ours=is_ours,
-            id=element_id,
-            cells=cells,
-            line=line,
-        )
+            elif attribute is not None and self._mapped.target(long) == name:
+                cells[name] = ids_text(value)
+            elif read.is_ours and part is Part.SYSTEM and name in _OF_RECORDS:
+                if value:
+                    self.records.setdefault(element_id, {})[name] = value
+            elif value.strip() and not (name == PART and self._mapped.target(long) == PART):
+                self.omissions.attribute(long, read, element_id, part, sources)
+        return cells
 
     def _default(self, definition: Any) -> str | None:
         """Default value of an attribute as text; None if it has none."""

@@ -12,8 +12,10 @@ from typing import Any
 
 from rgss.errors import DefinitionError, DocumentError
 from rgss.exchange.attributes import ATTRIBUTES, Part
+from rgss.exchange.cells import ids_in, joined
 from rgss.exchange.content import Content, Row
 from rgss.exchange.files import LARGEST_REQIF_BYTES, problem, read_bytes, refusal_of
+from rgss.exchange.foreign_names import ForeignNames
 from rgss.exchange.reqif.archive import is_archive, reqif_members
 from rgss.exchange.reqif.objects import ForeignObject, ObjectReader, UnsoundObjectError
 from rgss.exchange.reqif.relations import RelationReader
@@ -26,16 +28,23 @@ _PREFIXED_ROOT = re.compile(r"\s*(?:<\?xml\s.*?\?>)?\s*<(?P<prefix>[A-Za-z_][\w.
 _NO_CONTENT = re.compile(r"(<!\[CDATA\[.*?\]\]>|<\?xml\s.*?\?>)|<!--.*?-->|<\?.*?\?>", re.DOTALL)
 
 
-def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Part | None = None) -> Content:
+def read_reqif(
+    path: Path,
+    *,
+    known: Mapping[str, Part] | None = None,
+    part: Part | None = None,
+    names: ForeignNames | None = None,
+) -> Content:
     """Read requirements, architecture and measures from ReqIF.
 
-    Attributes and relations of other tools are recognised by their names; what is not
+    Attributes and relations of other tools are recognised by their names, or mapped; what is not
     recognised is reported in the notes.
 
     Args:
         path: The file.
         known: Part of each element of the project, by id, for types of other tools.
         part: Part of elements that are neither known nor of a type of rgss.
+        names: The mapped names of the file.
 
     Raises:
         DefinitionError: The package reqif is not installed.
@@ -44,11 +53,14 @@ def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Par
     """
     file = str(path)
     content = read_bytes(path, limit=LARGEST_REQIF_BYTES)
+    members = list(reqif_members(content, file)) if is_archive(content) else [("", content)]
+    opened = [
+        _opened(inner, f"{file} ({name})" if name else file, _Context(known=known or {}, part=part, names=names))
+        for name, inner in members
+    ]
     if not is_archive(content):
-        (only,) = _contents([("", content)], file, known or {}, part)
-        return only
-    members = list(reqif_members(content, file))
-    read = list(zip((name for name, _ in members), _contents(members, file, known or {}, part), strict=True))
+        return _contents(opened)[0]
+    read = list(zip((name for name, _ in members), _contents(opened), strict=True))
     return Content(
         rows=tuple(replace(row, file=each.file) for _, each in read for row in each.rows),
         measures=tuple({measure[0]: measure for _, each in read for measure in each.measures}.values()),
@@ -56,8 +68,18 @@ def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Par
         whole=frozenset(kind for _, each in read for kind in each.whole),
         notes=tuple(f"{name}: {note}" if len(read) > 1 else note for name, each in read for note in each.notes),
         losses=tuple(loss for _, each in read for loss in each.losses),
+        names=tuple(dict.fromkeys(name for _, each in read for name in each.names)),
         file=file,
     )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Context:
+    """What the project and the user say of the objects of a file."""
+
+    known: Mapping[str, Part]
+    part: Part | None
+    names: ForeignNames | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,11 +93,8 @@ class _OpenFile:
     objects: dict[str, ForeignObject]
 
 
-def _contents(
-    members: Sequence[tuple[str, bytes]], file: str, known: Mapping[str, Part], part: Part | None
-) -> list[Content]:
+def _contents(opened: Sequence[_OpenFile]) -> list[Content]:
     """The contents of files that belong together."""
-    opened = [_opened(content, f"{file} ({name})" if name else file, known, part) for name, content in members]
     objects = {name: each for one in opened for name, each in one.objects.items()}
     identifiers = frozenset(each.identifier for one in opened for each in one.core.spec_objects or [])
     relations = [RelationReader(one.core, ChainMap(one.objects, objects), identifiers) for one in opened]
@@ -92,14 +111,14 @@ def _contents(
     return [_content(one, reader, parents, links) for one, reader in zip(opened, relations, strict=True)]
 
 
-def _opened(content: bytes, file: str, known: Mapping[str, Part], part: Part | None) -> _OpenFile:
+def _opened(content: bytes, file: str, context: _Context) -> _OpenFile:
     require_plain_xml(content, file)
     bundle = _parsed(content, file)
     core = getattr(bundle.core_content, "req_if_content", None)
     if core is None:
         raise DocumentError([problem(file, "empty", "has no content of ReqIF")])
     with _described(content, file):
-        reader = ObjectReader(bundle, known, part)
+        reader = ObjectReader(bundle, context.known, context.part, context.names)
         objects = reader.read(core.spec_objects or [])
     return _OpenFile(file=file, content=content, core=core, reader=reader, objects=objects)
 
@@ -126,11 +145,12 @@ def _content(
         measures=tuple((each.id, each.cells.get("text", "")) for each in found if each.type_name == MEASURE),
         records=one.reader.records,
         whole=frozenset(one.reader.own_parts),
-        notes=(*one.reader.notes(), *relations.notes()),
+        notes=(*one.reader.omissions.notes(), *relations.notes()),
         losses=tuple(
             problem(one.file, "loss", message, line=line, severity=Severity.WARNING)
-            for line, message in sorted((*one.reader.lost, *relations.lost))
+            for line, message in sorted((*one.reader.omissions.lost, *relations.lost))
         ),
+        names=tuple(one.reader.names),
         file=one.file,
     )
 
@@ -196,7 +216,7 @@ def _row(
     # What another file of the archive or a relation states is taken over, and no other link removed for it.
     linked = {name for name in names if (each.id, name) in links}
     cells.update(_linked(each, links, (stated & names.keys()) | linked))
-    if "parent" in names and (each.is_ours or each.id in parents):
+    if "parent" in names and (each.is_ours or each.id in parents) and not cells.get("parent"):
         cells["parent"] = parents.get(each.id, "")
     return Row(part=each.part, cells=cells, line=each.line)
 
@@ -205,4 +225,5 @@ def _linked(
     each: ForeignObject, links: Mapping[tuple[str, str], Sequence[str]], names: Collection[str]
 ) -> Iterator[tuple[str, str]]:
     for name in sorted(names):
-        yield name, "; ".join(links.get((each.id, name), ()))
+        # An attribute of ids may be mapped, too.
+        yield name, joined(list(dict.fromkeys((*ids_in(each.cells.get(name, "")), *links.get((each.id, name), ())))))

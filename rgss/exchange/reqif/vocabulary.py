@@ -34,10 +34,6 @@ RELATIONS: tuple[str, ...] = (
 """The types of relations; containment is the hierarchy."""
 
 _STANDARD: Mapping[str, str] = MappingProxyType({"id": "ReqIF.ForeignID", "text": "ReqIF.Text", "name": "ReqIF.Name"})
-# Names of the ReqIF Implementation Guide, of StrictDoc and of Doorstop.
-_OTHERS: Mapping[str, str] = MappingProxyType(
-    {"foreignid": "id", "uid": "id", "statement": "text", "title": "name", "chaptername": "name"}
-)
 EXCHANGE_IDS = ("ie_puid", "puid")
 """Ids of DOORS and Capella for exchange, which count where an object has no other id."""
 
@@ -67,13 +63,6 @@ def identifier(*parts: str) -> str:
 def long_name(attribute: Attribute) -> str:
     """Name of an attribute in ReqIF."""
     return _STANDARD.get(attribute.name, attribute.name)
-
-
-def attribute_name(long: str) -> str:
-    """Name in rgss of an attribute of any tool; the given name if there is none."""
-    plain = re.sub(r"[\s-]+", "_", long.strip()).lower()
-    plain = plain.removeprefix("reqif.")
-    return _OTHERS.get(plain, plain)
 
 
 def relation_name(long: str) -> str | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
 
@@ -13,13 +13,15 @@ from rgss.errors import DocumentError
 from rgss.exchange.attributes import Part
 from rgss.exchange.content import Content, Row
 from rgss.exchange.files import problem, read_bytes
+from rgss.exchange.foreign_names import PART
+from rgss.exchange.tables.foreign_rows import ForeignRows, ForeignTable
 from rgss.exchange.tables.heads import (
     MOST_ROWS,
-    PART,
     PARTS,
+    Heads,
     columns_of,
     columns_of_both,
-    found_columns,
+    found_heads,
     table_content,
 )
 from rgss.findings import Finding, shown
@@ -56,11 +58,12 @@ def csv_text(content: Content) -> str:
     return out.getvalue()
 
 
-def read_csv(path: Path) -> Content:
+def read_csv(path: Path, foreign: ForeignTable | None = None) -> Content:
     """Read requirements from CSV; the columns may be in any order.
 
     Args:
         path: The file, in UTF-8, with commas, semicolons or tabs as separators.
+        foreign: What is known of a table of another tool; None for one of rgss, which has every column.
 
     Raises:
         DocumentError: The file cannot be read, is not UTF-8 or not CSV, or has other columns.
@@ -77,17 +80,22 @@ def read_csv(path: Path) -> Content:
     divider = max(_DIVIDERS, key=first.count)
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=divider, strict=True)
     try:
-        heads = next(reader, [])
-        columns = found_columns(file, [restored(head) for head in heads], columns_of_both())
+        first_row = [restored(head) for head in next(reader, [])]
+        heads = found_heads(file, first_row, columns_of_both(), None if foreign is None else foreign.names)
         findings: list[Finding] = []
-        rows = list(_rows(file, reader, columns, findings))
+        taken = None if foreign is None else ForeignRows(foreign)
+        rows = list(_rows(file, reader, heads, taken, findings))
     except csv.Error as error:
         message = next((said for sign, said in _WRONG.items() if sign in str(error)), "its quotation marks are wrong")
         raise DocumentError([problem(file, "syntax", f"not CSV: {message}", line=reader.line_num)]) from None
-    return table_content(file, rows, findings)
+    if taken is None:
+        return table_content(file, rows, findings, heads=[heads])
+    return table_content(file, rows, findings, tuple(taken.notes()), taken.losses, [heads])
 
 
-def _rows(file: str, reader: Iterator[list[str]], columns: Mapping[str, int], findings: list[Finding]) -> Iterator[Row]:
+def _rows(
+    file: str, reader: Iterator[list[str]], heads: Heads, taken: ForeignRows | None, findings: list[Finding]
+) -> Iterator[Row]:
     line = getattr(reader, "line_num", 1) + 1
     for count, cells in enumerate(reader):
         here, line = line, getattr(reader, "line_num", 1) + 1
@@ -96,17 +104,20 @@ def _rows(file: str, reader: Iterator[list[str]], columns: Mapping[str, int], fi
             return
         if not any(cell.strip() for cell in cells):
             continue
-        if len(cells) < len(columns) or any(cell.strip() for cell in cells[len(columns) :]):
-            message = f"{len(columns)} cells are expected, {len(cells)} found"
+        if len(cells) < heads.width or any(cell.strip() for cell in cells[heads.width :]):
+            message = f"{heads.width} cells are expected, {len(cells)} found"
             findings.append(problem(file, "row", message, line=here))
             continue
-        yield from _row(file, [restored(cell) for cell in cells], columns, here, findings)
+        named = {name: restored(cells[number - 1]) for name, number in heads.columns.items()}
+        if taken is not None:
+            yield from taken.element(file, Row(part=None, cells=named, line=here, columns=heads.columns))
+        else:
+            yield from _row(file, named, heads.columns, here, findings)
 
 
 def _row(
-    file: str, cells: Sequence[str], columns: Mapping[str, int], line: int, findings: list[Finding]
+    file: str, named: dict[str, str], columns: Mapping[str, int], line: int, findings: list[Finding]
 ) -> Iterator[Row]:
-    named = {name: cells[number - 1] for name, number in columns.items()}
     word = named.pop(PART).strip().lower()
     if word not in [part.value for part in PARTS]:
         message = f"part: {shown(word)} is not one of {', '.join(part.value for part in PARTS)}"

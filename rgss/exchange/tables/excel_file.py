@@ -7,8 +7,8 @@ import warnings
 import zipfile
 import zlib
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,9 +17,20 @@ from rgss.errors import DefinitionError, DocumentError
 from rgss.exchange.attributes import ATTRIBUTES, Form, Part
 from rgss.exchange.content import Content, Row
 from rgss.exchange.files import LARGEST_FILE_BYTES, problem, read_bytes
+from rgss.exchange.foreign_names import ForeignNames
 from rgss.exchange.tables.cell_comments import cell_comments
+from rgss.exchange.tables.foreign_rows import ForeignRows, ForeignTable
 from rgss.exchange.tables.formatted_cells import FormattedCell, SheetReader
-from rgss.exchange.tables.heads import MOST_COLUMNS, MOST_ROWS, PARTS, columns_of, found_columns, table_content
+from rgss.exchange.tables.heads import (
+    MOST_COLUMNS,
+    MOST_ROWS,
+    PARTS,
+    Heads,
+    columns_of,
+    columns_of_both,
+    found_heads,
+    table_content,
+)
 from rgss.exchange.xml_guard import require_plain_xml
 from rgss.findings import Finding, Severity, shown
 
@@ -54,13 +65,15 @@ def excel_bytes(content: Content) -> bytes:
     return without_clock(file.getvalue())
 
 
-def read_excel(path: Path) -> Content:
+def read_excel(path: Path, foreign: ForeignTable | None = None) -> Content:
     """Read requirements from a workbook; the columns of a sheet may be in any order.
 
     Exponents and indices get their plain form; struck-out text is omitted and reported.
 
     Args:
         path: The file, with the sheets ``stakeholder`` and ``system``.
+        foreign: What is known of a workbook of another tool, whose first sheet is read if it has neither; None for one
+            of rgss.
 
     Raises:
         DefinitionError: The package openpyxl is not installed.
@@ -73,31 +86,57 @@ def read_excel(path: Path) -> Content:
     file = str(path)
     content = read_bytes(path)
     _require_harmless(content, file)
-    findings: list[Finding] = []
-    losses: list[Finding] = []
+    read = _Reading(file=file, names=None if foreign is None else foreign.names)
+    taken = None if foreign is None else ForeignRows(foreign)
     rows: list[Row] = []
     try:
         with warnings.catch_warnings():
             # openpyxl warns of unknown formatting, which is not read here.
             warnings.simplefilter("ignore")
             workbook = load_workbook(io.BytesIO(content), read_only=True, rich_text=True)
-            names = workbook.sheetnames
-            missing = [part.value for part in PARTS if part.value not in names]
-            if missing:
-                message = f"there is no sheet {' and no sheet '.join(map(repr, missing))}"
-                raise DocumentError([problem(file, "sheet", message, hint=f"sheets: {', '.join(names)}")])
-            for part in PARTS:
-                sheet = SheetReader(workbook, part.value)
-                rows += _rows(file, sheet, part, findings, losses)
-                losses += _commented(file, content, sheet.path, part)
+            sheets = _sheets(file, workbook.sheetnames, is_foreign=foreign is not None)
+            for name, part in sheets.items():
+                sheet = SheetReader(workbook, name)
+                found = _rows(read, sheet, name, part)
+                rows += found if taken is None else (each for row in found for each in taken.element(file, row))
+                read.losses += _commented(file, content, sheet.path, name)
     except DocumentError:
         raise
     except Exception:  # noqa: BLE001, RUF100 - a damaged workbook breaks openpyxl in many ways
         message = "is not a workbook that can be read: it is damaged, or lacks parts that a workbook has"
         raise DocumentError([problem(file, "syntax", message, hint="save it again as .xlsx")]) from None
-    others = [name for name in names if name not in [part.value for part in PARTS]]
-    notes = [f"the sheet {name!r} is not imported" for name in others]
-    return table_content(file, rows, findings, notes, losses)
+    notes = [f"the sheet {name!r} is not imported" for name in workbook.sheetnames if name not in sheets]
+    if taken is not None:
+        notes += taken.notes()
+        read.losses += taken.losses
+    return table_content(file, rows, read.findings, notes, read.losses, read.heads)
+
+
+@dataclass(slots=True, kw_only=True)
+class _Reading:
+    """A workbook while it is read, with what is found in it."""
+
+    file: str
+    names: ForeignNames | None
+    findings: list[Finding] = field(default_factory=list)
+    losses: list[Finding] = field(default_factory=list)
+    heads: list[Heads] = field(default_factory=list)
+
+
+def _sheets(file: str, names: Sequence[str], *, is_foreign: bool) -> Mapping[str, Part | None]:
+    """The sheets to read, with the part of their elements; None if a column or the project states it.
+
+    Raises:
+        DocumentError: A sheet is missing.
+    """
+    own: dict[str, Part | None] = {part.value: part for part in PARTS if part.value in names}
+    missing = [part.value for part in PARTS if part.value not in own]
+    if is_foreign and names:
+        return own or {names[0]: None}
+    if missing:
+        message = f"there is no sheet {' and no sheet '.join(map(repr, missing))}"
+        raise DocumentError([problem(file, "sheet", message, hint=f"sheets: {', '.join(names)}")])
+    return own
 
 
 def _require_openpyxl() -> None:
@@ -123,23 +162,25 @@ def _require_harmless(content: bytes, file: str) -> None:
         raise DocumentError([problem(file, "syntax", "is not an Excel file (.xlsx), or a damaged one")]) from None
 
 
-def _rows(file: str, sheet: SheetReader, part: Part, findings: list[Finding], losses: list[Finding]) -> Iterator[Row]:
-    where = f"sheet {part.value!r}: "
+def _rows(read: _Reading, sheet: SheetReader, name: str, part: Part | None) -> Iterator[Row]:
+    file, where = read.file, f"sheet {name!r}: "
+    wanted = columns_of_both() if part is None else columns_of(part)
     columns: Mapping[str, int] | None = None
     numbers: list[int] = []
     for number, cells in sheet.rows():
         if number > MOST_ROWS + 1:
-            findings.append(problem(file, "size", f"{where}more than {MOST_ROWS} rows", line=number))
+            read.findings.append(problem(file, "size", f"{where}more than {MOST_ROWS} rows", line=number))
             return
         # A row that the file omits is empty; the first one has the names of the columns, in whatever formatting.
         if columns is None:
-            columns = found_columns(file, _heads(cells) if number == 1 else [], columns_of(part), where=where)
+            read.heads.append(found_heads(file, _heads(cells) if number == 1 else [], wanted, read.names, where=where))
+            columns = read.heads[-1].columns
         if number > 1:
-            yield from _row(file, cells, part, Row(part=part, cells={}, line=number, columns=columns), findings, losses)
+            yield from _row(read, cells, where, Row(part=part, cells={}, line=number, columns=columns))
             numbers.append(number)
     if columns is None:
-        columns = found_columns(file, [], columns_of(part), where=where)
-    findings += _merged(file, sheet, columns, numbers, where)
+        columns = found_heads(file, [], wanted, read.names, where=where).columns
+    read.findings += _merged(file, sheet, columns, numbers, where)
 
 
 def _heads(cells: list[FormattedCell]) -> list[str]:
@@ -147,24 +188,27 @@ def _heads(cells: list[FormattedCell]) -> list[str]:
     return [texts.get(column, "") for column in range(1, max(texts, default=0) + 1)]
 
 
-def _row(
-    file: str, cells: list[FormattedCell], part: Part, row: Row, findings: list[Finding], losses: list[Finding]
-) -> Iterator[Row]:
-    where = f"sheet {part.value!r}: row {row.line}"
-    held = {cell.column: cell for cell in cells if cell.value is not None and cell.column <= MOST_COLUMNS + 1}
+def _row(read: _Reading, cells: list[FormattedCell], sheet: str, row: Row) -> Iterator[Row]:
+    where = f"{sheet}row {row.line}"
+    wanted = set(row.columns.values())
+    held = {cell.column: cell for cell in cells if cell.value is not None and cell.column in wanted}
     lost = {column: loss for column, cell in held.items() if (loss := cell.text().losses)}
-    texts = {column: _text(file, cell, where, row.line, findings) for column, cell in held.items()}
+    texts = {column: _text(read.file, cell, where, row.line, read.findings) for column, cell in held.items()}
     named = row.columns["id"]
     if named in lost and not texts[named].strip():
         message = f"{where}: {held[named].unformatted().strip()} is struck out, and the row is omitted"
-        losses.append(problem(file, "loss", message, line=row.line, column=named, severity=Severity.WARNING))
+        read.losses.append(_loss(read.file, message, row.line, named))
         return
     for name, column in row.columns.items():
         for phrase in lost.get(column, ()):
             message = f"{texts.get(named, '').strip()}: {name}: {phrase}"
-            losses.append(problem(file, "loss", message, line=row.line, column=column, severity=Severity.WARNING))
+            read.losses.append(_loss(read.file, message, row.line, column))
     if any(text.strip() for text in texts.values()):
         yield replace(row, cells={name: texts.get(column, "") for name, column in row.columns.items()})
+
+
+def _loss(file: str, message: str, line: int, column: int) -> Finding:
+    return problem(file, "loss", message, line=line, column=column, severity=Severity.WARNING)
 
 
 def _text(file: str, cell: FormattedCell, where: str, line: int, findings: list[Finding]) -> str:
@@ -192,14 +236,14 @@ def _merged(
             yield problem(file, "merged", message, line=rows[0], column=first_column, hint=hint)
 
 
-def _commented(file: str, content: bytes, sheet: str, part: Part) -> Iterator[Finding]:
+def _commented(file: str, content: bytes, path: str, sheet: str) -> Iterator[Finding]:
     """A loss for each comment of a cell: a reviewer's words are not imported."""
     from openpyxl.utils.cell import coordinate_to_tuple
 
-    for cell, text in cell_comments(content, sheet):
+    for cell, text in cell_comments(content, path):
         line, column = coordinate_to_tuple(cell)
-        message = f"sheet {part.value!r}: the comment on cell {cell} is not imported: {shown(text)}"
-        yield problem(file, "loss", message, line=line, column=column, severity=Severity.WARNING)
+        message = f"sheet {sheet!r}: the comment on cell {cell} is not imported: {shown(text)}"
+        yield _loss(file, message, line, column)
 
 
 def _write_sheet(sheet: Any, part: Part, rows: list[Row]) -> None:

@@ -256,7 +256,7 @@ def test_an_import_that_takes_nothing_says_why(rgss, untouched, exports, tmp_pat
 
     assert (told.status, told.errors) == (1, "")
     assert told.output.splitlines()[-1] == "Nothing of the file was imported: the notes above say why."
-    assert "not imported: they have no id or no text" in told.output
+    assert "not imported: no id and no text among their attributes" in told.output
 
 
 def test_a_changed_measure_is_not_read_and_is_told(rgss, untouched, exports, tmp_path):

@@ -140,12 +140,9 @@ def test_a_file_of_strictdoc_is_imported(project, refused):
     assumed = {"part": Part.SYSTEM, "defaults": DEFAULTS}
     foreign = read_reqif(STRICTDOC, part=Part.SYSTEM)
     assert foreign.notes == (
-        (
-            "1 objects of type 'SECTION' are not imported: "
-            "they have no id or no text among their attributes 'ReqIF.ChapterName'"
-        ),
-        "1 objects of type 'TEXT' are not imported: they have no id or no text among their attributes 'ReqIF.Text'",
-        "the attribute 'ReqIF.Name' is not imported: rgss has none of that name",
+        "1 object of type 'SECTION' is not imported: no id and no text among their attributes 'ReqIF.ChapterName'",
+        "1 object of type 'TEXT' is not imported: no id among their attributes 'ReqIF.Text'",
+        "the attribute 'ReqIF.Name' is not imported: rgss has none of that name (--map 'ReqIF.Name=…' takes it)",
     )
     assert {change.kind for change in project.compare(foreign, **assumed)} == {ChangeKind.ADDED}
     project.apply(foreign, **assumed)

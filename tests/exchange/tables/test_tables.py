@@ -42,15 +42,18 @@ def rewritten(path, *, old, new):
     return path
 
 
-def test_an_empty_cell_of_what_is_there_already_is_not_answered_with_a_default(project, written, refused):
-    """A default is for new elements, so that a hint at it would lead nowhere."""
+def test_an_empty_cell_of_what_is_there_already_is_filled_in_or_has_a_default_by_which_it_keeps_its_value(
+    project, written, refused
+):
+    """A default is for new elements, so that a hint at it would lead nowhere; the same import twice changes nothing."""
     path = written / "t.csv"
     text = path.read_text(encoding="utf-8-sig")
     assert text.count(",low,draft,") == 1
     path.write_text(text.replace(",low,draft,", ",low,,"), encoding="utf-8", newline="")
 
-    (line,) = refused(project.compare, read_csv(path), defaults={"status": "draft"})
+    (line,) = refused(project.compare, read_csv(path), defaults={"owner": "me"})
     assert line.endswith("SYS-2: status: is missing (fill it in) [exchange.value]")
+    assert project.compare(read_csv(path), defaults={"status": "approved"}) == ()
 
 
 def test_another_reader_finds_every_requirement_in_the_csv(project):
@@ -237,7 +240,7 @@ def test_columns_that_are_too_many_are_named(project, tmp_path, refused):
     (tmp_path / "t.csv").write_text(text.replace("\r\n", ",text,mine\r\n", 1), encoding="utf-8", newline="")
     twice, unknown = refused(read_csv, tmp_path / "t.csv")
     assert "duplicate column 'text' (keep one) [exchange.column]" in twice
-    assert "unknown column 'mine' (columns: part, id, " in unknown
+    assert "unknown column 'mine' (for a table of another tool give --map 'mine=…')" in unknown
 
 
 def test_what_a_foreign_file_holds_does_not_steer_a_terminal(project, tmp_path, refused):

@@ -1,0 +1,82 @@
+"""Rows of a table of another tool as elements."""
+
+from __future__ import annotations
+
+import shlex
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+from rgss.exchange.attributes import ATTRIBUTES, Part
+from rgss.exchange.content import Row
+from rgss.exchange.files import problem
+from rgss.exchange.foreign_names import LINKED, PART, ForeignNames, ids_text
+from rgss.findings import Finding, Severity, shown
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ForeignTable:
+    """What is known of a table of another tool.
+
+    Attributes:
+        names: The mapped names of its columns and values.
+        part: Part of rows whose part neither the table nor the project states.
+        known: Part of each element of the project, by id.
+    """
+
+    names: ForeignNames
+    part: Part | None = None
+    known: Mapping[str, Part] = field(default_factory=dict)
+
+
+class ForeignRows:
+    """Reader of rows, with a list of those that are not imported."""
+
+    def __init__(self, table: ForeignTable) -> None:
+        """Create a reader.
+
+        Args:
+            table: What is known of the table.
+        """
+        self._table = table
+        self._lacking: Counter[str] = Counter()
+        self._of_no_part: Counter[str] = Counter()
+        self.losses: list[Finding] = []
+        """Values of elements whose part has no such attribute."""
+
+    def element(self, file: str, row: Row) -> Iterator[Row]:
+        """The row as an element; none if it has no id or no text, such as a heading, or if its part is none of rgss.
+
+        Args:
+            file: The file's name.
+            row: The row, with the cells of all columns; its part, if it is of the sheet of one.
+        """
+        cells = {name: ids_text(cell) if name in LINKED else cell for name, cell in row.cells.items()}
+        said = cells.pop(PART, "").strip()
+        lacks = next((name for name in ("id", "text") if name in cells and not cells[name].strip()), "")
+        if lacks:
+            self._lacking[lacks] += 1
+            return
+        stated = self._table.names.stated_part(said)
+        if said and stated is None:
+            self._of_no_part[said] += 1
+            return
+        part = row.part or stated or self._table.known.get(row.id) or self._table.part
+        names = {attribute.name for attribute in ATTRIBUTES[part]} if part is not None else cells.keys()
+        for name in cells.keys() - names:
+            if part is not None and cells[name].strip():
+                message = f"{row.id}: a {part.value} requirement has no {name!r}: {shown(cells[name])} is omitted"
+                column = row.columns[name]
+                severity = Severity.WARNING
+                self.losses.append(problem(file, "loss", message, line=row.line, column=column, severity=severity))
+        yield replace(row, part=part, cells={name: cell for name, cell in cells.items() if name in names})
+
+    def notes(self) -> Iterator[str]:
+        """Notes on rows that are not imported."""
+        for lacks, count in sorted(self._lacking.items()):
+            rows = "1 row is" if count == 1 else f"{count} rows are"
+            yield f"{rows} not imported: no {lacks}"
+        for value, count in sorted(self._of_no_part.items()):
+            rows = "1 row is" if count == 1 else f"{count} rows are"
+            option = f"--map-value {shlex.quote(f'{PART}:{value}=…')}"
+            yield f"{rows} not imported: {shown(value)} is no part ({option} takes such)"

@@ -1,0 +1,113 @@
+"""Tables whose columns another tool has named."""
+
+from __future__ import annotations
+
+import openpyxl
+import pytest
+
+from rgss.exchange import ForeignNames, Part, with_values_mapped
+from rgss.exchange.tables import ForeignTable, csv_text, read_csv, read_excel
+
+HEADS = ["ID", "Heading", "Object Text", "Rationale", "Type", "Prio", "Derived From", "Changed"]
+ROWS = (
+    ["SYS-1", "", "The task shall end within 30 s.", "", "Requirement", "", "STK-2", "yesterday"],
+    ["SYS-9", "", "The gripper shall hold 3 kg.", "Heavy.", "Requirement", "1", "STK-1, STK-2", ""],
+    ["SYS-8", "Grip", "", "", "Heading", "", "", ""],
+    ["SYS-7", "", "See the drawing.", "", "Info", "", "", ""],
+    ["", "", "A line without an id", "", "", "", "", ""],
+)
+MAPPED = {"Object Text": "text", "Prio": "priority", "Type": "part", "Changed": ""}
+VALUES = {"part": {"Requirement": "system"}, "priority": {"1": "high", "2": "low"}}
+NAMES = ForeignNames(attributes=MAPPED, values=VALUES)
+DEFAULTS = {"group": "gripper", "source": "DOORS", "status": "draft", "owner": "me", "rationale": "Unknown."}
+DEFAULTS |= {"verification": "test", "facility": "Bench", "phase": "qualification", "success": "It holds."}
+
+
+@pytest.fixture(params=["csv", "xlsx"])
+def table(tmp_path, request):
+    """Function that reads rows from a file of each format."""
+
+    def read(rows=ROWS, heads=HEADS, *, names=NAMES, **known):
+        path = tmp_path / f"t.{request.param}"
+        if request.param == "csv":
+            lines = [";".join(f'"{cell}"' for cell in row) for row in (heads, *rows)]
+            path.write_text("\n".join(lines), encoding="utf-8")
+        else:
+            book = openpyxl.Workbook()
+            for row in (heads, *rows):
+                book.active.append(row)
+            book.save(path)
+        reader = read_csv if request.param == "csv" else read_excel
+        return with_values_mapped(reader(path, ForeignTable(names=names, **known)), names)
+
+    return read
+
+
+def without_sheets(notes):
+    return [note.removeprefix("sheet 'Sheet': ") for note in notes]
+
+
+def test_columns_are_what_they_are_mapped_to(project, table):
+    foreign = table()
+    assert [(row.id, row.part, row.cells["text"]) for row in foreign.rows] == [
+        ("SYS-1", Part.SYSTEM, "The task shall end within 30 s."),
+        ("SYS-9", Part.SYSTEM, "The gripper shall hold 3 kg."),
+    ]
+    assert foreign.rows[1].cells["priority"] == "high"
+    assert foreign.rows[1].cells["derived_from"] == "STK-1; STK-2"
+    changed, added = project.compare(foreign, defaults={**DEFAULTS, "priority": "low"})
+    assert [each.attribute.name for each in changed.attributes] == ["text"]
+    assert (added.id, added.entry["owner"]) == ("SYS-9", "me")
+
+
+def test_rows_and_columns_that_are_not_imported_are_noted(table):
+    assert sorted(without_sheets(table().notes)) == [
+        "1 row is not imported: 'Info' is no part (--map-value 'part:Info=…' takes such)",
+        "1 row is not imported: no id",
+        "1 row is not imported: no text",
+        "the column 'Heading' is not imported: rgss has none of that name (--map 'Heading=…' takes it)",
+    ]
+
+
+def test_elements_that_the_table_of_another_tool_lacks_are_not_removed(project, table):
+    assert [change.kind.value for change in project.compare(table(), defaults={**DEFAULTS, "priority": "low"})] == [
+        "changed",
+        "added",
+    ]
+
+
+def test_a_part_follows_from_the_project_or_is_given(table):
+    names = ForeignNames(attributes={"Object Text": "text", "Prio": "", "Type": "", "Changed": ""})
+    foreign = table(ROWS[:2], names=names, known={"SYS-1": Part.SYSTEM}, part=Part.STAKEHOLDER)
+    assert [row.part for row in foreign.rows] == [Part.SYSTEM, Part.STAKEHOLDER]
+    (loss,) = foreign.losses
+    assert (loss.line, loss.message) == (
+        3,
+        "SYS-9: a stakeholder requirement has no 'derived_from': 'STK-1; STK-2' is omitted",
+    )
+
+
+def test_a_table_without_ids_names_the_likely_option(table, refused):
+    (line,) = refused(table, heads=["Object Identifier", *HEADS[1:]])
+    assert line.endswith("no column has the ids (give --map 'Object Identifier=id') [exchange.column]")
+
+
+def test_two_columns_for_one_attribute_are_refused(table, refused):
+    names = ForeignNames(attributes={"Heading": "text", "Object Text": "text"})
+    (line,) = refused(table, names=names)
+    assert line.endswith(
+        "the columns 'Heading' and 'Object Text' are both the text (map one of them) [exchange.column]"
+    )
+
+
+def test_what_no_mapped_column_has_may_be_anything(table):
+    """A date or a formula in a column that is not imported does not matter."""
+    rows = [[*ROWS[0][:7], "=1+1"]]
+    assert [row.id for row in table(rows).rows] == ["SYS-1"]
+
+
+def test_a_table_of_rgss_is_the_same_with_a_mapping(project, tmp_path):
+    (tmp_path / "t.csv").write_text(csv_text(project.content), encoding="utf-8", newline="")
+    foreign = read_csv(tmp_path / "t.csv", ForeignTable(names=ForeignNames(), part=Part.SYSTEM))
+    assert project.compare(foreign) == ()
+    assert {Part.STAKEHOLDER, Part.SYSTEM} <= foreign.whole
