@@ -83,6 +83,9 @@ def _run(arguments: Sequence[str] | None, interrupts: Interrupts) -> int:
     options: argparse.Namespace | None = None
     try:
         options = command_line().parse_args(arguments)
+        # Before the result, which is that of a mixture; an import undoes it and says so itself.
+        if not getattr(options, "undoes_imports", False):
+            _report_interrupted_import(options)
         with _page(options):
             status = int(options.handler(options))
             if sys.stdout is not None:
@@ -150,11 +153,11 @@ def _interrupted(options: argparse.Namespace | None, interrupts: Interrupts) -> 
 
 
 def _report_interrupted_import(options: argparse.Namespace | None) -> None:
-    """Report an import that was killed while it wrote: the project is neither the old nor the new one.
+    """Report, once, an import that was killed while it wrote: the project is neither the old nor the new one.
 
     It may be why the project cannot be read; if it can, what a verb has read or run is of a mixture.
     """
-    if options is None or not hasattr(options, "project"):
+    if options is None or not hasattr(options, "project") or getattr(options, "is_import_reported", False):
         return
     from rgss.exchange import was_interrupted
     from rgss.studies import find_project
@@ -165,6 +168,7 @@ def _report_interrupted_import(options: argparse.Namespace | None) -> None:
     except (RgssError, OSError):
         return
     if was_interrupted(folder):
+        options.is_import_reported = True
         _print_error("rgss: an import into this project was interrupted (`rgss import` undoes what it has written)")
 
 
@@ -212,6 +216,7 @@ def command_line() -> argparse.ArgumentParser:
             is_fitted=getattr(module, "FITTED", True),
             is_paged=getattr(module, "PAGED", False),
             stores_trials=getattr(module, "STORES_TRIALS", False),
+            undoes_imports=getattr(module, "UNDOES_IMPORTS", False),
         )
     return parser
 

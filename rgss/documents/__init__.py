@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from rgss.documents.output_files import (
         is_disk_failure,
         is_standard_output,
+        remove_abandoned_parts,
         replaced_file,
         require_no_source,
         unwritable,

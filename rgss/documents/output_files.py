@@ -24,6 +24,8 @@ from rgss.errors import DefinitionError, RgssError, StorageError
 
 _MOST_LINKS = 40
 _DESCRIPTORS = "/proc/"
+_PART = ".rgss-{process}-{number}.part"
+"""Name of a temporary file beside the output."""
 _DISK_FAILURES = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
@@ -151,6 +153,33 @@ def is_standard_output(path: Path) -> bool:
         return False
 
 
+def remove_abandoned_parts(folder: Path) -> None:
+    """Remove the temporary files of processes that were killed while they wrote into a folder.
+
+    Args:
+        folder: The folder.
+    """
+    with suppress(OSError):
+        for part in sorted(folder.glob(_PART.format(process="*", number="*"))):
+            process = part.name.split("-")[1]
+            if process.isdecimal() and not _is_running(int(process)):
+                with suppress(OSError):
+                    part.unlink()
+
+
+def _is_running(process: int) -> bool:
+    """True if a process exists, or if that cannot be known."""
+    if sys.platform == "win32":
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):
+        return True
+    return True
+
+
 def _refuse_source(path: Path, target: _Target) -> None:
     if target.status is None or target.in_place:
         return
@@ -260,7 +289,7 @@ def _streamed(target: _Target) -> Iterator[Path]:
 def _new_part(path: Path) -> Path:
     """New empty file in the same folder, since a rename is atomic only within a file system."""
     for number in count():
-        part = path.with_name(f".rgss-{os.getpid()}-{number}.part")
+        part = path.with_name(_PART.format(process=os.getpid(), number=number))
         try:
             os.close(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
         except FileExistsError:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import codecs
+import errno
+import os
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -59,7 +61,8 @@ def planned(
 ) -> tuple[FileChange, ...]:
     """Files after the changes; nothing is written.
 
-    A new element is inserted after the last one of its kind, in the same file.
+    A new element is inserted after the last one of its kind, in the same file. A file that loses its last element is
+    removed, unless it is the last one of its folder.
 
     Args:
         folder: The project.
@@ -70,7 +73,8 @@ def planned(
             None stands for the present one.
 
     Raises:
-        DefinitionError: There is no file for a new element, or a file has changed since the requirements were read.
+        DefinitionError: There is no file for a new element, a file has changed since the requirements were read, or one
+            that loses its last element is reached by a link or has another name.
         DocumentError: A file can no longer be read.
     """
     edits: dict[str, list[Edit]] = {}
@@ -88,6 +92,8 @@ def planned(
             *around, index = place.location
             here.append(RemoveEntry(location=tuple(around), index=int(index)))
     emptied = _emptied(requirements, edits)
+    for name in sorted(emptied):
+        _require_one_name(folder, name)
     found = []
     for name, each in sorted(edits.items()):
         if each:
@@ -138,7 +144,8 @@ def written(folder: Path, files: Sequence[FileChange]) -> None:
     if not files:
         return
     with journal_of(folder, {file.name: (file.old, file.new) for file in files}):
-        for file in files:
+        # What is removed loses its permissions, also if it is restored.
+        for file in sorted(files, key=lambda each: each.new is None):
             if file.new is None:
                 _removed(folder / file.name)
             else:
@@ -155,6 +162,9 @@ def _unchanged(folder: Path, name: str, content: bytes | None) -> bytes:
 
 def _removed(path: Path) -> None:
     try:
+        if not os.access(path, os.W_OK):
+            # Removal needs write access only to the folder, but the file itself is write-protected.
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
         path.unlink()
     except OSError as error:
         raise unwritable(path, error) from error
@@ -170,6 +180,20 @@ def _emptied(requirements: RequirementSet, edits: Mapping[str, Sequence[Edit]]) 
     }
     kept = {_folder_of(name) for name in held if name not in gone}
     return {name for name in gone if _folder_of(name) in kept}
+
+
+def _require_one_name(folder: Path, name: str) -> None:
+    """Require that a file that is to be removed is the project's alone.
+
+    Raises:
+        DefinitionError: A link leads to it, or it has another name, under which it would remain.
+    """
+    path = folder / name
+    actual = path.resolve()
+    if actual != folder.resolve() / name or path.stat().st_nlink > 1:
+        what = f"leads to {actual}" if actual != folder.resolve() / name else "has another name"
+        message = f"{name} would lose its last element, and is not removed, since it {what}"
+        raise DefinitionError(message, hint="remove it by hand, and import again")
 
 
 def _folder_of(name: str) -> str:

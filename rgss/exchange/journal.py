@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path, PurePosixPath
 
-from rgss.documents import unwritable, write_output
+from rgss.documents import remove_abandoned_parts, unwritable, write_output
 from rgss.errors import DefinitionError
 from rgss.exchange.files import LARGEST_FILE_BYTES
 
@@ -71,12 +71,12 @@ def journal_of(folder: Path, files: Mapping[str, tuple[bytes, bytes | None]]) ->
         raise unwritable(path, error) from error
     try:
         yield
+        _removed(path, with_folder=is_new)
     except BaseException:
-        # Not only what is known to be written: an interruption may come before it is noted.
+        # Not only what is known to be written: an interruption may come before it is noted, or once all is written.
         _restored(folder, files)
         _removed(path, with_folder=is_new)
         raise
-    _removed(path, with_folder=is_new)
 
 
 def contents_of(folder: Path) -> dict[str, bytes]:
@@ -125,7 +125,10 @@ def undone(folder: Path) -> tuple[str, ...]:
     path = folder / _JOURNAL
     if not has_journal(folder):
         return ()
-    restored = _restored(folder, _entries(path.read_bytes()))
+    entries = _entries(path.read_bytes())
+    restored = _restored(folder, entries)
+    for place in {(folder / name).resolve().parent for name in entries}:
+        remove_abandoned_parts(place)
     path.unlink(missing_ok=True)
     return restored
 

@@ -67,6 +67,35 @@ def test_a_killed_import_is_undone(killed):
     assert undone(folder) == ()
 
 
+def test_an_undone_import_leaves_no_temporary_file(killed):
+    folder, _ = killed
+    ended = subprocess.Popen([sys.executable, "-c", ""])
+    ended.wait()
+    abandoned = folder / "requirements" / f".rgss-{ended.pid}-0.part"
+    of_another = [folder / "requirements" / name for name in (f".rgss-{os.getpid()}-0.part", ".rgss-mine-0.part")]
+    for path in (abandoned, *of_another):
+        path.write_bytes(b"")
+
+    undone(folder)
+
+    assert not abandoned.exists()
+    assert all(path.exists() for path in of_another)
+
+
+def test_an_interruption_once_all_is_written_leaves_nothing_of_the_import(project, monkeypatch):
+    rows = tuple(replace(row, cells={**row.cells, "owner": "somebody"}) for row in project.content.rows)
+    files = project.plan(replace(project.content, rows=rows))
+    before = {path: path.read_bytes() for path in sorted(project.folder.rglob("*.yaml"))}
+    removed = journal._removed
+    monkeypatch.setattr(journal, "_removed", lambda *_, **__: (_ for _ in ()).throw(KeyboardInterrupt))
+
+    with pytest.raises(KeyboardInterrupt):
+        written(project.folder, files)
+
+    monkeypatch.setattr(journal, "_removed", removed)
+    assert {path: path.read_bytes() for path in before} == before
+
+
 def test_what_was_changed_since_is_kept(killed):
     folder, _ = killed
     path = folder / "requirements" / "stakeholder.yaml"

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 HELP = "show what a file of another tool would change in the requirements, and apply it on request"
 EXAMPLE = "rgss import xlsx requirements.xlsx --apply"
 MORE_EXAMPLES = (("rgss import csv requirements.csv", "show what would change, and change nothing"),)
+UNDOES_IMPORTS = True
 FORMATS = ("reqif", "csv", "xlsx")
 
 

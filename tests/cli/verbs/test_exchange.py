@@ -7,6 +7,8 @@ import csv
 import io
 import json
 import re
+import subprocess
+import sys
 import zipfile
 from pathlib import Path
 
@@ -341,13 +343,27 @@ def test_an_interrupted_import_is_named_and_undone(rgss, folder, table):
 
     told = rgss("check", "--project", folder)
     assert told.status == 2
-    assert told.errors.splitlines()[-1] == (
-        "rgss: an import into this project was interrupted (`rgss import` undoes what it has written)"
+    assert told.errors == (
+        "rgss: an import into this project was interrupted (`rgss import` undoes what it has written)\n"
     )
     told = rgss("import", "csv", table(), "--project", folder)
     assert (told.status, told.output) == (0, "No changes.\n")
     assert told.errors == "an import that was interrupted is undone in requirements/stakeholder.yaml\n"
     assert path.read_bytes() == old
+
+
+def test_a_verb_of_a_mixture_says_so_before_its_result(folder):
+    coded = base64.b64encode((folder / "requirements" / "stakeholder.yaml").read_bytes()).decode("ascii")
+    (folder / ".rgss").mkdir(exist_ok=True)
+    (folder / ".rgss" / "import.json").write_text(
+        json.dumps({"requirements/stakeholder.yaml": ["", coded]}), encoding="utf-8"
+    )
+    command = [sys.executable, "-m", "rgss", "variants", "--project", str(folder)]
+    told = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    lines = told.stdout.splitlines()
+    assert "was interrupted" in lines[0]
+    assert len(lines) > 3
+    assert "was interrupted" not in "".join(lines[1:])
 
 
 def test_a_mixture_of_two_imports_that_can_be_read_is_told(rgss, folder):
