@@ -8,14 +8,15 @@ from pathlib import Path
 DATA_FOLDERS = ("requirements", "designs", "scenes", "studies")
 """The folders of a project that hold its sources."""
 
-_STATE = frozenset({"evidence.sqlite", "evidence.sqlite-wal", "evidence.sqlite-shm", "verdicts.json"})
+_STATE = frozenset({"evidence.sqlite", "evidence.sqlite-wal", "evidence.sqlite-shm", "verdicts.json", "import.json"})
 _STATE_FOLDER, _TESTS = ".rgss", "tests"
 
 
 def project_source(path: Path) -> str:
     """The path of a source within the project that it belongs to; empty for any other file.
 
-    Sources are what a project reads: everything in its data folders, its tests, and its evidence.
+    Sources are what a project reads: everything in its data folders, its tests, its evidence, and the journal of an
+    import that was interrupted.
 
     Args:
         path: A file, without symbolic links.

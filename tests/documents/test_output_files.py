@@ -258,6 +258,7 @@ SOURCES = (
     "tests/test_it.py",
     ".rgss/evidence.sqlite",
     ".rgss/verdicts.json",
+    ".rgss/import.json",
 )
 
 

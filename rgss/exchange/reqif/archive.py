@@ -16,6 +16,8 @@ ARCHIVE_ENDING = ".reqifz"
 _MOST_MEMBERS = 10_000
 _SIGNATURES = (b"PK\x03\x04", b"PK\x05\x06")
 _EPOCH = (1980, 1, 1, 0, 0, 0)
+_OF_MACOS = "._"
+"""Beginning of the name of a file that macOS adds to an archive for the attributes of another one."""
 _AT_ONCE = 1024 * 1024
 _DAMAGED = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, ValueError, OSError)
 
@@ -82,7 +84,13 @@ def _members(archive: zipfile.ZipFile, file: str) -> list[zipfile.ZipInfo]:
         if path.is_absolute() or ".." in path.parts:
             message = f"has a file {member.filename[:100]!r}, whose name leads out of the archive, and is refused"
             raise DocumentError([problem(file, "refused", message)])
-    found = [member for member in members if member.filename.lower().endswith(".reqif") and not member.is_dir()]
+    found = [
+        member
+        for member in members
+        if member.filename.lower().endswith(".reqif")
+        and not member.is_dir()
+        and not PurePosixPath(member.filename).name.startswith(_OF_MACOS)
+    ]
     if not found:
         raise DocumentError([problem(file, "empty", "is an archive without a .reqif file")])
     names = [member.filename for member in found]

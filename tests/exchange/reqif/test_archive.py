@@ -43,6 +43,11 @@ def test_attachments_beside_the_file_are_not_read(project, text, archive):
     assert project.compare(read_reqif(path)) == ()
 
 
+def test_what_macos_adds_to_an_archive_is_not_read(project, text, archive):
+    path = archive({"project.reqif": text, "__MACOSX/._project.reqif": b"\x00\x05\x16\x07\x00", "._b.reqif": b"\x00"})
+    assert project.compare(read_reqif(path)) == ()
+
+
 def test_an_archive_under_another_name_is_read_too(project, text, tmp_path):
     path = tmp_path / "project.reqif"
     path.write_bytes(archive_of(text, "project.reqif"))
