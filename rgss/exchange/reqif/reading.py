@@ -27,6 +27,8 @@ from rgss.findings import Severity
 _PREFIXED_ROOT = re.compile(r"\s*(?:<\?xml\s.*?\?>)?\s*<(?P<prefix>[A-Za-z_][\w.-]*):REQ-IF\b[^>]*>", re.DOTALL)
 _NO_CONTENT = re.compile(r"(<!\[CDATA\[.*?\]\]>|<\?xml\s.*?\?>)|<!--.*?-->|<\?.*?\?>", re.DOTALL)
 
+_SPACED_REFERENCE = re.compile(r"(-REF>)(\s*)([^<\s]+)(\s*)(</[^>]*-REF>)")
+
 
 def read_reqif(
     path: Path,
@@ -173,9 +175,13 @@ def _parsed(content: bytes, file: str) -> Any:
 
 
 def _content_alone(text: str) -> str:
-    """The XML without comments and processing instructions, which the library takes for elements."""
+    """The XML without comments and processing instructions, which the library takes for elements.
+
+    The blanks around a reference follow it, outside of its element: by the schema they are no part of it.
+    """
     # Well-formed XML has none of them within a tag, so that only CDATA sections could look like one.
-    return _without_prefix(_NO_CONTENT.sub(lambda match: match[1] or "\n" * match[0].count("\n"), text))
+    content = _NO_CONTENT.sub(lambda match: match[1] or "\n" * match[0].count("\n"), text)
+    return _without_prefix(_SPACED_REFERENCE.sub(r"\1\3\5\2\4", content))
 
 
 def _without_prefix(text: str) -> str:

@@ -111,6 +111,15 @@ def test_processing_instructions_and_comments_anywhere_are_passed_over(project, 
     assert read(marked).rows == read(text).rows
 
 
+def test_blanks_around_a_reference_are_no_part_of_it(text, read):
+    """Tools that indent a file do so within references too; lines of messages are those of the file."""
+    spaced = re.sub(r"(-REF>)([^<]+)(</)", "\\1\n  \\2\n\\3", text)
+    assert spaced.count("\n") > text.count("\n") + 500
+    assert [row.cells for row in read(spaced).rows] == [row.cells for row in read(text).rows]
+    lines = spaced.split("\n")
+    assert all("<SPEC-OBJECT " in lines[row.line - 1] for row in read(spaced).rows)
+
+
 NODE = re.compile(r"<([A-Z][A-Z-]*)[^<>]*?(?:/>|>(?:(?!<\1[ >]).)*?</\1>)", re.DOTALL)
 
 
