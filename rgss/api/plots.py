@@ -18,6 +18,7 @@ from rgss.decision.robustness import Robustness
 from rgss.decision.sensitivity import Sensitivity, TornadoBar
 from rgss.errors import DefinitionError, TradeoffError
 from rgss.evidence import TrialRecord
+from rgss.figures import rounded_figure
 from rgss.measures import Direction
 from rgss.studies import Project
 from rgss.tradeoff import Decision
@@ -30,8 +31,6 @@ INSTALL = "pip install 'rgss[notebooks]'"
 
 MOST_INPUTS = 14
 """Number of bars in a tornado."""
-
-_LARGE = 1e4
 
 
 def require_matplotlib() -> None:
@@ -269,5 +268,5 @@ def _input_bar(bar: TornadoBar) -> InputBar:
 
 
 def _quantity(value: float, unit: str) -> str:
-    number = f"{value:,.0f}" if abs(value) >= _LARGE else f"{value:.4g}"
+    number = rounded_figure(value)
     return number if unit in ("", "1") else f"{number} {unit}"

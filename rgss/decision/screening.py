@@ -26,6 +26,7 @@ from rgss.decision.screening_result import ScreenedVariant, ScreeningOutcome, Sc
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore
+from rgss.figures import rounded_figure
 from rgss.measures import Estimate, Verdict, judge
 from rgss.requirements import Criterion
 from rgss.studies import Project, Promotion, trial_specs
@@ -193,7 +194,9 @@ def _why(requirement: str, criterion: Criterion, bounds: Mapping[str, EstimateBo
     values = [one.value for one in estimates if one.value is not None]
     unit = "" if estimates[0].unit == "1" else f" {estimates[0].unit}"
     low, high = min(values), max(values)
-    between = f"{low:g}{unit}" if low == high else f"from {low:g} to {high:g}{unit}"
+    between = (
+        f"{rounded_figure(low)}{unit}" if low == high else f"from {rounded_figure(low)} to {rounded_figure(high)}{unit}"
+    )
     return f"{requirement} requires {criterion}, and {criterion.measure} is {between}"
 
 

@@ -7,6 +7,7 @@ from decimal import Decimal
 from enum import Enum
 
 from rgss.documents import DocumentModel, Identifier
+from rgss.figures import exact_figure
 from rgss.quantities import conversion_factor
 from rgss.requirements.comparison import Comparison
 from rgss.requirements.fields import ThresholdText, split_quantity
@@ -51,7 +52,7 @@ class Criterion:
         unit = "" if self.unit == "1" else f" {self.unit}"
         plain = self.statistic is Statistic.VALUE
         number = self.measure if plain else f"{self.statistic.value}({self.measure})"
-        return f"{number} {self.comparison.value} {self.threshold:g}{unit}"
+        return f"{number} {self.comparison.value} {exact_figure(self.threshold)}{unit}"
 
 
 class CriterionFile(DocumentModel):

@@ -146,7 +146,7 @@ def test_programs(problem_of, line, kind):
             0.02,
         )
     elif kind is EpsilonConstraint:
-        assert program.bounds[0].name == "limit:C_total: C_total <= 42570 USD"
+        assert program.bounds[0].name == "limit:C_total: C_total <= 42,570 USD"
     elif kind is Tchebycheff:
         assert (dict(program.reference), program.augmentation) == ({"t_e": 0.5}, 0.01)
     else:

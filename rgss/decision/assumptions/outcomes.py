@@ -14,6 +14,7 @@ from rgss.decision.separation import is_separated
 from rgss.decision.what_if import Scenario, ScenarioEvidenceReader, suppose
 from rgss.errors import RgssError
 from rgss.evidence import EvidenceStore
+from rgss.figures import exact_figure
 from rgss.studies import Project
 from rgss.tradeoff import Decision
 from rgss.tradeoff.problem import EVIDENCE_PREFIX
@@ -175,7 +176,8 @@ def _taken_as(scenario: Scenario) -> str:
         return scenario.settings[0].before
     if len(scenario.changes) == 1:
         (change,) = scenario.changes
-        return f"{change.before:g}" if change.unit == "1" else f"{change.before:g} {change.unit}"
+        text = exact_figure(change.before)
+        return text if change.unit == "1" else f"{text} {change.unit}"
     return AS_STATED
 
 

@@ -142,7 +142,7 @@ def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:
 
 
 def _parameter(value: float | str, unit: str) -> str:
-    return value if isinstance(value, str) else f"{value:g}{'' if unit in ('', '1') else f' {unit}'}"
+    return value if isinstance(value, str) else value_in_words(value, unit or "1")
 
 
 def _lead(made: StudyDecision, compared: SideBySide) -> str:

@@ -9,6 +9,7 @@ from rgss.documents import load_document
 from rgss.errors import DocumentError
 from rgss.evidence import EvidenceStore, Fidelity
 from rgss.evidence.records import file_digests
+from rgss.figures import exact_figure
 from rgss.reports.plain_numbers import Plain
 from rgss.studies import FOLDERS, Project, StudyDocument, trial_specs
 from rgss.trials.code import versions
@@ -100,4 +101,8 @@ def _assumptions(project: Project) -> Iterator[tuple[str, str, str]]:
     for component in project.designs.catalogue.components:
         for name, rationale in component.assumptions.items():
             value = component.cost if name == "cost" else component.properties[name]
-            yield project.study.catalogue, f"{component.id}.{name} = {value.value:g} {value.unit}", rationale
+            yield (
+                project.study.catalogue,
+                f"{component.id}.{name} = {exact_figure(value.value)} {value.unit}",
+                rationale,
+            )

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from rgss.figures import rounded_figure
 from rgss.reports.decision import ids_text
 from rgss.reports.study_plots.canvas import (
     FAINT,
@@ -109,9 +110,7 @@ def _draw_axis(figure: StudyFigure, place: int, measure: PlottedMeasure, span: t
     ax.axvline(place, color=FAINT, linewidth=0.9, zorder=2, ymin=0.1 / 1.22, ymax=1.1 / 1.22)
     worst, best = span if measure.sign > 0 else span[::-1]
     for height, value, va in ((1.02, best, "bottom"), (-0.025, worst, "top")):
-        ax.text(
-            place, height, f"{value:,.4g}" if abs(value) < 1e4 else f"{value:,.0f}", ha="center", va=va, fontsize=8.5
-        )
+        ax.text(place, height, rounded_figure(value), ha="center", va=va, fontsize=8.5)
     for limit in measure.limits:
         if span[0] <= limit.value <= span[1]:
             _draw_limit(figure, place, limit, _height(measure, limit.value, span))

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
+from rgss.figures import exact_figure
 from rgss.measures import Direction, Estimate
 from rgss.requirements import Comparison, Criterion
 
@@ -48,7 +49,7 @@ class Limit:
     value: float
 
     def __str__(self) -> str:
-        return f"{self.requirement}: {_SYMBOLS[self.criterion.comparison]} {self.value:,g}"
+        return f"{self.requirement}: {_SYMBOLS[self.criterion.comparison]} {exact_figure(self.value)}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

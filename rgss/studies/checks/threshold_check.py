@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator
 
+from rgss.figures import exact_figure
 from rgss.findings import Finding, Severity
 from rgss.measures import Range, estimate_ranges
 from rgss.requirements import Comparison, Criterion, Statistic
@@ -74,7 +75,7 @@ def _contradictions(project: Project) -> Iterator[Finding]:
 def _outcome(criterion: Criterion, threshold: float, possible: Range, unit: str) -> tuple[str, bool] | None:
     """The bound that decides a criterion, and whether it is met; None if values on both sides are possible."""
     suffix = "" if unit == "1" else f" {unit}"
-    least, most = f"at least {possible.low:g}{suffix}", f"at most {possible.high:g}{suffix}"
+    least, most = f"at least {exact_figure(possible.low)}{suffix}", f"at most {exact_figure(possible.high)}{suffix}"
     if criterion.comparison.is_lower_bound:
         if not criterion.comparison.holds(possible.high, threshold):
             return most, False

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from rgss.evidence.records import Metric
+from rgss.figures import rounded_figure
 from rgss.measures import Estimate, StaleCause, Verdict
 from rgss.trace.evidence import RecordEvidence, TestEvidence
 
@@ -19,7 +20,6 @@ _VERDICTS = {
     Verdict.NOT_RUN: "not run",
     Verdict.STALE: "stale",
 }
-_LARGE = 10_000.0
 
 
 def verdict_in_words(verdict: Verdict | None, causes: Sequence[StaleCause] = ()) -> str:
@@ -48,7 +48,7 @@ def value_in_words(value: float | None, unit: str = "1") -> str:
     """Value with four digits and its unit; a dash if unknown."""
     if value is None:
         return UNKNOWN
-    text = f"{value:,.0f}" if abs(value) >= _LARGE else f"{value:.4g}"
+    text = rounded_figure(value)
     return text if unit == "1" else f"{text} {unit}"
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from rgss.errors import TradeoffError
+from rgss.figures import exact_figure
 from rgss.requirements import Comparison
 
 if TYPE_CHECKING:
@@ -103,8 +104,8 @@ class Threshold(BoundedMeasure):
     @property
     def demand(self) -> str:
         """Text of the condition, such as ``P_max >= 0.8 kg``; with a tolerance, followed by the required limit."""
-        text = f"{self.measure} {self.comparison.value} {self.value:g}{unit_text(self.unit)}"
-        return text if self.required is None else f"{text} (required: {self.required:g})"
+        text = f"{self.measure} {self.comparison.value} {exact_figure(self.value)}{unit_text(self.unit)}"
+        return text if self.required is None else f"{text} (required: {exact_figure(self.required)})"
 
     def statistic(self, alternative: Alternative) -> float | None:
         """Compared statistic: the quantity itself."""
@@ -160,7 +161,8 @@ class ChanceBound(BoundedMeasure):
     @property
     def demand(self) -> str:
         """Text of the condition, such as ``P[t_e <= 25 s] >= 0.9``."""
-        return f"P[{self.measure} {self.comparison.value} {self.value:g}{unit_text(self.unit)}] >= {self.probability:g}"
+        limit = f"{self.comparison.value} {exact_figure(self.value)}{unit_text(self.unit)}"
+        return f"P[{self.measure} {limit}] >= {self.probability:g}"
 
     @property
     def sense(self) -> Comparison:
@@ -221,7 +223,7 @@ class TailBound(BoundedMeasure):
     @property
     def demand(self) -> str:
         """Text of the condition, such as ``mean of the worst 10 % of t_e <= 30 s``."""
-        limit = f"{self.comparison.value} {self.value:g}{unit_text(self.unit)}"
+        limit = f"{self.comparison.value} {exact_figure(self.value)}{unit_text(self.unit)}"
         return f"mean of the worst {100.0 * self.share:g} % of {self.measure} {limit}"
 
     @property

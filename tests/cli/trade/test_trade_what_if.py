@@ -28,7 +28,7 @@ def test_before_and_after(rgss, with_evidence):
         "weight.t_p",
         "weight.S",
     ]
-    assert document["demands"]["SYS-004"] == "C_total <= 39000 USD"
+    assert document["demands"]["SYS-004"] == "C_total <= 39,000 USD"
 
 
 def test_what_changes_nothing(rgss, with_evidence):
