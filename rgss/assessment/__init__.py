@@ -6,7 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.assessment.estimate_bounds import IN_COMMON, EstimateBounds, bounds_by_measure
-    from rgss.assessment.evidence_status import evidence_state, failed_verifications, project_marks
+    from rgss.assessment.evidence_status import evidence_state, failed_verifications, project_marks, verification_files
     from rgss.assessment.failure_drivers import (
         Aspect,
         Driver,

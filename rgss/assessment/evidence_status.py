@@ -24,6 +24,7 @@ from rgss.trace.evidence import (
     read_junit,
     software_digest,
     software_evidence,
+    tested_files,
 )
 
 TESTS = "tests"
@@ -134,6 +135,19 @@ def failed_verifications(project: Project) -> FailedVerifications:
         except EvidenceError:
             tests = None
     return EvidenceState(software=tests, records=records).failed
+
+
+def verification_files(folder: Path, requirements: RequirementSet | None) -> tuple[Path, ...]:
+    """Files besides requirements, designs, scenes and studies on which `failed_verifications` rests.
+
+    Args:
+        folder: The project's folder.
+        requirements: Its requirements with their records; None if they are not known.
+    """
+    records = () if requirements is None else requirements.records.values()
+    named = sorted({folder / name for record in records for name in record.files})
+    junit = folder / JUNIT_FILE
+    return (*named, junit, *(tested_files(folder) if junit.exists() else ()))
 
 
 def project_tests(

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-from rgss.assessment import VERDICT_FILE, VariantMeasures, failed_verifications, read_record
+from rgss.assessment import VERDICT_FILE, VariantMeasures, failed_verifications, read_record, verification_files
 from rgss.decision import ScreeningResult, measure_survivors
 from rgss.decision.study_decision import StudyDecision, decide_study
 from rgss.errors import DocumentError, RgssError
@@ -21,7 +21,6 @@ from rgss.serving.ending_thread import EndingThread
 from rgss.serving.pace import Pace
 from rgss.serving.replays import can_replay
 from rgss.studies import FOLDERS, Project
-from rgss.trace.evidence import JUNIT_FILE
 
 _PAUSE_PER_WORK = 3.0
 """Seconds of rest for each second of work, so that a concurrent sweep keeps its cores."""
@@ -91,15 +90,17 @@ class StudyObserver:
     def look(self) -> None:
         """Read files and evidence if they changed since the last look."""
         files = _files_state(self._folder)
-        now = (files, state_of(self._evidence), _results_state(self._folder))
-        if now == self._seen:
+        evidence, results = state_of(self._evidence), _results_state(self._folder, self._project)
+        if (files, evidence, results) == self._seen:
             return
         study, problem = None, ""
         try:
             if self._project is None or files != self._files:
                 self._project = None
                 self._project, self._files = self._load(), files
-            if not now[1].exists:
+                # The records of this project name files.
+                results = _results_state(self._folder, self._project)
+            if not evidence.exists:
                 problem = f"There is no evidence in {self._label} yet; 'rgss sweep' makes it."
             else:
                 study = self._read(self._project)
@@ -120,7 +121,7 @@ class StudyObserver:
                 "problem": problem,
                 "study": study,
             }
-        self._seen = now
+        self._seen = (files, evidence, results)
 
     def _observe(self) -> None:
         while self._wanted.wait():
@@ -165,9 +166,10 @@ def _files_state(folder: Path) -> tuple[tuple[str, int, int], ...]:
     return _states(path for name in FOLDERS for path in (folder / name).rglob("*"))
 
 
-def _results_state(folder: Path) -> tuple[tuple[str, int, int], ...]:
-    """The same of the results beside the evidence: a sweep records its verdicts after its last trial."""
-    return _states(folder / name for name in (VERDICT_FILE, JUNIT_FILE))
+def _results_state(folder: Path, project: Project | None) -> tuple[tuple[str, int, int], ...]:
+    """The same of the verdicts, which a sweep records after its last trial, and of what verification rests on."""
+    requirements = None if project is None else project.requirements
+    return _states((folder / VERDICT_FILE, *verification_files(folder, requirements)))
 
 
 def _states(paths: Iterable[Path]) -> tuple[tuple[str, int, int], ...]:

@@ -9,6 +9,7 @@ import socket
 import subprocess
 import sys
 import urllib.request
+from datetime import date
 
 import pytest
 from starlette.testclient import TestClient
@@ -18,12 +19,14 @@ from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.evidence.store import observed
 from rgss.reports.live import live_page_to_html
+from rgss.requirements import RecordedResult
 from rgss.serving import StudyObserver, TrialReplays, listen, require_server, study_application
 from rgss.serving.pace import Pace
 from rgss.serving.replays import MOST_KEPT
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.sweep.trial_keys import key_of
+from rgss.trace.evidence import JUNIT_FILE, new_record, with_record, write_records
 
 
 @pytest.fixture
@@ -151,6 +154,34 @@ def test_verdicts_that_are_recorded_after_the_last_trial_are_read(observer, swee
     observed(project.evidence, lambda store: record_verdicts(project, store), label="the evidence")
     observer.look()
     assert observer.state()["version"] != before
+
+
+def test_a_mark_and_a_file_of_a_record_are_read(observer, sweep, project):
+    sweep({1})
+    protocol = project.folder / "protocol.md"
+    protocol.write_text("The cable was inspected.", encoding="utf-8")
+    found = {"result": RecordedResult.MET, "by": "Reader", "on": "2026-05-12", "today": date(2026, 5, 12)}
+    record = new_record(project.folder, **found, files=[str(protocol)])
+    write_records(project.folder / "requirements", with_record(project.requirements, ["SYS-001"], record))
+    junit = project.folder / JUNIT_FILE
+    junit.parent.mkdir(exist_ok=True)
+    junit.write_text("<testsuites/>", encoding="utf-8")
+    observer.look()
+
+    def is_read_again() -> bool:
+        before = observer.state()["version"]
+        observer.look()
+        return observer.state()["version"] != before
+
+    assert not is_read_again()
+    tests = project.folder / "tests" / "test_cable.py"
+    tests.parent.mkdir(exist_ok=True)
+    tests.write_text("import pytest\n", encoding="utf-8")
+    assert is_read_again()
+    assert not is_read_again()
+    protocol.write_text("The cable was inspected again.", encoding="utf-8")
+    assert is_read_again()
+    assert not is_read_again()
 
 
 def test_an_unforeseen_error_is_shown_and_the_next_change_is_read(observer, sweep, monkeypatch):

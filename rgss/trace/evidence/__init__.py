@@ -17,6 +17,7 @@ if TYPE_CHECKING:
         run_properties,
         software_digest,
         software_evidence,
+        tested_files,
     )
     from rgss.trace.evidence.test_marks import MarkedTest, marked_tests
     from rgss.trace.evidence.verdict_evidence import KEY_DIGITS, TraceEvidence, TrialEvidence, VariantEvidence

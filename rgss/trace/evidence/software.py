@@ -172,7 +172,7 @@ def software_digest(project: Path) -> str:
         EvidenceError: A file cannot be read.
     """
     content = hashlib.sha256()
-    for path in _tested(project):
+    for path in tested_files(project):
         content.update(path.relative_to(project).as_posix().encode())
         content.update(b"\0")
         try:
@@ -194,7 +194,12 @@ def _text_digest(path: Path) -> bytes:
     return hashed.digest()
 
 
-def _tested(project: Path) -> list[Path]:
+def tested_files(project: Path) -> list[Path]:
+    """Files of a project that its tests run with: code, tests and data, on which their results rest.
+
+    Args:
+        project: The project's folder.
+    """
     found = [project / name for name in TESTED_FILES if (project / name).is_file()]
     # Those of the default set, and those of each set in a folder of its own.
     default = project / "requirements"
