@@ -73,6 +73,7 @@ def board_to_html(
         cautions=_cut(decision["cautions"], longest),
         comparison=compared[:_MOST_COMPARED],
         comparison_more=_more(compared, _MOST_COMPARED, "rows"),
+        compared_title="The choice" if decision["runner_up"] is None else "The choice beside the runner-up",
         compared_heads=[
             "",
             *(f"variant {one}" for one in (decision["chosen"], decision["runner_up"]) if one is not None),

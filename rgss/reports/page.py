@@ -13,8 +13,11 @@ from typing import Any
 from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible
 
-_WHOLE = re.compile(r"(?<![\w-])(?:--[a-z][a-z-]*|[A-Z]{2,}-\d+(?![\w-]))")
-"""Option of a command, or id of a requirement: at its hyphens a browser would break the line."""
+_WHOLE = re.compile(r"(?<![\w-])(?:--[a-z][a-z-]*|[A-Z][A-Z0-9]*(?:-[A-Z0-9]+)*-\d+[a-z]?(?![\w-]))")
+"""Option of a command, or id of a requirement: at its hyphens a browser would break the line.
+
+The page's script has the same expression (``WHOLE`` in ``study/core.js``).
+"""
 
 
 def render_page(

@@ -18,6 +18,7 @@ from rgss.reports.study import (
     first_screen_content,
     packed_json,
     parted,
+    worst_failure_in_words,
 )
 from rgss.reports.trace import TraceReport, trace_context
 from rgss.trace.views import share_in_words, value_in_words
@@ -146,6 +147,7 @@ def study_report_to_html(
         title=f"Report of the study {document['study']}",
         report=document,
         glance=glance,
+        worst=worst_failure_in_words(document),
         glance_picture=chosen_picture(document["decision"]["chosen"], pictures),
         comparison=comparison_rows(document),
         compared_trials=compared_trials(document),

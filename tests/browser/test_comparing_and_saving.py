@@ -94,7 +94,8 @@ def test_distributions_have_the_quartiles_of_each_measure(reader, page, study):
         assert dict(map(tuple, boxes))[measure["id"]] == len(values)
 
     reader.script(
-        "const by = document.getElementById('distribution-by'); by.value = 'role';by.dispatchEvent(new Event('change'))"
+        "const by = document.getElementById('distribution-by'); by.value = '-role';"
+        "by.dispatchEvent(new Event('change'))"
     )
     reader.until("return document.querySelectorAll('#distributions-table tbody tr').length > arguments[0]", len(rows))
     assert reader.complaints() == []
@@ -187,6 +188,7 @@ def test_of_one_variant_nothing_is_compared(reader, lone_study, tmp_path):
     assert len(lone_study.document["variants"]["id"]) == 1
     file = tmp_path / "report.html"
     file.write_text(study_report_to_html(lone_study.document, lone_study.trace), encoding="utf-8")
+    assert "It is the only variant of the study." in file.read_text(encoding="utf-8")
     reader.open(file)
     reader.see_all_plots()
 

@@ -112,3 +112,44 @@ def test_marks_and_numbers_of_many_variants_do_not_cover_each_other(reader, stud
         for mark in found["marks"]:
             apart = mark[2] <= left + 1 or right - 1 <= mark[0] or mark[3] <= top + 3 or bottom - 3 <= mark[1]
             assert apart, ((left, top, right, bottom), mark)
+
+
+def test_marks_are_merged_anew_when_the_plot_gets_another_width(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    count = len(document["variants"]["id"])
+    reader.open(_written(document, study, tmp_path))
+    across, up = (reader.script("return document.getElementById(arguments[0]).value", f"pareto-{one}") for one in "xy")
+    for one in document["measures"]:
+        if one["id"] in (across, up):
+            one["value"] = [float(place) if one["id"] == across else 1.0 for place in range(count)]
+    marks = "return document.querySelectorAll('#pareto-plot .scatterlayer .points path').length"
+    found = []
+    for width in (1440, 390):
+        reader.open(_written(document, study, tmp_path), width=width)
+        _seen(reader, "pareto")
+        found.append(reader.script(marks))
+    assert found[0] > found[1]
+
+    size = {"width": 1440, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    reader.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    reader.script("document.getElementById('pareto-plot').scrollIntoView()")
+    reader.until(f"{marks} === {found[0]}")
+
+
+def test_a_parameter_named_role_is_not_the_role_in_the_decision(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    varying = next(one for one in document["parameters"] if one["varies"] and len(set(one["values"])) == 2)
+    varying |= {"id": "role", "name": "role of the arm"}
+    reader.open(_written(document, study, tmp_path))
+    values = "Array.from(document.getElementById('distribution-by').options, (one) => one.value)"
+    offered = reader.script(f"return {values}")
+    assert len(offered) == len(set(offered))
+    for value in ("role", next(one for one in offered if "role" in one and one != "role")):
+        reader.open(_written(document, study, tmp_path))
+        _choose(reader, "distribution-by", value)
+        reader.until("return location.hash.includes('by=')")
+        address = reader.script("return location.href")
+        reader.driver.get("about:blank")
+        reader.driver.get(address)
+        reader.until("return document.documentElement.dataset.ready === 'yes'")
+        assert reader.script("return document.getElementById('distribution-by').value") == value

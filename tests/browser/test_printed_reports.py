@@ -32,7 +32,7 @@ def test_it_has_at_most_five_pages_whatever_it_holds(reader, study, pictures, tm
     file = tmp_path / "report.html"
     file.write_text(board_to_html(document, pictures=[*pictures, failed, failed, failed]), encoding="utf-8")
 
-    assert 3 <= printed_pages(reader, file) <= MOST_PAGES
+    assert 2 <= printed_pages(reader, file) <= MOST_PAGES
     assert reader.complaints() == []
     # What is cut says so, and nothing that was written is hidden.
     assert ("and 35 more, in the whole report" in reader.text("#reasons")) is long
@@ -41,6 +41,21 @@ def test_it_has_at_most_five_pages_whatever_it_holds(reader, study, pictures, tm
     reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
     try:
         assert reader.script(f"{hidden}.map(each => each.id)") == []
+    finally:
+        reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+
+
+def test_parts_that_fit_together_share_a_page(reader, lone_study, tmp_path):
+    file = tmp_path / "report.html"
+    document = lone_study.document
+    decision = document["decision"] | {"modelling": document["decision"]["modelling"] | {"rows": []}}
+    file.write_text(board_to_html(document | {"decision": decision}), encoding="utf-8")
+    assert len(re.findall('class="sheet"', file.read_text(encoding="utf-8"))) == MOST_PAGES
+    assert printed_pages(reader, file) < MOST_PAGES
+    reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    try:
+        left = "Array.from(document.querySelectorAll('h1, h2'), (one) => one.getBoundingClientRect().left)"
+        assert len(set(reader.script(f"return {left}"))) == 1
     finally:
         reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
 
@@ -80,7 +95,7 @@ def test_without_a_feasible_variant_it_says_what_would_make_one_feasible(study):
     assert page.count("c_s at most 43,000 USD → 41,750 USD") == 5
     assert "<td>variant 13</td><td>3</td>" in page
     assert "2 more repairs in the whole report." in page
-    assert '<th scope="row">SYS-012</th><td>t_e at most 9 s</td><td>71</td>' in page
+    assert '<th scope="row"><span class="option">SYS-012</span></th><td>t_e at most 9 s</td><td>71</td>' in page
 
 
 @pytest.mark.parametrize("width", [1440, 400])

@@ -296,6 +296,12 @@ def test_a_study_without_a_choice_says_so(reader, study, tmp_path):
 
     assert reader.complaints() == []
     assert reader.text(".headline") == "No variant is chosen."
+    worst = document["trials"]["worst"]
+    reader.driver.find_element(By.LINK_TEXT, "The worst failure").click()
+    reader.until(
+        "return document.activeElement.dataset.key === arguments[0]", document["trials"]["key"][worst["trial"]]
+    )
+    assert worst["why"] in reader.text("#worst-why")
     assert reader.text("#weight-winner") == "No variant is feasible by its estimates."
     assert reader.text("#acceptability-plot") == "There is nothing to draw here."
     assert reader.rows("#ranking-table") == []

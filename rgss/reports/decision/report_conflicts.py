@@ -90,9 +90,9 @@ def conflict_reasons(decision: Decision) -> Iterator[str]:
         if not repair.changes:
             continue
         moved = _listed([f"{one.requirement} to {_needed(one)}" for one in repair.changes])
-        of = f" of {repair.unlocked} that are then feasible" if repair.unlocked > 1 else ""
+        feasible = f"{repair.unlocked} variants are feasible, and " if repair.unlocked > 1 else ""
         together = " together" if len(repair.changes) > 1 else ""
-        chosen = "" if repair.winner is None else f"; then variant {repair.winner}{of} is chosen"
+        chosen = "" if repair.winner is None else f"; then {feasible}variant {repair.winner} is chosen"
         yield f"The smallest repair: {moved}{together}{chosen}."
     yield f"Nearest is variant {conflicts.nearest.variant}, which {violated_text(conflicts)}."
 

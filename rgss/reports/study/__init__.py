@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from rgss.reports.study.column_entries import entry_at, entry_text
     from rgss.reports.study.compared_variants import compared_trials, comparison_rows
     from rgss.reports.study.document import report_document
-    from rgss.reports.study.first_screen import first_screen_content
+    from rgss.reports.study.first_screen import first_screen_content, worst_failure_in_words
     from rgss.reports.study.page_data import data_address, embedded_json, packed_json, parted
     from rgss.reports.study.planners_compared import PLANNERS_NOTE, planner_comparison, planner_data, planner_table
     from rgss.reports.study.trials import NotableTrial, notable_trials

@@ -76,12 +76,15 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         "more_limits": max(0, len(bullets) - MOST_BULLETS),
         "changes": list(_changes(decision, {name: one["name"] for name, one in units.items()})),
         "other_changes": _other_changes(decision["modelling"]["rows"]),
-        "worst": _worst(document),
     }
 
 
-def _worst(document: Mapping[str, Any]) -> Plain | None:
-    """The worst failure: its trial in words, why it is shown, and where its evidence is; None without one."""
+def worst_failure_in_words(document: Mapping[str, Any]) -> Plain | None:
+    """The worst failure: its trial in words, why it is shown, and where its evidence is; None without one.
+
+    Args:
+        document: The report's document.
+    """
     trials = document["trials"]
     worst = trials["worst"]
     if worst is None:

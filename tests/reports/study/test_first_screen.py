@@ -6,7 +6,7 @@ import copy
 
 import pytest
 
-from rgss.reports.study.first_screen import MOST_BULLETS, first_screen_content
+from rgss.reports.study.first_screen import MOST_BULLETS, first_screen_content, worst_failure_in_words
 
 
 def requirement(name, measure, comparison, threshold, verdict):
@@ -130,12 +130,12 @@ def test_limits_without_a_chart_are_counted():
 
 
 def test_the_worst_failure_with_its_reason_and_its_evidence():
-    assert first_screen_content(DOCUMENT)["worst"] == {
+    assert worst_failure_in_words(DOCUMENT) == {
         "title": "Variant 2, seed 4",
         "why": "The only failed trial of variant 2.",
         "to": "#variant-2/bb",
     }
-    assert first_screen_content(DOCUMENT | {"trials": {"worst": None}})["worst"] is None
+    assert worst_failure_in_words(DOCUMENT | {"trials": {"worst": None}}) is None
 
 
 def test_a_chart_is_to_scale():

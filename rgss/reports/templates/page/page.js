@@ -73,6 +73,39 @@
   addEventListener("resize", makeRoom);
   document.addEventListener("toggle", (event) => { if (event.target.matches(".fold")) makeRoom(); }, true);
 
+  // ------------- a table that is higher than its box ends with a whole row, and says that it goes on
+  const waitingBoxes = new Set();
+  const endWithWholeRows = () => {
+    const boxes = Array.from(waitingBoxes, (box) => ({ box, table: box.querySelector("table") })).filter(({ table }) => table !== null);
+    waitingBoxes.clear();
+    for (const { box } of boxes) {
+      box.style.removeProperty("--whole");
+      box.removeAttribute("data-more");
+    }
+    // Styles are written between the sizes that are read, so that the page is laid out twice at the most.
+    for (const one of boxes) one.most = parseFloat(getComputedStyle(one.box).maxHeight);
+    const cut = boxes.filter(({ box, table, most }) => table.offsetHeight > most - (box.offsetHeight - box.clientHeight) + 1 && getComputedStyle(table).display === "table");
+    for (const { box, table } of cut) box.dataset.more = `${table.tBodies[0].rows.length} rows here: scroll to see them`;
+    for (const one of cut) {
+      const { box, table, most } = one, top = table.getBoundingClientRect().top;
+      const besides = box.offsetHeight - box.clientHeight + parseFloat(getComputedStyle(box, "::after").height);
+      const ends = Array.from(table.tBodies[0].rows, (row) => row.getBoundingClientRect().bottom - top);
+      const last = ends.filter((end) => end <= most - besides).pop();
+      if (last !== undefined) one.whole = last + besides;
+    }
+    for (const { box, whole } of cut) if (whole !== undefined) box.style.setProperty("--whole", `${whole}px`);
+  };
+  const fitRows = (boxes) => {
+    if (!waitingBoxes.size) requestAnimationFrame(endWithWholeRows);
+    for (const box of boxes) waitingBoxes.add(box);
+  };
+  const sizes = new ResizeObserver((entries) => fitRows(entries.map(({ target }) => target.closest(".scroll"))));
+  const observeTables = (within) => { for (const table of all(".scroll > table", within)) sizes.observe(table); };
+  observeTables(document);
+  // A script that adds a table reports it.
+  document.addEventListener("rgss-table", (event) => observeTables(event.target));
+  addEventListener("resize", () => fitRows(all(".scroll")));
+
   // -------------------------------------------------- cells by the arrow keys
   for (const table of all("table.matrix")) {
     const told = document.getElementById(table.dataset.told);

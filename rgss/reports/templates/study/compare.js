@@ -75,11 +75,13 @@ const startCompare = () => {
   draw();
 };
 
+// No parameter has such an id, so that an address means one of them.
+const ROLE = "-role";
 const startDistributions = () => {
   const by = byId("distribution-by");
   const level = (one) => (place) => show(at(one.values, place), one.unit);
-  const groupings = new Map([["", () => "shown variants"], ["role", (place) => KINDS[kindOf[place]].name], ...varying.filter((one) => new Set(one.values).size <= 8).map((one) => [one.id, level(one)])]);
-  options(by, [["", "nothing"], ["role", "role in the decision"], ...varying.filter((one) => groupings.has(one.id)).map((one) => [one.id, one.name])]);
+  const groupings = new Map([["", () => "shown variants"], [ROLE, (place) => KINDS[kindOf[place]].name], ...varying.filter((one) => new Set(one.values).size <= 8).map((one) => [one.id, level(one)])]);
+  options(by, [["", "nothing"], [ROLE, "role in the decision"], ...varying.filter((one) => groupings.has(one.id)).map((one) => [one.id, one.name])]);
   const rows = () => {
     const groupOf = groupings.get(by.value);
     const groups = new Map();
@@ -100,7 +102,7 @@ const startDistributions = () => {
     const names = [...new Set(found.map((row) => row.name))];
     const measures = effectiveness.filter((measure) => found.some((row) => row.measure === measure));
     const each = 1 / measures.length, layout = { height: 60 + measures.length * (92 + 22 * (names.length - 1)), boxmode: "group", showlegend: names.length > 1, margin: { l: 90, r: 16, t: 48, b: 40 } };
-    const colourOf = (name) => (by.value === "role" ? KINDS.find((one) => one.name === name).colour : PALETTE[names.indexOf(name) % PALETTE.length]);
+    const colourOf = (name) => (by.value === ROLE ? KINDS.find((one) => one.name === name).colour : PALETTE[names.indexOf(name) % PALETTE.length]);
     const traces = [];
     measures.forEach((measure, index) => {
       const number = index === 0 ? "" : String(index + 1), from = 1 - each * (index + 1);

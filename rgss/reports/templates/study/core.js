@@ -36,11 +36,16 @@ const kindOf = variants.id.map((id, place) => {
   return variants.pareto[place] === null ? FEASIBLE : FRONT;
 });
 
+// As rounded_figure in Python: four digits; from 10,000 whole, with separators; from 1e9 and below 1e-4 with a power of ten.
+const figureText = (value) => {
+  const size = Math.abs(value), rounded = Number(value.toPrecision(4));
+  if (size >= 1e9 || (size > 0 && Math.abs(rounded) < 1e-4)) return value.toExponential(3).replace(/\.?0*e\+?/, "e");
+  return Math.abs(rounded) >= 10000 ? Math.round(value).toLocaleString("en-US") : String(rounded);
+};
 const show = (value, unit = "1") => {
   if (!known(value)) return "–";
   if (typeof value !== "number") return String(value);
-  const large = Math.abs(value) >= 10000;
-  const text = large ? Math.round(value).toLocaleString("en-US") : String(Number(value.toPrecision(4)));
+  const text = figureText(value);
   return unit === "1" || unit === "" ? text : `${text} ${unit}`;
 };
 const percent = (share) => (!known(share) ? "–" : share > 0 && share < 0.001 ? "< 0.1 %" : `${Number((100 * share).toPrecision(share < 0.1 ? 2 : 3))} %`);
@@ -54,8 +59,10 @@ const estimate = (measure, place) => {
   return show(at(measure.value, place), measure.unit) + (spread ? ` (${spread})` : "");
 };
 
-// A line does not break between the hyphens of an option of a command in a <code>.
-const withWholeOptions = (child) => (typeof child !== "string" ? [child] : child.split(/((?<![\w-])--[a-z][a-z-]*)/).map((part, index) => (index % 2 === 0 ? part : element("span", { class: "option" }, document.createTextNode(part)))));
+// A line does not break at the hyphens of an option of a command, or of an id, in a command, a link or a sentence.
+const WHOLE = /((?<![\w-])(?:--[a-z][a-z-]*|[A-Z][A-Z0-9]*(?:-[A-Z0-9]+)*-\d+[a-z]?(?![\w-])))/;
+const TAGS_OF_SENTENCES = new Set(["code", "a", "li", "p", "span"]);
+const withWholeOptions = (child) => (typeof child !== "string" || !child.includes("-") ? [child] : child.split(WHOLE).map((part, index) => (index % 2 === 0 ? part : element("span", { class: "option" }, document.createTextNode(part)))));
 // Texts are inserted as text nodes, never as markup.
 const element = (tag, attributes = {}, ...children) => {
   const made = document.createElement(tag);
@@ -63,7 +70,7 @@ const element = (tag, attributes = {}, ...children) => {
     if (value === false || value === null) continue;
     made.setAttribute(name, value === true ? "" : String(value));
   }
-  made.append(...(tag === "code" ? children.flatMap(withWholeOptions) : children));
+  made.append(...(TAGS_OF_SENTENCES.has(tag) ? children.flatMap(withWholeOptions) : children));
   return made;
 };
 // The text of a node as it is read: the cells of a row, and what is on lines of its own, do not run together.

@@ -15,7 +15,7 @@ const layoutOf = (more) => {
   const ink = style.getPropertyValue("--ink").trim(), line = style.getPropertyValue("--line").trim();
   // Distance of a title from the ticks, and so from the edge of the picture.
   const spaced = (one) => (one.title ? { ...one, title: { standoff: 12, ...one.title } } : one);
-  const axis = (one) => ({ gridcolor: line, zerolinecolor: line, linecolor: ink, automargin: true, fixedrange: false, ...spaced(one) });
+  const axis = (one) => ({ gridcolor: line, zerolinecolor: line, linecolor: ink, automargin: true, fixedrange: false, exponentformat: "power", minexponent: 6, separatethousands: true, ...spaced(one) });
   const { xaxis = {}, yaxis = {}, ...rest } = more;
   return {
     font: { family: "system-ui, sans-serif", size: 13, color: ink },
@@ -25,16 +25,17 @@ const layoutOf = (more) => {
     ...Object.fromEntries(Object.entries(rest).map(([name, one]) => [name, /^[xy]axis\d/.test(name) ? axis(one) : one])), xaxis: axis(xaxis), yaxis: axis(yaxis),
   };
 };
-// make() → {traces, layout}, or null if there is nothing to draw.
-const plot = (id, make) => {
+// make() → {traces, layout}, or null if there is nothing to draw; bySize: whether its traces depend on the plot's width.
+const plot = (id, make, { bySize = false } = {}) => {
   const host = byId(`${id}-plot`);
-  let near = false, stale = true, offer = () => {};
+  let near = false, stale = true, offer = () => {}, drawnWidth = 0;
   const draw = (always = false) => {
     stale = true;
     // Invisible plots are drawn when they are about to become visible, so that a brush responds fast.
     if (!near && !always) return;
     stale = false;
     needPlotly();
+    drawnWidth = host.clientWidth;
     const made = make();
     offer(made !== null);
     if (made === null) {
@@ -67,6 +68,13 @@ const plot = (id, make) => {
   }, { rootMargin: "300px" }).observe(host);
   const redraw = () => draw();
   onShown(redraw);
+  if (bySize) {
+    let waiting = 0;
+    new ResizeObserver(() => {
+      clearTimeout(waiting);
+      waiting = setTimeout(() => { if (host.clientWidth && host.clientWidth !== drawnWidth) draw(); }, 100);
+    }).observe(host);
+  }
   offer = downloadsFor(host, id, { csv: true, svg: async () => {
     if (stale) draw(true);
     if (!host.classList.contains("js-plotly-plot")) throw new Error(`plot ${id} has nothing to draw`);
@@ -134,7 +142,7 @@ const startMeasures = () => {
     traces.push(...limits.map((one) => ({ x: [null], y: [null], mode: "lines", line: { color: "#d55e00", dash: "dash", width: 1.5 }, name: plotText(`${one.id}: ${one.criterion}`), hoverinfo: "skip" })));
     return { traces, layout: {
       shapes: limits.map((one) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: one.threshold, y1: one.threshold, line: { color: "#d55e00", dash: "dash", width: 1.5 } })),
-      xaxis: { title: { text: "variants, by this measure" } },
+      xaxis: { title: { text: "variants, by this measure" }, ...(places.length <= 12 ? { dtick: 1 } : {}) },
       yaxis: { title: { text: plotText(withBetter(measure)) }, ...rangeAlike([...places.flatMap((place) => [measure.value, measure.low, measure.high].map((column) => at(column, place)).filter(known)), ...limits.map((one) => one.threshold)]) },
     } };
   });
@@ -194,7 +202,7 @@ const startPareto = () => {
     }
     const axis = (measure) => ({ title: { text: plotText(withBetter(measure)) }, ...rangeAlike(places.map((place) => at(measure.value, place))) });
     return { traces, layout: { xaxis: axis(horizontal), yaxis: axis(vertical) } };
-  });
+  }, { bySize: true });
   for (const select of [across, up]) select.addEventListener("change", redraw);
   onShown(tableIn("pareto-table", {
     label: "The Pareto front among the shown variants",

@@ -80,6 +80,7 @@ const pagedTable = (host, { label, columns, rows, search = null, problem = null,
   const finder = element("label", {}, "Find ", wanted);
   pager.append(finder, told, back, on);
   host.replaceChildren(pager, box);
+  host.dispatchEvent(new CustomEvent("rgss-table", { bubbles: true }));
   if (source) host.append(element("p", { class: "small source" }, source));
 
   const draw = () => {
