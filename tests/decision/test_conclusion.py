@@ -309,9 +309,9 @@ def test_a_choice_without_ties_says_so(made):
 
 
 def test_the_gain_by_more_replicates_grows_up_to_perfect_knowledge(made):
-    one = made.robustness.analysis.weighting.uncertainty
-    (_, once), (_, ten_times) = one.gains
-    assert 0.0 <= once <= ten_times <= one.perfect
+    gains = made.robustness.analysis.weighting.uncertainty.gains
+    (_, once), (_, ten_times) = gains.of_more
+    assert 0.0 <= once <= ten_times <= gains.perfect
 
 
 def test_a_study_may_ask_that_feasibility_is_shown(shipped, measured):

@@ -41,6 +41,7 @@ from rgss.tradeoff.robustness import (
     common_replicates,
     pareto_front,
     rank_reversals,
+    replication_gains,
     sample_anchored,
     smaa2,
     weight_ranges,
@@ -68,7 +69,6 @@ class _Posed:
         weights: The weights, shape (m,).
         margin: The practical margin.
         replicates: Replicates of each alternative, shape (n,).
-        proportions: The measures that are shares of trials.
     """
 
     problem: TradeProblem
@@ -77,18 +77,18 @@ class _Posed:
     weights: NDArray[np.float64]
     margin: float
     replicates: NDArray[np.int64]
-    proportions: frozenset[str]
 
-    def uncertainty(self, posterior: PosteriorOutcomes, chosen: int) -> ChoiceUncertainty:
+    def uncertainty(self, found: PosteriorOutcomes, chosen: int, generator: np.random.Generator) -> ChoiceUncertainty:
         """The uncertainty of a choice."""
         return choice_uncertainty(
-            posterior,
+            found,
             chosen,
             margin=self.margin,
             replicates=self.replicates,
             estimated=self.feasible,
             single=self.values,
-            proportions=self.proportions,
+            proportions=found.proportions,
+            gains=replication_gains(found, chosen, generator=generator),
         )
 
 
@@ -138,7 +138,6 @@ def analyse_robustness(
             weights=weights,
             margin=project.study.trade_off.practical_margin,
             replicates=np.array([len(entry.records) for entry in measured]),
-            proportions=proportion_measures(project),
         )
         weighting = _weighting(posed, chosen, posterior, generator, parts)
         draws = 0 if posterior is None else posterior.outcomes.shape[0]
@@ -242,7 +241,7 @@ def _weighting(
         if errors is not None:
             drawn: NDArray[np.float64] = errors
             errors = np.hypot(drawn, posterior.first_errors(admitted, generator))
-        uncertainty = parts.compute(Part.UNCERTAINTY, lambda: posed.uncertainty(posterior, chosen), None)
+        uncertainty = parts.compute(Part.UNCERTAINTY, lambda: posed.uncertainty(posterior, chosen, generator), None)
     return WeightRobustness(
         elicited=not admitted.is_simplex,
         regions=regions,

@@ -204,9 +204,10 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
             "times were ten times as long, the first of these probabilities was 0.63 where 0.52 were right."
         )
     yield from _ties(found, one)
-    gains = "; ".join(f"{count} more: {gain:.4f}" for count, gain in one.gains)
+    gains = "; ".join(f"{count} more: {gain:.4f}" for count, gain in one.gains.of_more)
     yield (
-        f"Expected gain of value by more replicates of every variant: {gains}; by perfect knowledge: {one.perfect:.4f}."
+        f"Expected gain of value by more replicates of every variant: {gains}; "
+        f"by perfect knowledge: {one.gains.perfect:.4f}."
     )
 
 

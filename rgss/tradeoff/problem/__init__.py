@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.problem.dominance import nondominated
     from rgss.tradeoff.problem.equals import chosen_of_equals, surpassed_equals
     from rgss.tradeoff.problem.evidence_table import Alternative, EvidenceTable, Samples, check_evidence, tabulated
+    from rgss.tradeoff.problem.further_replicates import further_shifts
     from rgss.tradeoff.problem.hierarchy import CriterionNode, weighting_of, weights_of_criteria
     from rgss.tradeoff.problem.level_space import Incompatibility, LevelFactor, LevelSpace, LevelStructure
     from rgss.tradeoff.problem.posterior import ObservedRows, posterior_means

@@ -15,11 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.tradeoff.problem.alternatives import Array
-from rgss.tradeoff.problem.noise_widths import noise_widths
+from rgss.tradeoff.problem.mean_noise import MeanNoise, noise_scores
 from rgss.tradeoff.problem.population import drawn_with_population, joint_draws
 from rgss.tradeoff.problem.proportion_population import proportion_population
 
-_POOL_DRAWS = 2_000
 _LEAST_RATIO = 0.02
 _LEAST_OWN = 0.05
 _UNSEEN = 0.5
@@ -99,12 +98,6 @@ def alike_groups(observed: Sequence[ObservedRows]) -> NDArray[np.intp]:
     return np.unique(group, return_inverse=True)[1]
 
 
-def _same_rows(values: Array) -> NDArray[np.intp]:
-    """The group of each row, shape (n,), of rows that are equal to the last bit."""
-    seen: dict[bytes, int] = {}
-    return np.array([seen.setdefault(np.ascontiguousarray(row).tobytes(), len(seen)) for row in values], dtype=np.intp)
-
-
 def _proportions(
     values: Array, groups: NDArray[np.intp], weights: Array, generator: np.random.Generator, *, apart: bool
 ) -> Array:
@@ -159,63 +152,26 @@ def _means(values: Array, levels: NDArray[np.intp] | None, shared: Array, genera
 
     Where all values are positive noise is a factor and the population is one of logarithms.
     """
-    known = ~np.isnan(values)
-    counts = known.sum(axis=1)
     draws = len(shared)
     found = np.full((draws, len(values)), np.nan)
-    rows = np.flatnonzero(counts)
-    if not len(rows):
+    if np.isnan(values).all():
         return found
-    some, there, counts = values[rows], known[rows], counts[rows]
-    positive = bool((some[there] > 0.0).all())
-    means = np.where(there, some, 0.0).sum(axis=1) / counts
-    noise = np.where(there, some / means[:, None] - 1.0 if positive else some - means[:, None], 0.0)
-    _, first, group = np.unique(_same_rows(some), return_index=True, return_inverse=True)
-    widths = noise_widths(noise, counts, first)
-    pool = _pooled_noise((noise / widths[:, None])[first], there[first], counts[first])
-    scores = _scores(noise, shared[:, : values.shape[1]], group, generator)
-    centres = np.log(means) if positive else means
+    noise = MeanNoise.of(values)
+    rows, counts, positive = noise.rows, noise.counts, noise.positive
+    scores = noise_scores(noise.noise, shared[:, : values.shape[1]], noise.group, generator)
+    centres = np.log(noise.means) if positive else noise.means
     moved = np.empty((draws, len(rows)))
     for count in np.unique(counts):
         at = counts == count
-        sums = pool[generator.integers(0, len(pool), size=(_POOL_DRAWS, int(count)))].mean(axis=1)
-        sums.sort()
         # The observed mean is high by so much; the pivot falls where it is.
-        high = widths[at] * _at_scores(sums, scores[:, at])
+        high = noise.widths[at] * noise.of_means(int(count), scores[:, at], generator)
         moved[:, at] = -np.log(np.maximum(1.0 + high, _LEAST_RATIO)) if positive else -high
     drawn = drawn_with_population(
         centres + moved,
-        group,
+        noise.group,
         None if levels is None else levels[rows],
         seeds=int(np.median(counts)),
         generator=generator,
     )
     found[:, rows] = np.exp(drawn) if positive else drawn
     return found
-
-
-def _pooled_noise(noise: Array, known: NDArray[np.bool_], counts: NDArray[np.int64]) -> Array:
-    """Deviations from their means in units of their widths, of all alternatives together."""
-    several = counts > 1
-    if not several.any():
-        return np.zeros(1)
-    wider = np.sqrt(counts[several] / (counts[several] - 1.0))[:, None]
-    return np.asarray((noise[several] * wider)[known[several]], dtype=np.float64)
-
-
-def _scores(noise: Array, shared: Array, group: NDArray[np.intp], generator: np.random.Generator) -> Array:
-    """Standard normal scores of the alternatives, shape (draws, n), correlated as their noise over the seeds is."""
-    own = generator.standard_normal((len(shared), int(group.max()) + 1))[:, group]
-    length = np.sqrt((noise**2).sum(axis=1))
-    unit = noise / np.where(length > 0.0, length, 1.0)[:, None]
-    return np.where(length > 0.0, shared @ unit.T, own)
-
-
-def _at_scores(ordered: Array, scores: Array) -> Array:
-    """The quantiles of ordered values at standard normal scores."""
-    from scipy.special import ndtr
-
-    place = ndtr(scores) * (len(ordered) - 1)
-    below = np.minimum(place.astype(np.intp), len(ordered) - 2)
-    part = place - below
-    return np.asarray(ordered[below] * (1.0 - part) + ordered[below + 1] * part, dtype=np.float64)

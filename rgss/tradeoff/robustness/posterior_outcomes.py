@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,9 @@ from rgss.tradeoff.problem import (
     Threshold,
     posterior_means,
 )
-from rgss.tradeoff.programs import Preferences, condition_column, keeps
+from rgss.tradeoff.programs import Preferences
 from rgss.tradeoff.robustness.acceptability import Outcomes
+from rgss.tradeoff.robustness.drawn_values import evaluated
 from rgss.tradeoff.weights import WeightSet, sample_weights
 
 DRAWS = 1_000
@@ -45,12 +46,16 @@ class PosteriorOutcomes:
         table: The evidence.
         drawn: Draws of each measure observed in trials, shape (b, n); NaN if unknown.
         outcomes: Values and feasibility in each draw.
+        picks: Replicates that conditions on replicates are evaluated on in each draw, shape (b, r).
+        proportions: The measures that are shares of trials.
     """
 
     preferences: Preferences
     table: EvidenceTable
     drawn: Mapping[str, Array]
     outcomes: Outcomes
+    picks: NDArray[np.int64]
+    proportions: frozenset[str]
 
     @staticmethod
     def of(
@@ -82,10 +87,17 @@ class PosteriorOutcomes:
         drawn = _drawn(table, proportions, levels, draws, generator, apart=apart)
         replicates = max((samples.values.shape[1] for samples in table.samples.values()), default=0)
         picks = generator.integers(0, max(replicates, 1), size=(draws, replicates))
-        values, feasible = _evaluated(preferences, table, drawn, picks)
+        values, feasible = evaluated(preferences, table, drawn, picks)
         chances = np.full(draws, 1.0 / draws)
         outcomes = Outcomes(values=values, feasible=feasible, probabilities=chances, exact=False)
-        return PosteriorOutcomes(preferences=preferences, table=table, drawn=drawn, outcomes=outcomes)
+        return PosteriorOutcomes(
+            preferences=preferences,
+            table=table,
+            drawn=drawn,
+            outcomes=outcomes,
+            picks=picks,
+            proportions=frozenset(proportions),
+        )
 
     @property
     def totals(self) -> Array:
@@ -155,7 +167,7 @@ class PosteriorOutcomes:
             some = slice(start, start + at_once)
             moved = {measure: draws.at(inside[some], other) for measure, draws in moving.items()}
             picks = np.zeros((len(inside[some]), 0), dtype=np.intp)
-            values, feasible = _evaluated(self.preferences, self.table, moved, picks)
+            values, feasible = evaluated(self.preferences, self.table, moved, picks)
             totals = np.einsum("bnm,bm->bn", np.nan_to_num(values, copy=False), weights[some])
             totals[~feasible] = -np.inf
             best = totals.max(axis=1, keepdims=True)
@@ -223,66 +235,26 @@ def _drawn(
     apart: bool,
 ) -> dict[str, Array]:
     """Draws of the columns that are observed in trials; an end of an interval moves as its estimate does."""
-    observed = [measure for measure in table.measures if measure in table.samples and not _is_end(measure, table)]
+    observed = [measure for measure in table.measures if measure in table.samples and not is_end(measure, table)]
     rows = [
-        ObservedRows(values=_known(table.samples[measure]), is_proportion=measure in proportions)
+        ObservedRows(values=known_values(table.samples[measure]), is_proportion=measure in proportions)
         for measure in observed
     ]
     found = posterior_means(rows, draws=draws, generator=generator, levels=levels, apart=apart)
     drawn = dict(zip(observed, found, strict=True))
     for measure in table.measures:
-        if measure in table.samples and _is_end(measure, table):
+        if measure in table.samples and is_end(measure, table):
             base = measure.rpartition(".")[0]
             drawn[measure] = drawn[base] + (table.column(measure) - table.column(base))
     return drawn
 
 
-def _is_end(measure: str, table: EvidenceTable) -> bool:
+def is_end(measure: str, table: EvidenceTable) -> bool:
+    """True if a column is an end of the interval of another one."""
     base, dot, end = measure.rpartition(".")
     return bool(dot) and end in _ENDS and base in table.measures
 
 
-def _known(samples: Samples) -> Array:
+def known_values(samples: Samples) -> Array:
+    """Values of replicates, shape (n, r); NaN where one lacks it or was not run."""
     return np.where(samples.ran, samples.values, np.nan)
-
-
-def _evaluated(
-    preferences: Preferences, table: EvidenceTable, drawn: Mapping[str, Array], picks: NDArray[np.intp]
-) -> tuple[Array, NDArray[np.bool_]]:
-    """Single values, shape (b, n, m), and which alternatives can be chosen, shape (b, n)."""
-    draws, count = len(picks), len(table)
-    feasible = np.ones((draws, count), dtype=np.bool_)
-    measures = preferences.weighting.deciding_measures
-    values = np.empty((draws, count, len(measures)))
-    for place, measure in enumerate(measures):
-        quantities = drawn.get(measure)
-        quantities = np.tile(table.column(measure), (draws, 1)) if quantities is None else quantities
-        known = ~np.isnan(quantities)
-        flat = preferences.value_function(measure).values_at(np.where(known, quantities, 0.0).ravel())
-        values[:, :, place] = np.where(known, flat.reshape(draws, count), np.nan)
-        feasible &= known
-    for condition in preferences.conditions:
-        if isinstance(condition, Threshold):
-            quantities = drawn.get(condition.measure)
-            quantities = table.column(condition.measure)[None] if quantities is None else quantities
-            feasible &= keeps(condition.sense, quantities, condition.limit)
-        else:
-            statistic = _drawn_statistics(preferences, table, picks, condition)
-            feasible &= keeps(condition.sense, statistic, condition.limit)
-    return values, feasible
-
-
-def _drawn_statistics(
-    preferences: Preferences, table: EvidenceTable, picks: NDArray[np.intp], condition: object
-) -> Array:
-    """The statistic of a demand on replicates in each draw, shape (b, n); the table's own without picks."""
-    risk = next(one for one in preferences.risks if one is condition)
-    if not picks.shape[1]:
-        return condition_column(risk, table)[None]
-    samples = table.replicates(risk.measure)
-    found = np.empty((len(picks), len(table)))
-    for draw, pick in enumerate(picks):
-        again = Samples(values=samples.values[:, pick], ran=samples.ran[:, pick])
-        one = replace(table, samples={risk.measure: again})
-        found[draw] = condition_column(risk, one)
-    return found

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rgss.tradeoff.problem import TIE_TOLERANCE, Array, EvidenceTable, Threshold
 from rgss.tradeoff.robustness.heavy_tails import heavy_tailed_measures
 from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes, good_selection
+from rgss.tradeoff.robustness.replication_gain import NO_GAINS, ReplicationGains
 
 TIE_PROBABILITY = 0.05
 """An alternative that is as good as the choice with at least this probability, one of them being feasible, is tied."""
@@ -70,8 +71,7 @@ class ChoiceUncertainty:
         as_required: Probability that the choice is feasible without the tolerances of thresholds.
         none_feasible: Probability that nothing is feasible.
         rivals: Alternatives tied with the choice, by falling probability.
-        gains: Expected gain of value by so many more replicates of every alternative.
-        perfect: Expected gain by perfect knowledge.
+        gains: Expected gain of value by more evidence; none where it is not asked for.
         scarce: Requirements on a share of trials of which all alternatives together have too few to tell it from its
             threshold.
         heavy_tailed: Measures whose skewed noise the replicates of the choice and its rivals are too few to show.
@@ -84,8 +84,7 @@ class ChoiceUncertainty:
     as_required: float
     none_feasible: float
     rivals: tuple[Rival, ...]
-    gains: tuple[tuple[int, float], ...]
-    perfect: float
+    gains: ReplicationGains
     scarce: tuple[str, ...] = ()
     heavy_tailed: tuple[str, ...] = ()
 
@@ -99,7 +98,7 @@ def choice_uncertainty(
     estimated: NDArray[np.bool_],
     single: Array,
     proportions: Collection[str] = (),
-    more: tuple[int, ...] = (1, 10),
+    gains: ReplicationGains = NO_GAINS,
 ) -> ChoiceUncertainty:
     """The uncertainty of a choice.
 
@@ -111,14 +110,12 @@ def choice_uncertainty(
         estimated: Mask of the alternatives that are feasible by their estimates, shape (n,).
         single: Their single values by their estimates, shape (n, m).
         proportions: The measures that are shares of trials.
-        more: Numbers of more replicates that are valued.
+        gains: Expected gain of value by more evidence.
     """
     feasible = found.outcomes.feasible
     totals = np.where(feasible, np.nan_to_num(found.totals), -np.inf)
     highest = totals.max(axis=1, keepdims=True)
     best = feasible & (totals >= highest - TIE_TOLERANCE)
-    # What cannot be chosen is worth nothing.
-    worth = np.where(feasible, totals, 0.0)
     rivals = _rivals(found, chosen, margin, replicates, estimated, single)
     compared = [chosen, *(one.row for one in rivals)]
     means = [measure for measure in dict.fromkeys(_deciding(found)) if measure not in proportions]
@@ -130,8 +127,7 @@ def choice_uncertainty(
         as_required=float(found.as_required(chosen).mean()),
         none_feasible=float((~feasible.any(axis=1)).mean()),
         rivals=rivals,
-        gains=tuple((count, _expected_gain(worth, count / (replicates + count))) for count in more),
-        perfect=_expected_gain(worth, np.ones(len(replicates))),
+        gains=gains,
         scarce=_scarce(found.preferences.thresholds, int(replicates.sum()), proportions),
         heavy_tailed=heavy_tailed_measures(found.table, means, replicates[compared]),
     )
@@ -152,22 +148,6 @@ def _scarce(thresholds: Sequence[Threshold], trials: int, proportions: Collectio
         if one.measure in proportions and 0.0 < limit < 1.0 and trials * failing < FEWEST_AT_THRESHOLD:
             found[one.requirement] = None
     return tuple(found)
-
-
-def _expected_gain(worth: Array, share: Array) -> float:
-    """Expected gain of choosing after more evidence, by matched moments.
-
-    The mean after m more replicates varies as the draws do, narrower by √(m / (n + m)) (Heath,
-    Manolopoulou and Baio, "Efficient Monte Carlo estimation of the expected value of sample
-    information using moment matching", 2018); with a share of 1 it is the value of perfect information.
-
-    Args:
-        worth: Value of each alternative in each draw, shape (b, n).
-        share: m / (n + m) of each alternative, shape (n,).
-    """
-    means = worth.mean(axis=0)
-    moved = means + np.sqrt(share) * (worth - means)
-    return max(0.0, float(moved.max(axis=1).mean() - means.max()))
 
 
 def _rivals(

@@ -44,7 +44,10 @@ def posterior_of(count, draws):
         probabilities=np.full(draws, 1.0 / draws),
         exact=False,
     )
-    return PosteriorOutcomes(preferences=problem, table=table, drawn=drawn, outcomes=outcomes)
+    picks = np.zeros((draws, 0), dtype=np.int64)
+    return PosteriorOutcomes(
+        preferences=problem, table=table, drawn=drawn, outcomes=outcomes, picks=picks, proportions=frozenset()
+    )
 
 
 def peak_of(computed):

@@ -81,8 +81,8 @@ def _uncertainty(made: StudyDecision) -> Plain | None:
             }
             for rival in one.rivals
         ],
-        "expected_gains": [{"replicates": count, "gain": gain} for count, gain in one.gains],
-        "perfect_knowledge": one.perfect,
+        "expected_gains": [{"replicates": count, "gain": gain} for count, gain in one.gains.of_more],
+        "perfect_knowledge": one.gains.perfect,
         "scarce": list(one.scarce),
         "heavy_tailed": list(one.heavy_tailed),
     }
