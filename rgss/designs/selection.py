@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import itertools
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from rgss.designs.components import Component
@@ -29,8 +30,11 @@ def selection_findings(space: DesignSpace, document: Document, model: DesignSpac
     selecting = _selecting_parameters(space)
     seen: set[tuple[str, tuple[ParameterValue, ...]]] = set()
     allowed = 0
+    exclusions: set[tuple[str, ...]] = set()
     for _, levels, parameters in space.combinations():
-        if space.rules_against(parameters):
+        excluding = space.rules_against(parameters)
+        if excluding:
+            exclusions.add(excluding)
             continue
         allowed += 1
         for role, names in selecting.items():
@@ -46,10 +50,51 @@ def selection_findings(space: DesignSpace, document: Document, model: DesignSpac
             where = _Combination(space=space, role=role, values=dict(zip(names, values, strict=True)), levels=levels)
             yield where.several(candidates) if candidates else where.none(document, model)
     if not allowed:
+        yield _nothing_left(document, model, exclusions)
+
+
+def _nothing_left(document: Document, model: DesignSpaceModel, exclusions: Collection[tuple[str, ...]]) -> Finding:
+    """Finding for rules that exclude every combination, at the last of the fewest that do.
+
+    Args:
+        document: The file of the design space.
+        model: The entry of the file.
+        exclusions: The sets of rules that exclude a combination.
+    """
+    ids = [rule.id for rule in model.rules]
+    fewest = _fewest_excluding(ids, exclusions)
+    if not fewest:
         hint = "loosen a rule, or add levels"
-        yield document.finding(
+        return document.finding(
             "design.nothing-left", "the rules exclude every combination", ("rules",), hint=hint, at_key=True
         )
+    names = [repr(one) for one in fewest]
+    if len(names) == 1:
+        message = f"the rule {names[0]} alone excludes every combination"
+        hint = "loosen it, or add levels that it allows"
+    else:
+        message = f"the rules {', '.join(names[:-1])} and {names[-1]} together exclude every combination"
+        hint = "loosen one of them, or add levels that they allow"
+    return document.finding("design.nothing-left", message, ("rules", ids.index(fewest[-1])), hint=hint)
+
+
+def _fewest_excluding(ids: Sequence[str], exclusions: Collection[tuple[str, ...]]) -> tuple[str, ...]:
+    """The single rule, or the first pair, that excludes every combination; else rules of which none can be left out.
+
+    Args:
+        ids: The rules, in their order.
+        exclusions: The sets of rules that exclude a combination.
+    """
+    for size in (1, 2):
+        for some in itertools.combinations(ids, size):
+            if all(not set(some).isdisjoint(rules) for rules in exclusions):
+                return some
+    needed = list(ids)
+    for one in reversed(ids):
+        others = set(needed) - {one}
+        if all(not others.isdisjoint(rules) for rules in exclusions):
+            needed.remove(one)
+    return tuple(needed)
 
 
 def _selecting_parameters(space: DesignSpace) -> Mapping[str, tuple[str, ...]]:

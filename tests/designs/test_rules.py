@@ -165,13 +165,42 @@ def test_duplicate_rules_are_found(project):
     ]
 
 
-def test_rules_that_exclude_everything_are_found(project):
-    project.space_text += "¦" + RULES + "    exclude: {d2: [2, 3]}\n"
+def _nothing_left(project, rules):
+    project.space_text += "rules:\n" + "".join(
+        f"  - {'¦' if last else ''}id: {name}\n    rationale: So.\n    exclude: {exclude}\n"
+        for name, exclude, last in rules
+    )
     (finding,) = project.findings()
-    line, column = 24, 1
-    assert finding == (
-        f"space.yaml:{line}:{column}: error: the rules exclude every combination "
-        "(loosen a rule, or add levels) [design.nothing-left]"
+    place, _, message = finding.partition(": error: ")
+    assert place == project.marks()[0]
+    return message
+
+
+def test_a_rule_that_excludes_everything_is_named(project):
+    rules = [("light", "{d3: PRM}", False), ("any", "{d2: [2, 3]}", True), ("dear", "{d3: RRT}", False)]
+    assert _nothing_left(project, rules) == (
+        "the rule 'any' alone excludes every combination "
+        "(loosen it, or add levels that it allows) [design.nothing-left]"
+    )
+
+
+def test_a_pair_of_rules_that_exclude_everything_is_named(project):
+    rules = [("heavy", "{d1: 0.2 kg}", False), ("two", "{d2: 2}", False), ("three", "{d2: 3}", True)]
+    assert _nothing_left(project, rules) == (
+        "the rules 'two' and 'three' together exclude every combination "
+        "(loosen one of them, or add levels that they allow) [design.nothing-left]"
+    )
+
+
+def test_of_many_rules_that_exclude_everything_those_that_are_needed_are_named(project):
+    rules = [
+        ("two-rrt", "{d2: 2, d3: RRT}", False),
+        ("two-prm", "{d2: 2, d3: PRM}", False),
+        ("three", "{d2: 3}", True),
+        ("heavy", "{d1: 0.2 kg}", False),
+    ]
+    assert _nothing_left(project, rules).startswith(
+        "the rules 'two-rrt', 'two-prm' and 'three' together exclude every combination ("
     )
 
 
