@@ -288,4 +288,5 @@ class GripperDocument(DocumentModel):
     stroke: Metres
     grasp_depth: Metres
     firm_grasp: FirmGraspEntry | None = None
+    mounting: Identifier | None = None
     assumptions: tuple[AssumptionEntry, ...] = ()

@@ -195,6 +195,7 @@ def _mounting_findings(
     for place, own, value in written_values(designs):
         if own in ids and grippers and value not in known:
             hint = f"mountings: {', '.join(sorted(known))}" if known else "no gripper of the catalogue has mountings"
+            hint += "; a gripper with one states its name in its file, 'mounting: NAME'"
             yield document.finding(
                 "design.mounting", f"no gripper has a mounting {shown(str(value))}", place, hint=hint
             )

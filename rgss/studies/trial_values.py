@@ -126,4 +126,4 @@ def mounted(file: GripperFile, mounting: ParameterValue | None, variant: int) ->
 
 def _known(file: GripperFile) -> str:
     names = [name for name in file.mountings if name]
-    return f"mountings: {', '.join(names)}" if names else "give it mountings in its file, 'kind: parallel'"
+    return f"mountings: {', '.join(names)}" if names else "state the name of its only one in its file, 'mounting: NAME'"

@@ -15,7 +15,7 @@ from rgss.studies.scene_findings import check_scene
 from rgss.studies.trial_values import mounted
 from rgss.trials.pieces.run import Pieces
 from tests.fixtures.shipped_project import copy_project
-from tests.trials.hands.gripper_files import FILES
+from tests.trials.hands.gripper_files import FILES, linkage_file
 
 
 def gripper_file(folder, name):
@@ -32,13 +32,26 @@ def test_a_design_sets_the_mounting(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "hint"), [("parallel", "mountings: normal, reverse"), ("vacuum", "give it mountings in its file")]
+    ("name", "hint"), [("parallel", "mountings: normal, reverse"), ("vacuum", "state the name of its only one")]
 )
 def test_an_unknown_mounting_is_refused(tmp_path, name, hint):
     with pytest.raises(DefinitionError, match="of variant 7 has no mounting 'upside-down'") as caught:
         mounted(gripper_file(tmp_path, name), "upside-down", 7)
 
     assert hint in caught.value.hint
+
+
+@pytest.mark.parametrize("name", ["fingers", "linkage", "vacuum"])
+def test_a_gripper_of_one_mounting_has_a_name_for_designs_that_compare_mountings(tmp_path, name):
+    linkage_file(tmp_path)  # the URDF
+    path = tmp_path / "gripper.yaml"
+    path.write_text(f"{FILES[name]}\nmounting: own\n", encoding="utf-8")
+    file = load_gripper_file(path)
+
+    assert mounted(file, "own", 1) == mounted(file, None, 1) == file.geometry
+    with pytest.raises(DefinitionError) as caught:
+        mounted(file, "normal", 1)
+    assert caught.value.hint == "mountings: own"
 
 
 DESIGNS, CATALOGUE, KG_2 = "designs/grasping_system.yaml", "designs/catalogue.yaml", "scenes/grippers/kg-2.yaml"
@@ -95,5 +108,8 @@ def test_a_mounting_that_no_gripper_has_is_found_where_it_is_set(two_mountings):
         load_project(two_mountings)
 
     (finding,) = (str(one) for one in caught.value.findings if one.rule == "design.mounting")
-    assert "no gripper has a mounting 'sideways' (mountings: normal, reverse)" in finding
+    assert (
+        "no gripper has a mounting 'sideways' (mountings: normal, reverse; a gripper with one states its name"
+        in finding
+    )
     assert finding.startswith(f"{DESIGNS}:")

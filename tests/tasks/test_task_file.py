@@ -118,6 +118,14 @@ def test_what_is_wrong_is_found_at_its_place(tmp_path, steps, problem):
     assert problem in finding
 
 
+def test_a_name_that_recurs_in_a_loop_is_found_once_for_its_step(tmp_path):
+    inner = "      steps:\n        - move: {to: grasp}\n        - move: {to: grasp}\n"
+
+    (finding,) = findings_of(tmp_path, HEAD + "  - repeat:\n      times: 3\n" + inner)
+
+    assert finding.startswith("task.yaml:7:17: error: there are two steps 'cycle_1.move_to_grasp' (")
+
+
 def test_thresholds_of_the_task_are_those_of_steps_that_state_none(tmp_path):
     text = (
         "task: t\nreached_within: {joints: 2 mrad, gripper: 1 mm}\nsteps:\n"

@@ -42,8 +42,10 @@ class FingerGripper:
             stroke_m=entry.stroke,
             grasp_depth_m=entry.grasp_depth,
         )
+        name = entry.mounting or ""
         return GripperFile(
-            mountings={"": geometry},
+            mountings={name: geometry},
+            mounting=name,
             drive=drive_of(entry.finger, entry.firm_grasp),
             settings=settings_of(entry.base, entry.finger),
         )

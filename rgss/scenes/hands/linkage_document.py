@@ -32,4 +32,5 @@ class LinkageGripperDocument(DocumentModel):
     force: Newtons | None = None
     speed: MetresPerSecond | None = None
     firm_grasp: FirmGraspEntry | None = None
+    mounting: Identifier | None = None
     assumptions: tuple[AssumptionEntry, ...] = ()

@@ -149,8 +149,10 @@ def _gripper_file(entry: LinkageGripperDocument, motion: LinkageMotion) -> Gripp
     }
     if entry.friction is not None:
         settings["gripper.finger.friction"] = entry.friction
+    name = entry.mounting or ""
     return GripperFile(
-        mountings={"": linkage_geometry(rough, linkage, motion.driven_at(motion.stroke_m / 2))},
+        mountings={name: linkage_geometry(rough, linkage, motion.driven_at(motion.stroke_m / 2))},
+        mounting=name,
         drive=GripperDrive(firm_force_n=None if entry.firm_grasp is None else entry.firm_grasp.finger_force),
         settings=settings,
     )

@@ -126,7 +126,6 @@ class VacuumGripper:
         }
         if entry.base.mass is not None:
             settings["gripper.base.mass"] = entry.base.mass
-        # The name allows a design space that sets mountings to compare a cup with fingers.
         name = entry.mounting or ""
         return GripperFile(
             mountings={name: geometry}, mounting=name, drive=GripperDrive(), suction=suction, settings=settings

@@ -65,9 +65,12 @@ def load_task(path: Path, *, label: str | None = None) -> LoadedTask:
 
 
 def _name_findings(document: Document, placed: list[Placed]) -> Iterator[Finding]:
+    """Findings about names of several steps, one for each step of the file: its cycles repeat the name."""
     seen: set[str] = set()
+    reported: set[tuple[str | int, ...]] = set()
     for step, at in placed:
-        if step.name in seen:
+        if step.name in seen and at not in reported:
+            reported.add(at)
             hint = "give each step its own name"
             yield document.finding("task.duplicate-name", f"there are two steps {step.name!r}", at, hint=hint)
         seen.add(step.name)
