@@ -346,4 +346,12 @@ def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
 
 
 ENDS = (("0.1", "+0.05"), ("0.3", "+0.2"))
-EMPTY = {"bends": [], "kept": [], "beaten": [], "stakeholders": None, "not_computed": [], "meanings": []}
+EMPTY = {
+    "bends": [],
+    "exchange": None,
+    "kept": [],
+    "beaten": [],
+    "stakeholders": None,
+    "not_computed": [],
+    "meanings": [],
+}

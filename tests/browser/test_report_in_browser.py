@@ -132,7 +132,9 @@ def test_the_keyboard_brushes_too(reader, page):
 
 def test_a_variant_leads_to_its_trials_and_the_commands_that_run_them_again(reader, page, study):
     reader.open(page)
-    reader.driver.find_element(By.CSS_SELECTOR, "#verdict-table a[href='#variant-31']").click()
+    link = reader.driver.find_element(By.CSS_SELECTOR, "#verdict-table a[href='#variant-31']")
+    reader.script("arguments[0].scrollIntoView({block: 'center'})", link)
+    link.click()
 
     reader.until("return document.getElementById('variant-choice').value === '31'")
     assert reader.script("return document.activeElement.id") == "evidence-title"
@@ -297,6 +299,7 @@ def test_a_study_without_a_choice_says_so(reader, study, tmp_path):
     assert reader.complaints() == []
     assert reader.text(".headline") == "No variant is chosen."
     worst = document["trials"]["worst"]
+    reader.script("scrollTo(0, 0)")
     reader.driver.find_element(By.LINK_TEXT, "The worst failure").click()
     reader.until(
         "return document.activeElement.dataset.key === arguments[0]", document["trials"]["key"][worst["trial"]]

@@ -81,6 +81,19 @@ def test_a_table_that_is_filtered_to_fewer_rows_shrinks_and_grows_again(reader, 
     assert reader.script(_ROWS_IN_VIEW, box)[0]["cut"] == 0
 
 
+def test_what_the_keyboard_reaches_is_not_below_the_line_at_the_end(reader, page):
+    reader.open(page)
+    _waits_for_whole_rows(reader, "#verdict-table .scroll")
+    covered = reader.script("""
+        return Array.from(document.querySelectorAll('#verdict-table tbody th a')).slice(0, 40).filter((link) => {
+          link.focus();
+          const box = link.getBoundingClientRect();
+          return document.elementFromPoint(box.left + box.width / 2, box.bottom - 2) !== link;
+        }).map((link) => link.textContent);
+    """)
+    assert covered == []
+
+
 @pytest.mark.parametrize("width", [1440, 500, 390, 320])
 def test_no_id_is_on_two_lines(reader, study, tmp_path, width):
     document = copy.deepcopy(study.document)

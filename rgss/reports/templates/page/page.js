@@ -65,9 +65,12 @@
     const rooms = all(".scroll").map((box) => {
       const table = box.querySelector("table");
       const first = table.classList.contains("matrix") ? table.tBodies[0].querySelector("th") : null;
-      return [box, `${table.tHead.offsetHeight}px 0 0 ${first === null ? 0 : first.offsetWidth}px`];
+      return [box, table.tHead.offsetHeight, first === null ? 0 : first.offsetWidth];
     });
-    for (const [box, room] of rooms) box.style.scrollPadding = room;
+    for (const [box, above, before] of rooms) {
+      box.style.scrollPaddingTop = `${above}px`;
+      box.style.scrollPaddingLeft = `${before}px`;
+    }
   };
   setTimeout(makeRoom);
   addEventListener("resize", makeRoom);
