@@ -13,21 +13,21 @@ from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
 from rgss.scenes import (
-    GripperGeometry,
-    at_object,
     half_extents_m,
     mesh_volume_findings,
-    misfit,
 )
 from rgss.studies.checks import (
     OF_ONE_GRIPPER,
     TooTall,
+    checked_mounting,
     closing_texts,
     held_load_findings,
     instability_texts,
     is_at_the_palm,
     is_of_fingers,
+    lack_of_room,
     narrow_finding,
+    no_grasp_texts,
     objects_too_narrow,
     objects_too_tall,
     objects_too_wide,
@@ -86,7 +86,12 @@ def check_scene(project: Project) -> SceneCheck:
     found = [places.finding(problem, ()) for problem in of_bodies]
     every = len(_gripper_files(project))
     found += [
-        places.finding(problem, files if len(files) < every else (), serves=of_hands.reaches(problem, every))
+        places.finding(
+            problem,
+            files if len(files) < every else (),
+            serves=of_hands.reaches(problem, every),
+            room=of_hands.room.get(problem, ""),
+        )
         for problem, files in of_hands.reach.items()
     ]
     found += held
@@ -111,6 +116,7 @@ class _HandProblems:
     """Problems of the hands of the designs, each with the gripper files that have it."""
 
     reach: dict[SceneProblem, list[str]] = field(default_factory=dict)
+    room: dict[SceneProblem, str] = field(default_factory=dict)
     steps: dict[HandStepProblem, list[str]] = field(default_factory=dict)
     too_tall: dict[TooTall, list[str]] = field(default_factory=dict)
     too_wide: dict[tuple[str, str], list[str]] = field(default_factory=dict)
@@ -134,9 +140,10 @@ class _HandProblems:
 
     def add(self, project: Project, file: str, *, is_searched: bool) -> None:
         """Check one gripper file; where it is not searched, the sizes of hand and objects alone."""
-        from rgss.trials import hand_step_problems, reach_problems
+        from rgss.trials import SceneProblemKind, hand_step_problems, reach_problems
 
-        scene, geometry = project.scene, _mounting_that_holds(project, file)
+        scene, friction = project.scene, _pad_friction(project, file)
+        geometry = checked_mounting(project, file, friction)
         tall, wide = objects_too_tall(geometry, project), objects_too_wide(geometry, project)
         for one in tall:
             self.too_tall.setdefault(one, []).append(file)
@@ -149,13 +156,14 @@ class _HandProblems:
         if not is_searched:
             return
         clearance_m, task = project.study.planning.clearance_m, project.study.task
-        friction = _pad_friction(project, file)
         for step in hand_step_problems(scene, geometry, clearance_m=clearance_m, task=task, friction=friction):
             self.steps.setdefault(step, []).append(file)
         for problem in reach_problems(scene, geometry, clearance_m=clearance_m, task=task, friction=friction):
             at_palm = any(is_at_the_palm(problem, one.object) for one in tall)
             if not at_palm and not any(is_of_fingers(problem, name) for name, _ in wide):
                 self.reach.setdefault(problem, []).append(file)
+                if problem.kind is SceneProblemKind.NO_GRASP:
+                    self.room[problem] = lack_of_room(project, geometry, problem.first, friction)
 
 
 def _refuses_search(project: Project, of_bodies: Sequence[SceneProblem]) -> bool:
@@ -186,13 +194,6 @@ def _pad_friction(project: Project, file: str) -> float:
     return min(spec.gripper.grip_coefficient(1.0) for spec in specs if files[spec.variant] == file)
 
 
-def _mounting_that_holds(project: Project, file: str) -> GripperGeometry:
-    """The first shape of a gripper that can hold the object; what cannot is found by its trials, at the grasp."""
-    gripper, scene = project.grippers[file], project.scene
-    held = (geometry for geometry in gripper.mountings.values() if not misfit(geometry, scene))
-    return at_object(next(held, gripper.geometry), scene)
-
-
 class _Places:
     """Positions of the bodies in the scene file."""
 
@@ -206,13 +207,16 @@ class _Places:
         self.at[self._workpiece] = ("workpiece", "at")
         self.at |= {one.workpiece.id: ("workpieces", index, "at") for index, one in enumerate(project.scene.others)}
 
-    def finding(self, problem: SceneProblem, grippers: Sequence[str], *, serves: bool = False) -> Finding:
+    def finding(
+        self, problem: SceneProblem, grippers: Sequence[str], *, serves: bool = False, room: str = ""
+    ) -> Finding:
         """A problem at the place of its first body, with the place of the other in the message.
 
         Args:
             problem: The problem.
             grippers: The gripper files that have it, if others do not.
             serves: Whether a gripper has no problem of the kind with the body there.
+            room: Reason why no candidate has room between the open fingers; empty if one has.
         """
         from rgss.trials import SceneProblemKind
 
@@ -235,13 +239,8 @@ class _Places:
         elif problem.kind is SceneProblemKind.NO_GRASP:
             of = f" with {', '.join(grippers)}" if grippers else ""
             location = (*location[:-1], "id")
-            message = f"no grasp candidate of {first}{of} can be carried out: {problem.detail}"
-            if problem.reason is not None:
-                message += f"; the best one does not serve {problem.waypoint}: {problem.reason}"
-            hint = "let the task try more approaches, turn or move the object, or take another gripper"
-            if problem.reason is not None:
-                hint = f"{remedy(problem)}; or {hint}"
-            elif grippers and serves:
+            message, hint = no_grasp_texts(problem, of, room)
+            if grippers and serves and (room or problem.reason is None):
                 severity, hint = Severity.INFO, OF_ONE_GRIPPER
         elif problem.kind is SceneProblemKind.CLOSING:
             message, hint = closing_texts(problem, grippers)

@@ -9,6 +9,7 @@ import pytest
 
 from rgss.documents import load_document, read_document
 from rgss.errors import DocumentError
+from rgss.exchange.mapping_file import MappingFile, read_mapping
 from rgss.studies.schemas.document_kinds import DOCUMENT_KINDS
 
 ROOT = Path(__file__).parents[2]
@@ -44,10 +45,13 @@ def test_an_example_is_part_of_a_document(tmp_path, block):
     if not isinstance(data, dict):
         return  # entries of a list, which the tutorial's test puts into their files
 
-    found = {kind.id: findings_of(path, kind.model) for kind in DOCUMENT_KINDS}
+    models = {**{kind.id: kind.model for kind in DOCUMENT_KINDS}, "names of another tool": MappingFile}
+    found = {kind: findings_of(path, model) for kind, model in models.items()}
 
     closest = min(found, key=lambda kind: len(found[kind]))
     assert found[closest] == [], closest
+    if models[closest] is MappingFile:
+        assert read_mapping(path).names.attributes
 
 
 def test_examples_are_found():

@@ -6,13 +6,20 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.studies.checks.bench_check import bench_findings
+    from rgss.studies.checks.candidate_grasps import checked_mounting, lack_of_room
     from rgss.studies.checks.double_counting import double_counting_findings
     from rgss.studies.checks.draw_check import draw_findings
     from rgss.studies.checks.held_load_check import held_load_findings
     from rgss.studies.checks.impact_check import impact_findings
     from rgss.studies.checks.light_check import light_body_findings
     from rgss.studies.checks.object_limit_check import object_limit_findings
-    from rgss.studies.checks.scene_texts import OF_ONE_GRIPPER, closing_texts, instability_texts, remedy
+    from rgss.studies.checks.scene_texts import (
+        OF_ONE_GRIPPER,
+        closing_texts,
+        instability_texts,
+        no_grasp_texts,
+        remedy,
+    )
     from rgss.studies.checks.seal_check import seal_finding, unsealed_objects
     from rgss.studies.checks.step_check import step_findings
     from rgss.studies.checks.strict_check import strict_findings

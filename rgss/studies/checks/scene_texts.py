@@ -57,3 +57,21 @@ def remedy(problem: SceneProblem) -> str:
     if problem.reason.obstacle is Obstacle.CLEARANCE:
         return "move one of them, or lower the study's clearance"
     return f"move one of them, or {turn}"
+
+
+def no_grasp_texts(problem: SceneProblem, of: str, room: str) -> tuple[str, str]:
+    """Message and hint on an object of which no candidate can be carried out.
+
+    Args:
+        problem: The problem.
+        of: The hands that have it, in words; empty if all do.
+        room: Text of `lack_of_room`.
+    """
+    message = f"no grasp candidate of {problem.first}{of} can be carried out: {problem.detail}"
+    hint = "let the task try more approaches, turn or move the object, or take another gripper"
+    if room:
+        return f"{message}; {room}", "lower that clearance, or take a narrower object or a wider gripper"
+    if problem.reason is None:
+        return message, hint
+    message += f"; the best one does not serve {problem.waypoint}: {problem.reason}"
+    return message, f"{remedy(problem)}; or {hint}"

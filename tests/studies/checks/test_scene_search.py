@@ -10,7 +10,7 @@ from rgss.studies.project import load_project
 from rgss.studies.scene_findings import check_scene
 from rgss.trials import SceneProblem, SceneProblemKind
 
-SCENE = "scenes/restaurant.yaml"
+SCENE, HAND = "scenes/restaurant.yaml", "scenes/grippers/kg-2.yaml"
 
 
 @pytest.fixture
@@ -67,3 +67,33 @@ def test_a_hand_of_some_designs_that_no_candidate_fits_is_a_result(folder, edit,
     found = [one for one in check_scene(load_project(folder)).findings if one.rule == "scene.no-grasp"]
     assert {one.severity for one in found} == {severity}
     assert ("designs with this gripper fail there" in found[0].hint) is (severity is Severity.INFO)
+
+
+def test_the_checked_mounting_is_the_one_that_has_grasp_candidates(folder, edit, monkeypatch):
+    seen = {}
+    monkeypatch.setattr(rgss.trials, "hand_step_problems", lambda *_, **__: ())
+    monkeypatch.setattr(
+        rgss.trials, "reach_problems", lambda _, hand, **__: seen.update({hand.id: hand.mounting}) or ()
+    )
+    edit(SCENE, "\ntask:\n", "\ntask:\n  grasp: automatic\n")
+    # As it stands, the box is 50 mm wide between the pads: too wide for one mounting and too narrow for the other.
+    edit(SCENE, "  radius: 35 mm\n  height: 100 mm\n", "  box: [50 mm, 80 mm, 100 mm]\n")
+    mountings = "{normal: {closed: 0 mm, open: 16 mm}, reverse: {closed: 60 mm, open: 100 mm}}"
+    edit(HAND, "azimuths: [0 deg, 180 deg]", f"kind: parallel\nmountings: {mountings}\nmounting: normal")
+    edit(HAND, "largest_opening: 70 mm\nstroke: 48 mm\n", "")
+    check_scene(load_project(folder))
+    assert seen["kg-2"] == "reverse"
+
+
+def test_candidates_without_room_for_the_clearance_are_explained(folder, edit, monkeypatch):
+    none = SceneProblem(kind=SceneProblemKind.NO_GRASP, first="cup", detail="collision or clearance: 8")
+    monkeypatch.setattr(rgss.trials, "hand_step_problems", lambda *_, **__: ())
+    monkeypatch.setattr(rgss.trials, "reach_problems", lambda *_, **__: (none,))
+    edit(SCENE, "\ntask:\n", "\ntask:\n  grasp: automatic\n")
+    edit("studies/pick_place.yaml", "  clearance: 8 mm\n", "  clearance: 36 mm\n")
+    (found,) = (one for one in check_scene(load_project(folder)).findings if one.rule == "scene.no-grasp")
+    assert found.message.endswith(
+        "collision or clearance: 8; the fingers hold it 70 mm wide at best and open to 140 mm, which leaves room for "
+        "68 mm with the clearance of planned paths, 36 mm on each side ('planning.clearance' of the study)"
+    )
+    assert found.hint == "lower that clearance, or take a narrower object or a wider gripper"
