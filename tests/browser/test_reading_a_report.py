@@ -130,3 +130,18 @@ def test_the_page_is_folded_and_what_a_link_leads_to_is_unfolded(reader, whole_p
     search.send_keys("SYS-024")
     reader.until("return document.querySelector('#verification details.fold').open")
     assert reader.complaints() == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_titles_of_folds_look_alike(reader, whole_page, scheme):
+    media = {"features": [{"name": "prefers-color-scheme", "value": scheme}]}
+    reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", media)
+    try:
+        reader.open(whole_page)
+        colours = reader.script(
+            "return Array.from(new Set(Array.from(document.querySelectorAll("
+            "'main > section > details > summary'), (one) => getComputedStyle(one).color)))"
+        )
+    finally:
+        reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+    assert len(colours) == 1

@@ -138,21 +138,6 @@ def test_a_limit_of_thousands_has_separators_everywhere(reader, page, study):
         assert not re.search(rf"[<>]=? {limit:.0f}\b", said)
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_titles_of_folds_look_alike(reader, page, scheme):
-    media = {"features": [{"name": "prefers-color-scheme", "value": scheme}]}
-    reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", media)
-    try:
-        reader.open(page)
-        colours = reader.script(
-            "return Array.from(new Set(Array.from(document.querySelectorAll("
-            "'main > section > details > summary'), (one) => getComputedStyle(one).color)))"
-        )
-    finally:
-        reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
-    assert len(colours) == 1
-
-
 def test_with_the_colours_of_the_reader_legends_and_the_present_section_are_told_apart(reader, page):
     media = {"features": [{"name": "forced-colors", "value": "active"}]}
     reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", media)
