@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from rgss.documents.reader import LARGEST_FILE_BYTES, Document, read_document
     from rgss.documents.refusals import MOST_PROBLEMS, cut_short
     from rgss.documents.regular_file import chunks_of, open_regular
+    from rgss.documents.running_processes import is_running
     from rgss.documents.schemas import json_schema
     from rgss.documents.small_sources import write_small_source
     from rgss.documents.spreadsheet_cells import (

@@ -20,6 +20,7 @@ from itertools import count
 from pathlib import Path
 
 from rgss.documents.project_sources import project_source, source_with_another_name
+from rgss.documents.running_processes import is_running
 from rgss.errors import DefinitionError, RgssError, StorageError
 
 _MOST_LINKS = 40
@@ -162,22 +163,9 @@ def remove_abandoned_parts(folder: Path) -> None:
     with suppress(OSError):
         for part in sorted(folder.glob(_PART.format(process="*", number="*"))):
             process = part.name.split("-")[1]
-            if process.isdecimal() and not _is_running(int(process)):
+            if process.isdecimal() and not is_running(int(process)):
                 with suppress(OSError):
                     part.unlink()
-
-
-def _is_running(process: int) -> bool:
-    """True if a process exists, or if that cannot be known."""
-    if sys.platform == "win32":
-        return True
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except (OSError, OverflowError):
-        return True
-    return True
 
 
 def _refuse_source(path: Path, target: _Target) -> None:

@@ -9,6 +9,7 @@ import secrets
 from collections.abc import Iterator
 from pathlib import Path
 
+from rgss.documents import is_running
 from rgss.errors import EvidenceError, StorageError
 from rgss.evidence.store.connection import SPACE_HINT, connect, error_of, translated_errors
 from rgss.evidence.store.locking import folder_lock
@@ -90,18 +91,8 @@ def _leftovers(path: Path) -> Iterator[Path]:
     for file in path.parent.glob(f".{path.name}.*.{_ENDING}"):
         process = file.name.removeprefix(f".{path.name}.").partition("-")[0]
         with contextlib.suppress(OSError):
-            if process.isdecimal() and not _is_alive(int(process)) and file.stat().st_uid == os.geteuid():
+            if process.isdecimal() and not is_running(int(process)) and file.stat().st_uid == os.geteuid():
                 yield file
-
-
-def _is_alive(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except (PermissionError, OverflowError):
-        return True
-    return True
 
 
 def _remove(file: Path) -> None:
