@@ -47,6 +47,25 @@ def test_the_terminal_and_the_report_word_reasons_and_cautions_once(made):
     ]
 
 
+@pytest.mark.parametrize(
+    ("apart", "words"),
+    [(0.0, "."), (0.02, ", with other contributions: {first} +0.0200, {second} -0.0200.")],
+)
+def test_over_a_tied_runner_up_there_is_no_lead(made, apart, words):
+    decision = made.decision
+    first, second, *others = made.gains
+    gains = (
+        dataclasses.replace(first, amount=apart),
+        dataclasses.replace(second, amount=-apart),
+        *(dataclasses.replace(one, amount=0.0) for one in others),
+    )
+    tied = dataclasses.replace(decision, ties=(decision.chosen, decision.runner_up))
+    said = [one.text for one in reasons(dataclasses.replace(made, decision=tied, gains=gains))]
+    assert not [text for text in said if "leads the runner-up" in text]
+    same = f"The runner-up {decision.runner_up} has the same value"
+    assert same + words.format(first=first.measure, second=second.measure) in said
+
+
 def test_a_variant_that_is_tied_at_the_weights_of_the_study_alone_is_no_distant_rival(shipped, made):
     """The nearest move is of those that are not tied, and is not said to be the smallest that changes the choice."""
     found = made.robustness.analysis

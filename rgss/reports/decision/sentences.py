@@ -17,6 +17,8 @@ from rgss.tradeoff.programs import Certificate
 
 _WITHOUT_WEIGHTS = frozenset({"lexicographic", "epsilon_constraint"})
 
+_NO_GAINS = "less than rounding shows"
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reason:
@@ -67,7 +69,11 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
         margin = made.practical_margin
         how = f"Within the practical margin of {margin:g} of it" if margin else "As good within the program's tolerance"
         yield Reason(text=f"{how}: {near}.")
-    if made.gains:
+    if made.gains and decision.runner_up in decision.ties:
+        # Its contributions may differ and cancel.
+        apart = f", with other contributions: {_gains(made)}" if _gains(made) != _NO_GAINS else ""
+        yield Reason(text=f"The runner-up {decision.runner_up} has the same value{apart}.")
+    elif made.gains:
         yield Reason(text=f"It leads the runner-up {decision.runner_up} by: {_gains(made)}.")
     if decision.excluded_better:
         count = decision.counts.excluded_better
@@ -264,7 +270,7 @@ def _listed(names: Sequence[str]) -> str:
 def _gains(made: StudyDecision) -> str:
     shown = sorted(made.gains, key=lambda gain: -abs(gain.amount))
     parts = [f"{gain.measure} {gain.amount:+.4f}" for gain in shown if abs(gain.amount) > 5e-5]
-    return ", ".join(parts) or "less than rounding shows"
+    return ", ".join(parts) or _NO_GAINS
 
 
 def _cut(portfolio: PortfolioDecision) -> str:
