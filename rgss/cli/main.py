@@ -120,25 +120,33 @@ def _run(arguments: Sequence[str] | None, interrupts: Interrupts) -> int:
         _print_error(f"rgss: the output has the character {character}, which {error.encoding} lacks ({hint})")
         return RUN_FAILED
     except OSError as error:
-        from rgss.documents import is_disk_failure, unwritable
-
-        _discard_output()
-        # An error of a file has its name; an error of standard output has none.
-        printed = error.filename is None and error.errno in _UNWRITABLE
-        if isinstance(error, PermissionError) and error.filename is not None:
-            path = os.fsdecode(error.filename)
-            _print_error(f"rgss: {path} may not be read or written (change its permissions)")
-            return BAD_INPUT
-        if error.filename is not None and is_disk_failure(error):
-            _print_error(f"rgss: {unwritable(Path(os.fsdecode(error.filename)), error)}")
-        else:
-            _print_error(f"rgss: the output cannot be written: {error.strerror}" if printed else f"rgss: {error}")
-        return RUN_FAILED
+        return _failed_file(error)
     except Exception:
         if not interrupts.received:
             raise
         # What a library made of the interrupt.
         return _interrupted(options, interrupts)
+
+
+def _failed_file(error: OSError) -> int:
+    """Report a file, or the output, that cannot be read or written, and return the exit status."""
+    from rgss.documents import is_disk_failure, unwritable
+
+    _discard_output()
+    # An error of a file has its name; an error of standard output has none.
+    printed = error.filename is None and error.errno in _UNWRITABLE
+    if isinstance(error, FileNotFoundError) and not _has_current_folder():
+        _print_error("rgss: the current folder no longer exists (go into one that does)")
+        return BAD_INPUT
+    if isinstance(error, PermissionError) and error.filename is not None:
+        path = os.fsdecode(error.filename)
+        _print_error(f"rgss: {path} may not be read or written (change its permissions)")
+        return BAD_INPUT
+    if error.filename is not None and is_disk_failure(error):
+        _print_error(f"rgss: {unwritable(Path(os.fsdecode(error.filename)), error)}")
+    else:
+        _print_error(f"rgss: the output cannot be written: {error.strerror}" if printed else f"rgss: {error}")
+    return RUN_FAILED
 
 
 def _interrupted(options: argparse.Namespace | None, interrupts: Interrupts) -> int:
@@ -257,6 +265,15 @@ def _version() -> str:
         return version("rgss")
     except PackageNotFoundError:
         return "(not installed)"
+
+
+def _has_current_folder() -> bool:
+    """False if the folder that the shell is in has been deleted."""
+    try:
+        Path.cwd()
+    except FileNotFoundError:
+        return False
+    return True
 
 
 def _discard_output() -> None:

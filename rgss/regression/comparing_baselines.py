@@ -218,7 +218,7 @@ def decision_changes(
         elif p_value > error_rate:
             of_chance.append(f"{text}; the seeds neither show nor exclude more than chance (p = {p_value:.2f})")
         elif share > error_rate:
-            of_chance.append(f"{text}; within the noise, which has it as it was in {share:.0%} of the resamples")
+            of_chance.append(f"{text}; within the noise, which has it as it was in {100.0 * share:.0f} % of resamples")
         else:
             failing.append(Failing(trouble=FailureCause.UNSTABLE, text=text))
     return DecisionChanges(failing=tuple(failing), undecided=tuple(undecided), notes=tuple(notes))

@@ -111,7 +111,7 @@ def case_lines(cases: Sequence[CaseSuccess]) -> Iterator[str]:
     """
     if cases:
         yield ""
-        rows = [[one.case, str(one.trials), str(one.successes), f"{one.share:.1%}"] for one in cases]
+        rows = [[one.case, str(one.trials), str(one.successes), f"{100.0 * one.share:.1f} %"] for one in cases]
         yield from aligned_table(["case", "trials", "successes", "share"], rows, right=(1, 2, 3))
 
 

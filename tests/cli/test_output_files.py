@@ -5,6 +5,8 @@ from __future__ import annotations
 import errno
 import os
 import stat
+import subprocess
+import sys
 
 import pytest
 
@@ -122,3 +124,14 @@ def test_a_current_folder_that_was_removed_does_not_matter_to_a_project_that_is_
     told = rgss("variants", "--project", folder)
     assert (told.status, told.errors) == (0, "")
     assert shown_path(folder / "studies") == str(folder / "studies")
+
+
+@pytest.mark.parametrize("words", [[], ["variants"]])
+def test_a_current_folder_that_was_removed_is_told_where_the_project_is_looked_for(tmp_path, words):
+    here = tmp_path / "gone"
+    here.mkdir()
+    script = 'rmdir "$PWD" && exec "$@"'
+    command = ["sh", "-c", script, "sh", sys.executable, "-m", "rgss.cli.main", *words]
+    told = subprocess.run(command, cwd=here, capture_output=True, text=True, check=False)
+    assert told.returncode == 2
+    assert told.stderr == "rgss: the current folder no longer exists (go into one that does)\n"

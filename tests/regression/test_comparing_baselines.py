@@ -137,7 +137,7 @@ def test_noise_explains_a_move(baseline):
     now = replace(before, chosen=None, pareto=())
     found = decision_changes(before, now, explained={"chosen": 0.3, "pareto 9": 0.05}, error_rate=0.05)
     assert texts(found.failing) == ["unstable: decision: variant 9 left the Pareto front"]
-    said = "within the noise, which has it as it was in 30% of the resamples"
+    said = "within the noise, which has it as it was in 30 % of resamples"
     assert (found.undecided, found.notes) == ((f"decision: variant 9 was chosen, now no variant; {said}",), ())
 
 
@@ -147,7 +147,7 @@ def test_noise_explains_a_verdict(baseline, share, is_noise):
     found = decision_changes(baseline.decision, now, explained={"verdict 9 SYS-1": share}, error_rate=0.05)
     text = "variant 9: the verdict on SYS-1 was met and is inconclusive"
     assert texts(found.failing) == ([] if is_noise else [f"unstable: {text}"])
-    said = f"{text}; within the noise, which has it as it was in 5% of the resamples"
+    said = f"{text}; within the noise, which has it as it was in 5 % of resamples"
     assert found.undecided == ((said,) if is_noise else ())
 
 

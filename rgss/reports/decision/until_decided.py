@@ -19,7 +19,7 @@ def until_decided_summary(result: UntilDecided) -> str:
     Args:
         result: The result of the replication.
     """
-    share = result.total / (len(result.trials) * result.rule.cap)
+    share_percent = 100.0 * result.total / (len(result.trials) * result.rule.cap)
     chosen = "no variant" if result.variant is None else f"variant {result.variant}"
     others = len(set(result.contenders) - {result.variant})
     nearly = f", {others} of the others may equal it within {result.rule.margin:g}" if others else ""
@@ -31,7 +31,8 @@ def until_decided_summary(result: UntilDecided) -> str:
     inconclusive = f"; inconclusive: {', '.join(result.open_requirements)}" if result.open_requirements else ""
     return (
         f"{chosen}: {ended}, probability of good selection {share_of_draws(result.probability, DRAWS)}{inconclusive}; "
-        f"{result.total} trials in {result.looks} looks, {share:.0%} of {result.rule.cap} for each variant"
+        f"{result.total} trials in {result.looks} looks, "
+        f"{share_percent:.0f} % of the cap of {result.rule.cap} for each variant"
     )
 
 

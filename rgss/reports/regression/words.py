@@ -139,14 +139,14 @@ def power_lines(report: RegressionReport, *, everything: bool) -> Iterator[str]:
 
 def power_text(power: Power, guard: Guard) -> str:
     """The power of one comparison, in words."""
-    loss = f"{power.loss:.0%}" if guard.is_success else quantity(power.loss, guard.unit)
+    loss = f"{100.0 * power.loss:.0f} %" if guard.is_success else quantity(power.loss, guard.unit)
     size = f"a loss of {loss}" if guard.is_success else f"a change by {loss}, {MEAN_LOSS:g} times the margin,"
     needed = f"more than {MOST_SEEDS}" if power.seeds_needed is None else str(power.seeds_needed)
     if power.detectable is not None:
         needed += f", or a change by {quantity(power.detectable, guard.unit)}"
     return (
-        f"{size} is found with a probability of at least {power.probability:.0%} with up to {power.seeds} seeds; "
-        f"{TARGET:.0%} takes {needed}"
+        f"{size} is found with a probability of at least {100.0 * power.probability:.0f} % "
+        f"with up to {power.seeds} seeds; {100.0 * TARGET:.0f} % takes {needed}"
     )
 
 

@@ -206,7 +206,7 @@ def test_what_was_spent_of_the_reserve_is_said():
     assert found.reserve_spent == 8
     assert until_decided_summary(found) == (
         "variant 2: budget of 20 trials and 8 of a reserve of 40 spent, probability of good selection 50 %; "
-        "inconclusive: SYS-024; 28 trials in 3 looks, 5% of 200 for each variant"
+        "inconclusive: SYS-024; 28 trials in 3 looks, 5 % of the cap of 200 for each variant"
     )
     assert ended(SequentialRule(budget=28)).reserve_spent == ended(SequentialRule()).reserve_spent == 0
 

@@ -81,8 +81,8 @@ def test_nothing_changed(rgss, with_baseline):
         "6 comparisons: 6 same; seeds after 1 look: planning 4",
         "behaviour unchanged: 8 trials the same bit for bit",
         (
-            "power: success of the trial (run planning): a loss of 40% is found with a probability of at least 17% "
-            "with up to 8 seeds; 80% takes 19"
+            "power: success of the trial (run planning): a loss of 40 % is found with a probability of at least 17 % "
+            "with up to 8 seeds; 80 % takes 19"
         ),
     ]
     assert len(rgss("regress", "--all", "--project", with_baseline).output.splitlines()) == 11

@@ -114,7 +114,7 @@ def test_one_line_for_each_finding_that_names_metric_and_phase(report):
         "note: decision: variant 3 left the Pareto front; within the noise",
         (
             "power: slip_m at lift (run contact): a change by 0.004 m, 2 times the margin, is found with a "
-            "probability of at least 31% with up to 12 seeds; 80% takes 38, or a change by 0.0062 m"
+            "probability of at least 31 % with up to 12 seeds; 80 % takes 38, or a change by 0.0062 m"
         ),
     ]
     everything = list(report_lines(report, everything=True))
@@ -249,7 +249,7 @@ def test_as_junit(report):
     assert said.startswith("changed: behaviour changed: 1 of 8 trials")
     assert "constant changed: rgss.physics.world._ARM_POSITION_GAIN 0.4 → 0.1" in said
     powers = {each.get("name"): each.get("value") for each in suite.find("properties")}
-    assert "at least 31% with up to 12 seeds" in powers["power: slip_m at lift (run contact)"]
+    assert "at least 31 % with up to 12 seeds" in powers["power: slip_m at lift (run contact)"]
 
 
 def test_a_trial_that_could_not_be_run_is_an_error_in_junit(report):
