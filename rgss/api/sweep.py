@@ -104,16 +104,13 @@ class _Runner:
         self._on_trial = on_trial
         self._lost: list[LostTrials] = []
 
-    def run(self, specs: Sequence[TrialSpec], store: EvidenceStore) -> set[int]:
-        """Run the missing trials; returns the variants of which a trial was run."""
-        run_now: set[int] = set()
+    def run(self, specs: Sequence[TrialSpec], store: EvidenceStore) -> None:
+        """Run the missing trials."""
         done = 0
 
-        def on_finished(trial: FinishedTrial) -> None:
+        def on_finished(_: FinishedTrial) -> None:
             nonlocal done
             done += 1
-            if trial.fresh:
-                run_now.add(trial.record.variant)
             if self._on_trial is not None:
                 self._on_trial(done, len(specs))
 
@@ -131,7 +128,6 @@ class _Runner:
             hint = "a script that sweeps with processes needs 'if __name__ == \"__main__\":'; or pass jobs=0"
             raise SimulationError(error.message, hint=hint) from error
         self._lost += result.lost
-        return run_now
 
     def require_all(self) -> None:
         """Raise an error if a trial could not be run."""

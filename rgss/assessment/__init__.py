@@ -24,7 +24,7 @@ if TYPE_CHECKING:
         verdicts_on,
     )
     from rgss.assessment.recorded_verdicts import VERDICT_FILE, VerdictRecord, read_record
-    from rgss.assessment.recording import record_after_sweep, record_verdicts
+    from rgss.assessment.recording import record_after_sweep, record_before_sweep, record_verdicts
     from rgss.assessment.remedies import stale_remedies
     from rgss.assessment.replicates import common_seeds, replicates_of, specs_read
     from rgss.assessment.seed_groups import SeedGroup, sequential_seeds

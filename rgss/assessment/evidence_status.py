@@ -69,6 +69,8 @@ def trial_verdicts(
 ) -> MappingProxyType[str, TrialVerdicts]:
     """The verdicts on each requirement with a criterion, by its id.
 
+    A recorded verdict that is older than a trial of its variant says nothing about the present evidence.
+
     Args:
         project: The project with its study.
         measured: Every variant with its estimates.
@@ -76,13 +78,18 @@ def trial_verdicts(
     """
     key = study_key(project.study.label, project.study.fidelity.value)
     book = {} if recorded is None else recorded.of_study(key)
+    trials = {one.variant.id: one.trials for one in measured}
     return MappingProxyType(
         {
             requirement.id: TrialVerdicts(
                 requirement=requirement.id,
                 verdicts=MappingProxyType({one.variant.id: one.verdicts[requirement.id] for one in measured}),
                 recorded=MappingProxyType(
-                    {variant: one.verdict for variant, one in book.get(requirement.id, {}).items()}
+                    {
+                        variant: one.verdict
+                        for variant, one in book.get(requirement.id, {}).items()
+                        if not one.is_older_than(trials.get(variant, ()))
+                    }
                 ),
                 causes=MappingProxyType(
                     {one.variant.id: one.causes[requirement.id] for one in measured if requirement.id in one.causes}

@@ -60,8 +60,8 @@ def measure_variants(
     `rgss.assessment.stored_replicates` determines the trials: variants may have different numbers.
     Only evidence of the present project, code and engines is used. A verdict is stale if it needs a
     trial with only older evidence, or if its requirement, measure or design changed since it was
-    recorded. A verdict on a measure that is observed in trials is not run if no trial was run, and
-    inconclusive if trials were run and none gives a value.
+    recorded from the same evidence. A verdict on a measure that is observed in trials is not run if
+    no trial was run, and inconclusive if trials were run and none gives a value.
 
     Args:
         project: The project with its study.
@@ -100,6 +100,7 @@ def record_of(
     recorded: VerdictRecord,
     *,
     variants: Collection[int] | None = None,
+    stored: Mapping[int, frozenset[str]] = MappingProxyType({}),
 ) -> VerdictRecord:
     """The record with updated verdicts of some variants.
 
@@ -111,6 +112,7 @@ def record_of(
         measured: Every variant with its estimates.
         recorded: The record so far.
         variants: Ids of the variants; all by default.
+        stored: Keys of the stored trials of each variant, of which the study may read a part.
     """
     key = study_key(project.study.label, project.study.fidelity.value)
     before = recorded.of_study(key)
@@ -125,7 +127,11 @@ def record_of(
                 continue
             verdict = _verdict(criterion, entry, stale=False)
             if verdict not in _UNDECIDED:
-                kept[entry.variant.id] = RecordedVerdict(verdict=verdict, basis=entry.bases[requirement.id])
+                kept[entry.variant.id] = RecordedVerdict(
+                    verdict=verdict,
+                    basis=entry.bases[requirement.id],
+                    evidence=stored.get(entry.variant.id, frozenset()).union(entry.trials),
+                )
         if kept:
             book[requirement.id] = MappingProxyType(kept)
     return VerdictRecord(studies=MappingProxyType({**recorded.studies, key: MappingProxyType(book)}))
@@ -236,7 +242,7 @@ def _judged(
     bases, stale = {}, {}
     for requirement, criterion in _criteria(project):
         basis = reader.basis(requirement, criterion, entry.variant)
-        found = set(causes_since(book.get(requirement.id, {}).get(entry.variant.id), basis))
+        found = set(causes_since(book.get(requirement.id, {}).get(entry.variant.id), basis, entry.trials))
         if project.measures.measure(criterion.measure).from_trials:
             found.update(cause for causes in outdated for cause in causes)
         causes = tuple(cause for cause in StaleCause if cause in found)

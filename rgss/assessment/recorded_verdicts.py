@@ -2,22 +2,23 @@
 
 A verdict is computed from stored evidence whenever it is needed, by the present requirement and measure. To detect
 a change of either after the evidence was made, a verdict is recorded together with digests of the requirement, of
-its measure's complete definition, and of the design values behind it: by `rgss measure --record`, and by
-`record_after_sweep` for the variants that a sweep has run. Until it is recorded again, a verdict whose digests
-differ from the recorded ones is stale.
+its measure's complete definition, and of the design values behind it, and with the keys of the trials that there were:
+by `rgss measure --record`, and by `record_after_sweep` for the variants with trials that their record does not know.
+A verdict whose digests differ from the recorded ones is stale, unless it is drawn from a trial that was made after the
+recorded one: a record says nothing about newer evidence, whether the sweep that made it was interrupted or not.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from rgss.documents import canonical_json, replaced_file
+from rgss.documents import canonical_json, digest, replaced_file
 from rgss.errors import EvidenceError, StorageError
 from rgss.evidence.records import is_digest
 from rgss.evidence.store import error_of, folder_lock
@@ -26,7 +27,10 @@ from rgss.measures import Verdict
 VERDICT_FILE = ".rgss/verdicts.json"
 """The record, relative to the project; it is beside the evidence, to which it belongs."""
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
+_WITHOUT_EVIDENCE = 1
+"""Schema of records that do not name their trials."""
+
 LARGEST_FILE_BYTES = 256 * 1024 * 1024
 
 _HINT = "remove it and run 'rgss measure --record'"
@@ -54,10 +58,29 @@ class RecordedVerdict:
     Attributes:
         verdict: The verdict.
         basis: Inputs of the verdict.
+        evidence: Keys of the variant's trials that were stored when it was recorded; None if the record does not name
+            them.
     """
 
     verdict: Verdict
     basis: Basis
+    evidence: frozenset[str] | None = None
+
+    def is_older_than(self, trials: Iterable[str]) -> bool:
+        """True if a trial was made after the verdict was recorded.
+
+        Args:
+            trials: Keys of trials of its variant.
+        """
+        return self.evidence is not None and not self.evidence.issuperset(trials)
+
+    def without_lost(self, stored: Collection[str]) -> RecordedVerdict:
+        """The verdict without the trials that are stored no longer, so that they count as new once they are made again.
+
+        Args:
+            stored: Keys of the stored trials of its variant; a record that does not name its trials has all of them.
+        """
+        return replace(self, evidence=frozenset(stored if self.evidence is None else self.evidence & set(stored)))
 
 
 Book = Mapping[str, Mapping[int, RecordedVerdict]]
@@ -105,11 +128,12 @@ def read_record(folder: Path) -> VerdictRecord:
         raise EvidenceError(f"{VERDICT_FILE} is too large", hint=_HINT)
     try:
         data = json.loads(content)
-        if data["schema"] != SCHEMA_VERSION:
+        if data["schema"] not in (_WITHOUT_EVIDENCE, SCHEMA_VERSION):
             raise EvidenceError(
                 f"{VERDICT_FILE} has schema {data['schema']!r}; this rgss reads {SCHEMA_VERSION}", hint=_HINT
             )
-        studies = {str(key): _book(book) for key, book in data["studies"].items()}
+        evidence = _trials(data["evidence"]) if data["schema"] == SCHEMA_VERSION else {}
+        studies = {str(key): _book(book, evidence) for key, book in data["studies"].items()}
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         raise EvidenceError(f"{VERDICT_FILE} is not a record of verdicts", hint=_HINT) from error
     return VerdictRecord(studies=MappingProxyType(studies))
@@ -153,7 +177,9 @@ def write_record(folder: Path, record: VerdictRecord) -> Path:
         EvidenceError: The file cannot be written.
     """
     path = folder / VERDICT_FILE
-    data = {"schema": SCHEMA_VERSION, "studies": {key: _plain(book) for key, book in record.studies.items()}}
+    evidence: dict[str, list[str]] = {}
+    studies = {key: _plain(book, evidence) for key, book in record.studies.items()}
+    data = {"schema": SCHEMA_VERSION, "studies": studies, "evidence": evidence}
     with _translated_errors():
         path.parent.mkdir(parents=True, exist_ok=True)
         with replaced_file(path, replace_source=True) as part:
@@ -171,26 +197,45 @@ def _translated_errors() -> Iterator[None]:
         raise kind(f"{VERDICT_FILE} cannot be written: {error.strerror}", hint=hint) from error
 
 
-def _plain(book: Book) -> dict[str, Any]:
+def _plain(book: Book, evidence: dict[str, list[str]]) -> dict[str, Any]:
+    """Document of a book; the trials of its verdicts, which most have in common, are added to `evidence`."""
     return {
-        requirement: {
-            str(variant): {"verdict": one.verdict, **asdict(one.basis)} for variant, one in sorted(variants.items())
-        }
+        requirement: {str(variant): _plain_verdict(one, evidence) for variant, one in sorted(variants.items())}
         for requirement, variants in book.items()
     }
 
 
-def _book(data: Mapping[str, Any]) -> Book:
+def _plain_verdict(one: RecordedVerdict, evidence: dict[str, list[str]]) -> dict[str, Any]:
+    document = {"verdict": one.verdict, **asdict(one.basis)}
+    if one.evidence is None:
+        return document
+    keys = sorted(one.evidence)
+    name = digest(keys)
+    evidence[name] = keys
+    return {**document, "evidence": name}
+
+
+def _trials(data: Mapping[str, Any]) -> dict[str, frozenset[str]]:
+    found = {str(name): frozenset(keys) for name, keys in data.items()}
+    if not all(name == digest(sorted(keys)) and all(map(is_digest, keys)) for name, keys in found.items()):
+        raise ValueError("not the trials of a verdict")
+    return found
+
+
+def _book(data: Mapping[str, Any], evidence: Mapping[str, frozenset[str]]) -> Book:
     return MappingProxyType(
         {
-            str(requirement): MappingProxyType({int(variant): _verdict(one) for variant, one in variants.items()})
+            str(requirement): MappingProxyType(
+                {int(variant): _verdict(one, evidence) for variant, one in variants.items()}
+            )
             for requirement, variants in data.items()
         }
     )
 
 
-def _verdict(data: Mapping[str, Any]) -> RecordedVerdict:
+def _verdict(data: Mapping[str, Any], evidence: Mapping[str, frozenset[str]]) -> RecordedVerdict:
     digests = {name: data[name] for name in ("requirement", "measure", "design")}
-    if not all(is_digest(digest) for digest in digests.values()):
+    if not all(map(is_digest, digests.values())):
         raise ValueError("not a digest")
-    return RecordedVerdict(verdict=Verdict(data["verdict"]), basis=Basis(**digests))
+    trials = evidence[data["evidence"]] if "evidence" in data else None
+    return RecordedVerdict(verdict=Verdict(data["verdict"]), basis=Basis(**digests), evidence=trials)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 from rgss.assessment.recorded_verdicts import Basis, RecordedVerdict
@@ -85,14 +85,15 @@ class BasisReader:
         )
 
 
-def causes_since(recorded: RecordedVerdict | None, now: Basis) -> tuple[StaleCause, ...]:
-    """Inputs that changed since a verdict was recorded; none without a recorded verdict.
+def causes_since(recorded: RecordedVerdict | None, now: Basis, trials: Iterable[str]) -> tuple[StaleCause, ...]:
+    """Inputs that changed since a verdict was recorded; none without a recorded verdict on this evidence.
 
     Args:
         recorded: The recorded verdict.
         now: Its present inputs.
+        trials: Keys of the trials that the present verdict is drawn from.
     """
-    if recorded is None:
+    if recorded is None or recorded.is_older_than(trials):
         return ()
     then = recorded.basis
     pairs = (

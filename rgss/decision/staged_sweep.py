@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 
-from rgss.assessment import record_after_sweep
+from rgss.assessment import record_after_sweep, record_before_sweep
 from rgss.decision.screening import screen, screening_specs
 from rgss.decision.screening_result import ScreeningResult
 from rgss.designs import DesignVariant
@@ -12,14 +12,14 @@ from rgss.evidence import EvidenceStore
 from rgss.studies import Project, trial_specs
 from rgss.trials.pieces import TrialSpec
 
-RunStage = Callable[[Sequence[TrialSpec]], Collection[int]]
-"""Function that runs missing trials, and returns the variants of which one was run."""
+RunStage = Callable[[Sequence[TrialSpec]], object]
+"""Function that runs the missing ones of some trials."""
 
 
 def sweep_in_stages(
     project: Project, variants: Sequence[DesignVariant], store: EvidenceStore, run: RunStage
 ) -> ScreeningResult | None:
-    """Run the stages in sequence, and record the verdicts of the variants that were run, and missing ones.
+    """Run the stages in sequence, and record the verdicts on new evidence, and missing ones.
 
     Args:
         project: The project with its study.
@@ -34,15 +34,17 @@ def sweep_in_stages(
         DefinitionError: A measure is not defined for a design.
         EvidenceError: The store is damaged, or the verdicts cannot be written.
     """
+    record_before_sweep(project, store)
     promoted, screened = promoted_by_screening(project, store, run, variants=variants)
-    record_after_sweep(project, store, run(trial_specs(project, variants=promoted)))
+    run(trial_specs(project, variants=promoted))
+    record_after_sweep(project, store)
     return screened
 
 
 def promoted_by_screening(
     project: Project,
     store: EvidenceStore,
-    run: Callable[[Sequence[TrialSpec]], object],
+    run: RunStage,
     *,
     variants: Sequence[DesignVariant] | None = None,
 ) -> tuple[Sequence[DesignVariant], ScreeningResult | None]:

@@ -27,12 +27,10 @@ class TrialTally:
     Attributes:
         counts: Numbers that were ``run`` and ``kept``, ``succeeded`` and ``failed``.
         failures: Number of trials by kind and phase of failure.
-        run_now: The variants of the trials that were run.
     """
 
     counts: Counter[str] = field(default_factory=Counter)
     failures: Counter[str] = field(default_factory=Counter)
-    run_now: set[int] = field(default_factory=set)
 
     def add(self, trial: FinishedTrial) -> None:
         """Count a trial.
@@ -42,8 +40,6 @@ class TrialTally:
         """
         record = trial.record
         self.counts["run" if trial.fresh else "kept"] += 1
-        if trial.fresh:
-            self.run_now.add(record.variant)
         self.counts["succeeded" if record.success else "failed"] += 1
         if record.failure is not None and record.failed_phase is not None:
             self.failures[f"{record.failure.value} at {record.failed_phase}"] += 1

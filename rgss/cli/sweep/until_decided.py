@@ -38,7 +38,7 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
         EvidenceError: Trials that it needs could not be run.
         TradeoffError: The study decides in a way that has no sequential rule.
     """
-    from rgss.assessment import record_after_sweep
+    from rgss.assessment import record_after_sweep, record_before_sweep
     from rgss.cli.main import CLEAN, RUN_FAILED
     from rgss.cli.output import print_json, shown_path
     from rgss.cli.sweep.backend import execution_backend
@@ -60,13 +60,11 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
     with execution_backend(options, limits) as backend, EvidenceStore.open(project.evidence, label=label) as store:
         runner = SweepRunner.of(options, project, store, backend)
 
-        run_now: set[int] = set()
-
         def run(specs: Sequence[TrialSpec]) -> None:
-            finished = runner.run(specs)
-            run_now.update(finished.tally.run_now)
-            lost.extend(finished.result.lost)
+            lost.extend(runner.run(specs).result.lost)
 
+        if project.study.is_sequential:
+            record_before_sweep(project, store)
         try:
             variants, screened = promoted_by_screening(project, store, run)
             most = len(variants) * rule.cap if rule.budget is None else rule.budget
@@ -81,7 +79,7 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
             print(f"rgss: {error}", file=sys.stderr)
             return RUN_FAILED
         if project.study.is_sequential:
-            record_after_sweep(project, store, run_now)
+            record_after_sweep(project, store)
     if options.json:
         document = _as_json(found)
         print_json(document if screened is None else {**document, "screening": screening_to_json(screened)})

@@ -97,9 +97,8 @@ def run(options: argparse.Namespace) -> int:
     with execution_backend(options, limits) as backend, EvidenceStore.open(project.evidence, label=label) as store:
         runner = SweepRunner.of(options, project, store, backend)
 
-        def stage(specs: Sequence[TrialSpec]) -> set[int]:
+        def stage(specs: Sequence[TrialSpec]) -> None:
             stages.append(runner.run(specs))
-            return stages[-1].tally.run_now
 
         screened = sweep_in_stages(project, variants, store, stage)
     _print_result(stages[-1], screened, label, as_json=options.json)
