@@ -6,6 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.cli.evidence.collection import collect
+    from rgss.cli.evidence.merging import merge_evidence
     from rgss.cli.evidence.place import EvidencePlace
     from rgss.cli.evidence.summary import summarise
     from rgss.cli.evidence.verification import verify_evidence

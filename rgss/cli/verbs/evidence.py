@@ -1,4 +1,4 @@
-"""``rgss evidence``: contents, verification, export and garbage collection of the store."""
+"""``rgss evidence``: contents, verification, export, merge and garbage collection of the store."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rgss.evidence.records import StoredTrial
 
 
-HELP = "show the contents of the evidence store, verify it, export it or clean it up"
+HELP = "show the contents of the evidence store, verify it, export it, merge another one or clean it up"
 EXAMPLE = "rgss evidence export trials.parquet"
 MORE_EXAMPLES = (
     ("rgss evidence", "what is stored"),
@@ -43,6 +43,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_replicates(export)
     add_fidelity(export)
+    merged = _action(
+        actions, "merge", "../copy/.rgss/evidence.sqlite", "add the trials and pieces of another store to this one"
+    )
+    merged.add_argument("file", type=Path, metavar="FILE", help="the other store, which is not changed")
     gc = _action(
         actions,
         "gc",
@@ -72,13 +76,19 @@ def _action(actions: Any, name: str, words: str, text: str) -> argparse.Argument
 
 def run(options: argparse.Namespace) -> int:
     """Carry out the action; a summary without one."""
-    from rgss.cli.evidence import EvidencePlace, collect, summarise, verify_evidence
+    from rgss.cli.evidence import EvidencePlace, collect, merge_evidence, summarise, verify_evidence
     from rgss.cli.output import shown_path
     from rgss.studies import EVIDENCE, find_project
 
     folder = find_project(options.project)
     store = EvidencePlace(folder=folder, path=folder / EVIDENCE, label=shown_path(folder / EVIDENCE))
-    actions = {None: summarise, "verify": verify_evidence, "export": _export, "gc": collect}
+    actions = {
+        None: summarise,
+        "verify": verify_evidence,
+        "export": _export,
+        "merge": merge_evidence,
+        "gc": collect,
+    }
     return actions[options.action](options, store)
 
 

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from rgss.evidence.store.contents import Contents, TrialName, contents_of, trial_names
     from rgss.evidence.store.exporting import export_trials, require_exportable
     from rgss.evidence.store.locking import folder_lock
+    from rgss.evidence.store.merging import merge
     from rgss.evidence.store.observation import observed, state_of
     from rgss.evidence.store.store import EvidenceStore
     from rgss.evidence.store.verification import Verification, remove_damaged_rows, salvage, verify

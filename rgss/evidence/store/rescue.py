@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sqlite3
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
@@ -38,12 +39,17 @@ class Loss(Enum):
     """Way in which an open store was lost; the value is what to do before the saved rows are used."""
 
     BROKEN = "remove the rest of {name}, rename {saved} to {name} and run the sweep again"
-    REPLACED = "{name} is another store now: keep one of the two under this name, and run the sweep again"
-    LOCKED = "when the other process has ended, replace {name} by {saved}, and run the sweep again"
+    REPLACED = "{name} is another store now: 'rgss evidence merge {place}' adds the saved rows to it"
+    LOCKED = "when the other process has ended, 'rgss evidence merge {place}' adds them to {name}"
 
 
 def rescued(
-    connection: sqlite3.Connection, path: Path, pending: Sequence[tuple[Table[Any], Row]], *, loss: Loss = Loss.BROKEN
+    connection: sqlite3.Connection,
+    path: Path,
+    pending: Sequence[tuple[Table[Any], Row]],
+    *,
+    label: str,
+    loss: Loss = Loss.BROKEN,
 ) -> Rescue:
     """Save the readable rows of an open store in a new file beside it.
 
@@ -54,6 +60,7 @@ def rescued(
         connection: The open store.
         path: Its path.
         pending: Rows that were to be inserted.
+        label: Its name in messages, such as its path from the current folder.
         loss: Way in which it was lost.
     """
     try:
@@ -75,7 +82,9 @@ def rescued(
         return Rescue(text="nothing of it could be read any more", hint="run the sweep again")
     return Rescue(
         text=f"{rows} readable rows are saved in {target.name} beside it",
-        hint=loss.value.format(name=path.name, saved=target.name),
+        hint=loss.value.format(
+            name=path.name, saved=target.name, place=shlex.quote(str(Path(label).with_name(target.name)))
+        ),
         rows=rows,
     )
 

@@ -153,13 +153,14 @@ class EvidenceWriter:
         """Error for a lost store, raised after the rescue of its rows."""
         if self._identity.is_replaced:
             loss = Loss.REPLACED
-        saved = rescued(self._database.connection, self._identity.path, pending, loss=loss)
+        name = self._database.name
+        saved = rescued(self._database.connection, self._identity.path, pending, label=name, loss=loss)
         if not (saved.rows or pending) and self._identity.moved_to is not None:
             saved = Rescue(text="everything that was finished is in it", hint="run the sweep again there")
         if saved.rows:
             self._identity.discard_orphaned_logs()
         self._lost = StorageError(
-            f"the evidence store {self._database.name} {problem} while it was in use; {saved.text}", hint=saved.hint
+            f"the evidence store {name} {problem} while it was in use; {saved.text}", hint=saved.hint
         )
         return self._lost
 

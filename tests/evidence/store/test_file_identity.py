@@ -12,7 +12,9 @@ from rgss.evidence import EvidenceStore, Piece, PieceKind, trial_key
 from rgss.evidence.store.verification import verify
 
 HINT = "(remove the rest of evidence.sqlite, rename {0} to evidence.sqlite and run the sweep again)"
-REPLACED = "(evidence.sqlite is another store now: keep one of the two under this name, and run the sweep again)"
+REPLACED = (
+    "(evidence.sqlite is another store now: 'rgss evidence merge evidence.sqlite.rescued' adds the saved rows to it)"
+)
 
 
 @pytest.fixture
@@ -204,8 +206,8 @@ def test_what_is_finished_while_another_process_locks_the_store_is_saved(place, 
     store.close()
     assert str(caught.value) == (
         "the evidence store it was locked by another process while it was in use; 4 readable rows are saved in "
-        "evidence.sqlite.rescued beside it (when the other process has ended, replace evidence.sqlite by "
-        "evidence.sqlite.rescued, and run the sweep again)"
+        "evidence.sqlite.rescued beside it (when the other process has ended, 'rgss evidence merge "
+        "evidence.sqlite.rescued' adds them to evidence.sqlite)"
     )
     assert verify(place, label="it").damages == ()
     with EvidenceStore.open(place.with_name("evidence.sqlite.rescued")) as rescued:
