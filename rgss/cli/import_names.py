@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping
 
     from rgss.exchange import ForeignNames, ImportDefaults, Part
 
 KINDS = ("stakeholder", "system")
+_Meaning = TypeVar("_Meaning")
 
 
 class ImportNames(NamedTuple):
@@ -21,11 +23,13 @@ class ImportNames(NamedTuple):
         assumed: Defaults for elements whose part or attributes the file does not state.
         names: The mapped names.
         typed: The names that were mapped on the command line.
+        typed_relations: The types of relations that were.
     """
 
     assumed: ImportDefaults
     names: ForeignNames
     typed: tuple[str, ...]
+    typed_relations: tuple[str, ...]
 
 
 def add_names(parser: argparse.ArgumentParser) -> None:
@@ -55,14 +59,24 @@ def add_names(parser: argparse.ArgumentParser) -> None:
         help="a value of the file for an attribute, and what it is here",
     )
     parser.add_argument(
-        "--mapping", type=Path, metavar="FILE", help="YAML file with such names, values, types and defaults"
+        "--map-relation",
+        dest="mapped_relations",
+        action="append",
+        default=[],
+        metavar="TYPE=LINK",
+        help="what relations of a type of a ReqIF file state: an attribute of their source, such as derived_from, or "
+        "of their target (target.derived_from); TYPE= leaves them out",
     )
+    parser.add_argument(
+        "--id-prefix", metavar="TEXT", help="text before ids that do not begin with a letter: SYS- makes 12 to SYS-12"
+    )
+    parser.add_argument("--mapping", type=Path, metavar="FILE", help="YAML file with all of these")
     parser.add_argument(
         "--default",
         action="append",
         default=[],
         metavar="NAME=VALUE",
-        help="an attribute of new elements that the file does not state",
+        help="an attribute that elements have if the file does not state it",
     )
 
 
@@ -79,18 +93,59 @@ def import_names(options: argparse.Namespace) -> ImportNames:
     if options.mapping is not None:
         file = read_mapping(options.mapping)
     part, types = _kinds(options)
-    typed = _attributes(options)
+    typed, relations = _attributes(options), _relations(options)
     # A name that is mapped in both is that of the command line.
-    folded = {key.casefold() for key in typed}
-    others = {key: name for key, name in file.names.attributes.items() if key.casefold() not in folded}
+    others = _unless_typed(file.names.attributes, typed)
+    other_relations = _unless_typed(file.names.relations, relations)
     values = {name: dict(known) for name, known in file.names.values.items()}
     for name, value, ours in _values(options):
         values.setdefault(name, {})[value] = ours
     return ImportNames(
         assumed=ImportDefaults(part=part, defaults={**file.defaults, **_defaults(options)}),
-        names=ForeignNames(attributes={**typed, **others}, values=values, types={**file.names.types, **types}),
+        names=ForeignNames(
+            attributes={**typed, **others},
+            values=values,
+            types={**file.names.types, **types},
+            relations={**relations, **other_relations},
+            id_prefix=_prefix(options) if options.id_prefix is not None else file.names.id_prefix,
+        ),
         typed=tuple(typed),
+        typed_relations=tuple(relations),
     )
+
+
+def _unless_typed(of_file: Mapping[str, _Meaning], typed: Collection[str]) -> dict[str, _Meaning]:
+    """The names of the file that the command line does not map."""
+    folded = {key.casefold() for key in typed}
+    return {key: meaning for key, meaning in of_file.items() if key.casefold() not in folded}
+
+
+def _prefix(options: argparse.Namespace) -> str:
+    from rgss.documents import IDENTIFIER_PATTERN
+    from rgss.errors import DefinitionError
+
+    text = str(options.id_prefix)
+    if text and not re.fullmatch(IDENTIFIER_PATTERN.removesuffix("$"), text):
+        message = f"--id-prefix {text!r}: an id is a letter, then letters, digits, and _ . -"
+        raise DefinitionError(message, hint="such as --id-prefix SYS-")
+    return text
+
+
+def _relations(options: argparse.Namespace) -> dict[str, tuple[str, ...]]:
+    from rgss.errors import DefinitionError
+    from rgss.exchange import RELATION_MEANINGS, unknown_meaning_hint
+
+    found: dict[str, tuple[str, ...]] = {}
+    for each in options.mapped_relations:
+        type_name, equals, meaning = each.rpartition("=")
+        if not equals or not type_name.strip():
+            hint = "such as --map-relation 'Satisfies=derived_from'"
+            raise DefinitionError(f"--map-relation {each!r} is not TYPE=LINK", hint=hint)
+        if meaning and meaning not in RELATION_MEANINGS:
+            message = f"--map-relation {each!r}: {meaning!r} is not what a relation may state"
+            raise DefinitionError(message, hint=unknown_meaning_hint(meaning))
+        found[type_name] = (*found.get(type_name, ()), meaning) if meaning else ()
+    return found
 
 
 def _kinds(options: argparse.Namespace) -> tuple[Part | None, Mapping[str, Part]]:
@@ -148,14 +203,13 @@ def _values(options: argparse.Namespace) -> list[tuple[str, str, str]]:
 
 def _defaults(options: argparse.Namespace) -> dict[str, str]:
     from rgss.errors import DefinitionError
-    from rgss.exchange import ATTRIBUTES
+    from rgss.exchange import DEFAULT_NAMES
 
-    names = {each.name for attributes in ATTRIBUTES.values() for each in attributes} - {"id"}
     defaults: dict[str, str] = {}
     for each in options.default:
         name, equals, value = each.partition("=")
-        if not equals or name not in names:
-            known = ", ".join(sorted(names))
+        if not equals or name not in DEFAULT_NAMES:
+            known = ", ".join(sorted(DEFAULT_NAMES))
             raise DefinitionError(f"--default {each!r} is not NAME=VALUE with a known name", hint=f"names: {known}")
         defaults[name] = value
     return defaults

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 
-from rgss.documents.project_sources import project_source, source_with_another_name
+from rgss.documents.project_sources import new_project_source, project_source, source_with_another_name
 from rgss.documents.running_processes import is_running
 from rgss.errors import DefinitionError, RgssError, StorageError
 
@@ -50,15 +50,16 @@ class _Target:
 
 
 @contextmanager
-def replaced_file(path: Path, *, replace_source: bool = False) -> Iterator[Path]:
+def replaced_file(path: Path, *, replace_source: bool = False, new_source: bool = False) -> Iterator[Path]:
     """Context of a temporary file, whose content replaces that of the path unless the block raises.
 
     Args:
         path: The output file.
         replace_source: True to allow replacing a source file of a project, for commands with that purpose.
+        new_source: True to allow a new source file, which replaces none.
 
     Raises:
-        SourceOverwriteError: The file is a source of a project.
+        SourceOverwriteError: The file is a source of a project, or would be one.
         OSError: The file cannot be written.
     """
     try:
@@ -66,7 +67,7 @@ def replaced_file(path: Path, *, replace_source: bool = False) -> Iterator[Path]
     except ValueError as error:
         raise OSError(errno.EINVAL, str(error), str(path)) from error
     if not replace_source:
-        _refuse_source(path, target)
+        _refuse_source(path, target, new_source=new_source)
     writer = _streamed if target.in_place else _swapped
     try:
         with writer(target) as part:
@@ -81,21 +82,22 @@ def replaced_file(path: Path, *, replace_source: bool = False) -> Iterator[Path]
         raise
 
 
-def write_output(path: Path, content: bytes, *, replace_source: bool = False) -> None:
+def write_output(path: Path, content: bytes, *, replace_source: bool = False, new_source: bool = False) -> None:
     """Write an output file atomically.
 
     Args:
         path: The output file.
         content: Its content.
         replace_source: True to allow replacing a source file of a project.
+        new_source: True to allow a new source file, which replaces none.
 
     Raises:
-        SourceOverwriteError: The file is a source of a project.
+        SourceOverwriteError: The file is a source of a project, or would be one.
         StorageError: The disk is full or fails.
         DefinitionError: The file cannot be written.
     """
     try:
-        with replaced_file(path, replace_source=replace_source) as part:
+        with replaced_file(path, replace_source=replace_source, new_source=new_source) as part:
             part.write_bytes(content)
     except OSError as error:
         raise unwritable(path, error) from error
@@ -114,10 +116,10 @@ def is_disk_failure(error: OSError) -> bool:
 
 
 def require_no_source(path: Path) -> None:
-    """Require, before any work, that an output does not overwrite a source file.
+    """Require, before any work, that an output does not overwrite a source file, and would not be one.
 
     Raises:
-        SourceOverwriteError: The file is a source of a project.
+        SourceOverwriteError: The file is a source of a project, or would be one.
     """
     with suppress(OSError, ValueError):
         _refuse_source(path, _target(path))
@@ -168,16 +170,25 @@ def remove_abandoned_parts(folder: Path) -> None:
                     part.unlink()
 
 
-def _refuse_source(path: Path, target: _Target) -> None:
-    if target.status is None or target.in_place:
+def _refuse_source(path: Path, target: _Target, *, new_source: bool = False) -> None:
+    if target.in_place:
+        return
+    if target.status is None:
+        source = "" if new_source else new_project_source(target.path)
+        if source:
+            message = f"{source} would be read as a source of the project, and is not written"
+            raise SourceOverwriteError(message, hint="name a file outside of the folders of its sources")
         return
     source = project_source(target.path) or source_with_another_name(target.status)
     if source:
         is_itself = target.path.absolute() == path.absolute() and target.path.name == Path(source).name
         through = "" if is_itself else f" (through the link {str(path)!r})"
+        removable = (
+            "" if not new_source and new_project_source(target.path) else "; to replace this one, remove it first"
+        )
         raise SourceOverwriteError(
             f"{source} is a source of the project and is not overwritten{through}",
-            hint="name another file; to replace this one, remove it first",
+            hint=f"name another file{removable}",
         )
 
 

@@ -10,6 +10,7 @@ DATA_FOLDERS = ("requirements", "designs", "scenes", "studies")
 
 _STATE = frozenset({"evidence.sqlite", "evidence.sqlite-wal", "evidence.sqlite-shm", "verdicts.json", "import.json"})
 _STATE_FOLDER, _TESTS = ".rgss", "tests"
+_YAML = (".yaml", ".yml")
 
 
 def project_source(path: Path) -> str:
@@ -32,6 +33,19 @@ def project_source(path: Path) -> str:
         if first in DATA_FOLDERS or is_test or is_state:
             return within.as_posix()
     return ""
+
+
+def new_project_source(path: Path) -> str:
+    """The path, within its project, of a file that would be a source once it is written; empty for any other file.
+
+    In the data folders only YAML is read without being named by another file.
+
+    Args:
+        path: A file that does not exist, without symbolic links.
+    """
+    name = project_source(path)
+    is_data = name.partition("/")[0] in DATA_FOLDERS
+    return "" if is_data and path.suffix.lower() not in _YAML else name
 
 
 def source_with_another_name(status: os.stat_result) -> str:

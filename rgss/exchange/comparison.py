@@ -66,7 +66,7 @@ class ImportDefaults:
 
     Attributes:
         part: The part of such elements.
-        defaults: Attributes of new elements, by name.
+        defaults: Attributes of new elements, and of others whose cell in the file is empty, by name.
     """
 
     part: Part | None
@@ -150,18 +150,19 @@ def _change(own: Row | None, foreign: Content, row: Row, assumed: ImportDefaults
         return [_at(foreign, row, "id", "part", f"{row.id!r} is of part {here!r} in the project, not {part.value!r}")]
     names = {attribute.name for attribute in ATTRIBUTES[part]}
     base: Mapping[str, str] = own.cells if own is not None else _for_new(assumed, names)
-    stated = {name: cell for name, cell in row.cells.items() if name in names}
-    # A default says what an element has if the file does not state it; that of an element here is its value.
-    stated = {name: cell for name, cell in stated.items() if cell.strip() or name not in assumed.defaults}
+    # An empty cell says that an element has the default, whatever it has here: the result follows from the file alone.
+    stated = {
+        name: cell if cell.strip() else assumed.defaults.get(name, cell)
+        for name, cell in row.cells.items()
+        if name in names
+    }
     cells = {**base, **stated}
     entry, findings = _entry(part, cells, foreign, row)
     if findings:
         return findings
     element, problems = validated(entry, MODELS[part])
     if element is None:
-        return [
-            _value_problem(part, foreign, row, location, message, new=own is None) for location, message in problems
-        ]
+        return [_value_problem(part, foreign, row, location, message) for location, message in problems]
     after = cells_of(part, as_written(element, entry))
     before = own.cells if own is not None else dict.fromkeys(after, "")
     return ElementChange(
@@ -218,31 +219,28 @@ def _dangling(known: set[str], foreign: Content) -> Iterator[Finding]:
                     yield _at(foreign, row, name, "unknown-id", message, "correct the id, or add the element")
 
 
-def _value_problem(
-    part: Part, foreign: Content, row: Row, location: Sequence[str | int], message: str, *, new: bool
-) -> Finding:
+def _value_problem(part: Part, foreign: Content, row: Row, location: Sequence[str | int], message: str) -> Finding:
     keys = tuple(key for key in location if isinstance(key, str))
     name = next((each.name for each in ATTRIBUTES[part] if each.path == keys[: len(each.path)]), "id")
     if name == "id" and keys and keys[0] != "id":
         name = next((each.name for each in ATTRIBUTES[part] if each.path[0] == keys[0]), "id")
     hint = ""
     if message == "is missing":
-        hint = _ways_to_fill(foreign, row, name, new=new)
+        hint = _ways_to_fill(foreign, row, name)
+    elif name == "id" and not row.id[:1].isalpha():
+        hint = "give --id-prefix, such as --id-prefix SYS-"
     elif keys and (attribute := next((each for each in ATTRIBUTES[part] if each.name == name), None)) is not None:
         hint = choice_hint(attribute, row.cells.get(name, ""))
     label = f"{row.id}: {name}" if keys else row.id
     return _at(foreign, row, name, "value", f"{label}: {message}", hint)
 
 
-def _ways_to_fill(foreign: Content, row: Row, name: str, *, new: bool) -> str:
+def _ways_to_fill(foreign: Content, row: Row, name: str) -> str:
     ways = ["fill it in"]
     likely = next((each for each in foreign.names if likely_attribute(each) == name), None)
     if likely is not None and name not in row.cells:
         ways.append(f"give {option_for(likely)}")
-    # A default is for elements that are new; an empty cell of another would take a value away.
-    if new:
-        ways.append(f"give --default {name}=…")
-    return ", or ".join(ways)
+    return ", or ".join([*ways, f"give --default {name}=…"])
 
 
 def _at(foreign: Content, row: Row, name: str, rule: str, message: str, hint: str = "") -> Finding:

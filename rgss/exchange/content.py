@@ -55,6 +55,7 @@ class Content:
         notes: Content of the file that is not imported, since it has no counterpart here.
         losses: Content of elements that is not imported, though it may change their meaning.
         names: The names of all attributes in the file, as it has them.
+        relations: The names of all types of relations in the file.
         file: The file's name.
     """
 
@@ -65,6 +66,7 @@ class Content:
     notes: tuple[str, ...] = ()
     losses: tuple[Finding, ...] = ()
     names: tuple[str, ...] = ()
+    relations: tuple[str, ...] = ()
     file: str = ""
 
 

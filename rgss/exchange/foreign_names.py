@@ -27,6 +27,14 @@ LINKED: frozenset[str] = frozenset(
 )
 """The attributes that name other elements."""
 
+OF_TARGET = "target."
+"""Prefix of the attribute that a relation states of its target, which then names the source."""
+
+RELATION_MEANINGS: tuple[str, ...] = tuple(
+    f"{end}{name}" for end in ("", OF_TARGET) for name in sorted(LINKED - {"measure"})
+)
+"""What a relation of another tool may be mapped to; measures are no objects of other tools."""
+
 # Names of the ReqIF Implementation Guide, of StrictDoc and of Doorstop.
 _SYNONYMS: Mapping[str, str] = MappingProxyType(
     {"foreignid": "id", "uid": "id", "statement": "text", "title": "name", "chaptername": "name"}
@@ -56,6 +64,7 @@ _LIKELY: Mapping[str, str] = MappingProxyType(
 )
 _LEAST_LIKENESS = 0.8
 _BETWEEN_IDS = re.compile(r"[;,\n]")
+_BEGINS_WITH_LETTER = re.compile(r"[A-Za-z]")
 _EMPTY: Mapping[str, str] = MappingProxyType({})
 _Value = TypeVar("_Value")
 
@@ -74,27 +83,34 @@ class ForeignNames:
         attributes: The attribute of rgss for each name; empty for an attribute that is left out without a note.
         values: The value of rgss for each value of the file, by the attribute of rgss.
         types: The part of the elements of each type.
+        relations: The links that a relation of each type may be, of which the first that fits its ends counts, such as
+            ``derived_from`` or ``target.satisfied_by``; none for relations that are left out without a note.
+        id_prefix: Text before ids that do not begin with a letter, which ids of rgss do.
     """
 
     attributes: Mapping[str, str] = field(default_factory=lambda: _EMPTY)
     values: Mapping[str, Mapping[str, str]] = field(default_factory=lambda: MappingProxyType({}))
     types: Mapping[str, Part] = field(default_factory=lambda: MappingProxyType({}))
+    relations: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: MappingProxyType({}))
+    id_prefix: str = ""
     _folded_attributes: Mapping[str, str] = field(init=False, repr=False, compare=False)
     _folded_types: Mapping[str, Part] = field(init=False, repr=False, compare=False)
+    _folded_relations: Mapping[str, tuple[str, ...]] = field(init=False, repr=False, compare=False)
     _folded_values: Mapping[str, Mapping[str, str]] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         """Fold the names once: they are compared for each element of a file."""
         object.__setattr__(self, "_folded_attributes", _with_folded_keys(self.attributes))
         object.__setattr__(self, "_folded_types", _with_folded_keys(self.types))
+        object.__setattr__(self, "_folded_relations", _with_folded_keys(self.relations))
         object.__setattr__(
             self, "_folded_values", {name: _with_folded_keys(values) for name, values in self.values.items()}
         )
 
     @property
     def is_given(self) -> bool:
-        """True if the user has mapped a name or a type: the file is of another tool."""
-        return bool(self.attributes or self.types)
+        """True if the user has mapped a name, a type or ids: the file is of another tool."""
+        return bool(self.attributes or self.types or self.id_prefix)
 
     def target(self, long: str) -> str | None:
         """The attribute for which a name was mapped; empty if it is left out, None if it is not mapped."""
@@ -103,6 +119,34 @@ class ForeignNames:
     def part_of_type(self, type_name: str) -> Part | None:
         """The part for which a type was mapped."""
         return self._folded_types.get(_folded(type_name))
+
+    def links_of(self, relation_type: str) -> tuple[str, ...] | None:
+        """The links for which a type of relations was mapped; none if it is left out, None if it is not mapped."""
+        return self._folded_relations.get(_folded(relation_type))
+
+    def own_id(self, text: str) -> str:
+        """The id in rgss for one of the file.
+
+        An id that begins with a letter is unchanged, so that those of an export can be imported again.
+
+        Args:
+            text: The id; empty if there is none.
+        """
+        return text if not text or _BEGINS_WITH_LETTER.match(text) else f"{self.id_prefix}{text}"
+
+    def own_ids(self, name: str, text: str) -> str:
+        """Ids as rgss writes them, from a text that separates them by commas, semicolons or lines.
+
+        Args:
+            name: The attribute of rgss that has them.
+            text: The text of the file, or the value to which it is mapped.
+        """
+        ids = [each.strip() for each in _BETWEEN_IDS.split(text) if each.strip()]
+        if name != "measure":
+            known = self._folded_values.get(name, _EMPTY)
+            # A mapped one may be of another module of the tool, which counts its objects anew.
+            ids = [known.get(_folded(each), "") or self.own_id(each) for each in ids]
+        return joined(list(dict.fromkeys(ids)))
 
     def stated_part(self, text: str) -> Part | None:
         """The part that a value states, by its own name or by the mapping."""
@@ -173,11 +217,6 @@ def likely_attribute(long: str, names: Iterable[str] = ATTRIBUTE_NAMES) -> str:
     named = _LIKELY.get(plain, plain)
     near = [named] if named in known else difflib.get_close_matches(plain, known, n=1, cutoff=_LEAST_LIKENESS)
     return near[0] if near else ""
-
-
-def ids_text(text: str) -> str:
-    """Ids as rgss writes them, from a text of another tool that separates them by commas, semicolons or lines."""
-    return joined(list(dict.fromkeys(filter(None, (each.strip() for each in _BETWEEN_IDS.split(text))))))
 
 
 def with_values_mapped(foreign: Content, names: ForeignNames) -> Content:

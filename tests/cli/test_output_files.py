@@ -43,7 +43,25 @@ def test_a_source_of_the_project_is_refused_in_one_line(rgss, project, words):
 
     assert told.status == 2
     assert "is a source of the project and is not overwritten" in told.complaint
-    assert told.complaint.endswith("(name another file; to replace this one, remove it first)")
+    removable = "" if words[-1].endswith(".yaml") else "; to replace this one, remove it first"
+    assert told.complaint.endswith(f"(name another file{removable})")
+    assert {path: path.read_bytes() for path in project.rglob("*") if path.is_file()} == before
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("export", "sysml", "-o", "{}/requirements/architecture/model.yaml"),
+        ("export", "reqif", "-o", "{}/.rgss/import.json"),
+    ],
+    ids=lambda words: words[1],
+)
+def test_a_new_file_that_would_be_a_source_is_refused_in_one_line(rgss, project, words):
+    before = {path: path.read_bytes() for path in project.rglob("*") if path.is_file()}
+    told = rgss(*[word.format(project) for word in words], "--project", project)
+
+    assert told.status == 2
+    assert "would be read as a source of the project, and is not written" in told.complaint
     assert {path: path.read_bytes() for path in project.rglob("*") if path.is_file()} == before
 
 

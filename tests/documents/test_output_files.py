@@ -288,7 +288,8 @@ def test_a_source_of_a_project_is_refused(project, tmp_path, name, linked):
         with pytest.raises(SourceOverwriteError) as told:
             refusing(output)
         assert told.value.message.startswith(f"{name} is a source of the project and is not overwritten")
-        assert told.value.hint == "name another file; to replace this one, remove it first"
+        may_be_removed = not name.endswith(".yaml") and name.startswith(("designs", "scenes", "studies"))
+        assert told.value.hint == "name another file" + "; to replace this one, remove it first" * may_be_removed
     assert source.read_bytes() == b"old"
     assert not list(project.rglob("*.part"))
 
@@ -303,6 +304,30 @@ def test_what_no_project_reads_is_no_source(project, name):
         write_output(project / name, b"newer")
 
     assert (project / name).exists()
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["requirements/model.yaml", "studies/a/b.yml", "tests/test_new.py", ".rgss/import.json", ".rgss/verdicts.json"],
+)
+@pytest.mark.parametrize("linked", [False, True], ids=["named", "linked"])
+def test_a_new_file_that_the_project_would_read_is_refused(project, tmp_path, name, linked):
+    source = project / name
+    source.parent.mkdir(exist_ok=True, parents=True)
+    output = tmp_path / "link" if linked else source
+    if linked:
+        output.symlink_to(source)
+
+    for refusing in (why_not_writable, require_no_source, lambda path: write_output(path, b"new")):
+        with pytest.raises(SourceOverwriteError) as told:
+            refusing(output)
+        assert told.value.message == f"{name} would be read as a source of the project, and is not written"
+    assert not [path for path in project.rglob("*") if path.is_file()]
+
+    write_output(output, b"new", new_source=True)
+    assert source.read_bytes() == b"new"
+    with pytest.raises(SourceOverwriteError, match="is not overwritten"):
+        write_output(output, b"newer", new_source=True)
 
 
 def test_a_folder_called_requirements_makes_no_project(tmp_path):

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from jsonschema import Draft7Validator
 
+from rgss.documents import read_document
 from rgss.errors import DocumentError
-from rgss.exchange import Part, read_mapping
+from rgss.exchange import MAPPING_KIND, Part, read_mapping
 
 DOORS = """\
 # Names of the supplier's DOORS.
@@ -51,7 +53,7 @@ def test_an_empty_mapping_maps_nothing(read):
             "3:16: error: 'txt' is not an attribute of rgss (did you mean 'text'?)",
         ),
         ("priority:", "prio:", "6:3: error: 'prio' is not an attribute of rgss (did you mean 'priority'?)"),
-        ("owner:", "boss:", "8:12: error: 'boss' is not an attribute of rgss (attributes: part, id, "),
+        ("owner:", "boss:", "8:12: error: 'boss' is not an attribute of rgss (attributes: kind, parent, text, "),
         ("stakeholder", "customer", "'customer' is not one of 'stakeholder', 'system', 'block' or 'behaviour'"),
         ("types:", "kinds:", "unknown key 'kinds'"),
         ("Object Text: text", "Object Text: [text]", "a text is expected"),
@@ -62,3 +64,61 @@ def test_a_mapping_that_is_wrong_is_one_line(read, old, new, complaint):
         read(DOORS.replace(old, new))
     (finding,) = caught.value.findings
     assert complaint in str(finding)
+
+
+RELATIONS = """\
+relations:
+  Fulfils: derived_from
+  Decomposed to: [target.derived_from, target.satisfied_by]
+  See also:
+id_prefix: SYS-
+"""
+
+
+def test_a_mapping_has_relations_and_a_prefix(read):
+    names = read(RELATIONS).names
+    assert names.links_of("fulfils") == ("derived_from",)
+    assert names.links_of("Decomposed  to") == ("target.derived_from", "target.satisfied_by")
+    assert names.links_of("See also") == ()
+    assert names.links_of("Other") is None
+    assert [names.own_id(text) for text in ("12", "SYS-12", "REQ 1", "")] == ["SYS-12", "SYS-12", "REQ 1", ""]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "complaint"),
+    [
+        (": derived_from", ": derives", "2:12: error: 'derives' is not what a relation may state (did you mean "),
+        ("target.satisfied_by", "measure", "3:40: error: 'measure' is not what a relation may state (one of actors, "),
+        ("SYS-", "1-", "5:12: error: "),
+        ("id_prefix: SYS-", "defaults: {id: a}", "5:12: error: id has no default (did you mean "),
+    ],
+)
+def test_relations_and_a_prefix_that_are_wrong_are_one_line(read, old, new, complaint):
+    with pytest.raises(DocumentError) as caught:
+        read(RELATIONS.replace(old, new))
+    (finding,) = caught.value.findings
+    assert complaint in str(finding)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_one"),
+    [
+        (DOORS + RELATIONS, True),
+        ("{}", True),
+        ("attributes: {Object Text: txt}", False),
+        ("values: {prio: {a: high}}", False),
+        ("types: {Need: customer}", False),
+        ("relations: {Fulfils: derives}", False),
+        ("relations: {Fulfils: [derives]}", False),
+        ("id_prefix: 1-", False),
+        ("defaults: {part: system}", False),
+        ("surprise: 1", False),
+    ],
+)
+def test_its_schema_takes_what_the_reader_takes(read, tmp_path, text, is_one):
+    try:
+        taken = bool(read(text))
+    except DocumentError:
+        taken = False
+    data = read_document(tmp_path / "doors.yaml").data
+    assert (taken, Draft7Validator(MAPPING_KIND.schema()).is_valid(data)) == (is_one, is_one)

@@ -89,7 +89,8 @@ def _identify(options: argparse.Namespace) -> int:
     else:
         _show(recording, fits)
     if options.calibration is not None:
-        write_output(options.calibration, calibration_text(recording, fits, file=options.file.name).encode())
+        text = calibration_text(recording, fits, file=options.file.name)
+        write_output(options.calibration, text.encode(), new_source=True)
         if not options.json:
             announce(f"calibration written to {options.calibration}", options.calibration)
     if options.plots is not None:

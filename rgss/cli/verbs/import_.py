@@ -143,7 +143,23 @@ def _read(project: Project, options: argparse.Namespace, given: ImportNames) -> 
     absent = names.unknown(foreign.names)
     if wrong := next((name for name in given.typed if name in absent), None):
         raise DefinitionError(f"--map: the file has no {wrong!r}", hint=f"it has {', '.join(map(repr, foreign.names))}")
+    _require_relations(foreign, given)
     return with_values_mapped(foreign, names)
+
+
+def _require_relations(foreign: Content, given: ImportNames) -> None:
+    """Require that the file has the types of relations that are mapped on the command line.
+
+    Raises:
+        DefinitionError: It lacks one.
+    """
+    from rgss.errors import DefinitionError
+
+    present = {" ".join(each.split()).casefold() for each in foreign.relations}
+    for name in given.typed_relations:
+        if " ".join(name.split()).casefold() not in present:
+            known = ", ".join(map(repr, foreign.relations)) or "none"
+            raise DefinitionError(f"--map-relation: the file has no relations {name!r}", hint=f"it has {known}")
 
 
 def _check(copy: Path, options: argparse.Namespace, changes: Sequence[ElementChange], before: Content) -> None:

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rgss.studies import DocumentKind
 
 HELP = "write JSON Schemas of the YAML documents, for completion and checks in editors"
 FITTED = False
@@ -32,6 +36,7 @@ DOCUMENTS = (
     "vacuum-gripper",
     "linkage-gripper",
     "study",
+    "mapping",
 )
 
 
@@ -53,7 +58,6 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.main import CLEAN
     from rgss.cli.output import print_json, print_table
     from rgss.errors import DefinitionError
-    from rgss.studies import DOCUMENT_KINDS, document_kind
 
     if options.headers and (options.out is None or options.document is not None):
         raise DefinitionError("--headers needs --out and no DOCUMENT", hint="rgss schema --out schemas --headers")
@@ -62,23 +66,33 @@ def run(options: argparse.Namespace) -> int:
     if options.out is not None:
         return _write(options)
     if options.document is not None:
-        print_json(document_kind(options.document).schema())
+        print_json(_kind(options.document).schema())
     elif options.json:
-        print_json(
-            {"documents": [{"id": kind.id, "title": kind.title, "place": kind.place} for kind in DOCUMENT_KINDS]}
-        )
+        print_json({"documents": [{"id": kind.id, "title": kind.title, "place": kind.place} for kind in _kinds()]})
     else:
-        print_table(("document", "what it is", "where"), [(kind.id, kind.title, kind.place) for kind in DOCUMENT_KINDS])
+        print_table(("document", "what it is", "where"), [(kind.id, kind.title, kind.place) for kind in _kinds()])
     return CLEAN
+
+
+def _kinds() -> tuple[DocumentKind, ...]:
+    """The documents of a project, and those that other verbs read beside it."""
+    from rgss.exchange import MAPPING_KIND
+    from rgss.studies import DOCUMENT_KINDS
+
+    return (*DOCUMENT_KINDS, MAPPING_KIND)
+
+
+def _kind(name: str) -> DocumentKind:
+    return next(kind for kind in _kinds() if kind.id == name)
 
 
 def _write(options: argparse.Namespace) -> int:
     from rgss.cli.main import CLEAN
     from rgss.cli.output import print_json, shown_path
-    from rgss.studies import DOCUMENT_KINDS, document_kind, find_project, write_headers, write_schemas
+    from rgss.studies import find_project, write_headers, write_schemas
 
     project = find_project(options.project) if options.headers else None
-    kinds = DOCUMENT_KINDS if options.document is None else (document_kind(options.document),)
+    kinds = _kinds() if options.document is None else (_kind(options.document),)
     files = write_schemas(options.out, kinds)
     headed = () if project is None else write_headers(project.resolve(), options.out.resolve())
     if options.json:

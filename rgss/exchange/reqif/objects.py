@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rgss.exchange.attributes import ATTRIBUTES, Form, Part
-from rgss.exchange.foreign_names import PART, ForeignNames, ids_text
+from rgss.exchange.foreign_names import PART, ForeignNames
 from rgss.exchange.reqif.identifiers import type_identifier
 from rgss.exchange.reqif.omissions import ObjectValues, Omissions
 from rgss.exchange.reqif.prose import from_xhtml
@@ -113,7 +113,7 @@ class ObjectReader:
         self.names.update(dict.fromkeys(read.stated))
         sources = self._mapped.sources(read.stated, read.values)
         by_name = {name: read.values.get(long, "") for name, long in sources.items()}
-        element_id = _id_in(by_name, is_ours=read.is_ours)
+        element_id = self._mapped.own_id(_id_in(by_name, is_ours=read.is_ours))
         has = {"id": element_id, "text": by_name.get("text", "").strip()}
         lacks = tuple(name for name, value in has.items() if not value)
         if not read.is_ours and lacks:
@@ -187,7 +187,7 @@ class ObjectReader:
                 if attribute is not None and attribute.form is Form.FLAG and cells[name] == "false":
                     cells[name] = ""
             elif attribute is not None and self._mapped.target(long) == name:
-                cells[name] = ids_text(value)
+                cells[name] = self._mapped.own_ids(name, value)
             elif read.is_ours and part is Part.SYSTEM and name in _OF_RECORDS:
                 if value:
                     self.records.setdefault(element_id, {})[name] = value

@@ -18,7 +18,7 @@ from rgss.exchange.files import LARGEST_REQIF_BYTES, problem, read_bytes, refusa
 from rgss.exchange.foreign_names import ForeignNames
 from rgss.exchange.reqif.archive import is_archive, reqif_members
 from rgss.exchange.reqif.objects import ForeignObject, ObjectReader, UnsoundObjectError
-from rgss.exchange.reqif.relations import RelationReader
+from rgss.exchange.reqif.relations import Parent, RelationReader, parent_of
 from rgss.exchange.reqif.structure import structure_problems
 from rgss.exchange.reqif.vocabulary import MEASURE
 from rgss.exchange.xml_guard import require_plain_xml
@@ -56,13 +56,12 @@ def read_reqif(
     file = str(path)
     content = read_bytes(path, limit=LARGEST_REQIF_BYTES)
     members = list(reqif_members(content, file)) if is_archive(content) else [("", content)]
-    opened = [
-        _opened(inner, f"{file} ({name})" if name else file, _Context(known=known or {}, part=part, names=names))
-        for name, inner in members
-    ]
+    context = _Context(known=known or {}, part=part, names=names or ForeignNames())
+    opened = [_opened(inner, f"{file} ({name})" if name else file, context) for name, inner in members]
+    contents = _contents(opened, context.names)
     if not is_archive(content):
-        return _contents(opened)[0]
-    read = list(zip((name for name, _ in members), _contents(opened), strict=True))
+        return contents[0]
+    read = list(zip((name for name, _ in members), contents, strict=True))
     return Content(
         rows=tuple(replace(row, file=each.file) for _, each in read for row in each.rows),
         measures=tuple({measure[0]: measure for _, each in read for measure in each.measures}.values()),
@@ -71,6 +70,7 @@ def read_reqif(
         notes=tuple(f"{name}: {note}" if len(read) > 1 else note for name, each in read for note in each.notes),
         losses=tuple(loss for _, each in read for loss in each.losses),
         names=tuple(dict.fromkeys(name for _, each in read for name in each.names)),
+        relations=tuple(dict.fromkeys(name for _, each in read for name in each.relations)),
         file=file,
     )
 
@@ -81,7 +81,7 @@ class _Context:
 
     known: Mapping[str, Part]
     part: Part | None
-    names: ForeignNames | None
+    names: ForeignNames
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,11 +95,11 @@ class _OpenFile:
     objects: dict[str, ForeignObject]
 
 
-def _contents(opened: Sequence[_OpenFile]) -> list[Content]:
+def _contents(opened: Sequence[_OpenFile], names: ForeignNames) -> list[Content]:
     """The contents of files that belong together."""
     objects = {name: each for one in opened for name, each in one.objects.items()}
     identifiers = frozenset(each.identifier for one in opened for each in one.core.spec_objects or [])
-    relations = [RelationReader(one.core, ChainMap(one.objects, objects), identifiers) for one in opened]
+    relations = [RelationReader(one.core, ChainMap(one.objects, objects), identifiers, names) for one in opened]
     parents: dict[str, str] = {}
     links: dict[tuple[str, str], list[str]] = {}
     for one, reader in zip(opened, relations, strict=True):
@@ -141,18 +141,22 @@ def _content(
     links: Mapping[tuple[str, str], Sequence[str]],
 ) -> Content:
     found = one.objects.values()
-    rows = [each for each in found if each.part is not None or each.type_name != MEASURE]
+    elements = [each for each in found if each.part is not None or each.type_name != MEASURE]
+    stated = relations.stated
+    rows = [_row(each, links, parents, stated) for each in elements]
+    elsewhere = sum(parent.is_elsewhere for _, parent in rows)
     return Content(
-        rows=tuple(_row(each, links, parents, relations.stated) for each in rows),
+        rows=tuple(row for row, _ in rows),
         measures=tuple((each.id, each.cells.get("text", "")) for each in found if each.type_name == MEASURE),
         records=one.reader.records,
         whole=frozenset(one.reader.own_parts),
-        notes=(*one.reader.omissions.notes(), *relations.notes()),
+        notes=(*one.reader.omissions.notes(), *relations.notes(), *_elsewhere(elsewhere)),
         losses=tuple(
             problem(one.file, "loss", message, line=line, severity=Severity.WARNING)
-            for line, message in sorted((*one.reader.omissions.lost, *relations.lost))
+            for line, message in sorted((*one.reader.omissions.lost, *relations.lost, *_of_parents(rows)))
         ),
         names=tuple(one.reader.names),
+        relations=relations.type_names,
         file=one.file,
     )
 
@@ -211,20 +215,35 @@ def _line(error: Any) -> int:
     return int(getattr(getattr(error, "xml_node", None), "sourceline", None) or 1)
 
 
+def _of_parents(rows: Sequence[tuple[Row, Parent]]) -> Iterator[tuple[int, str]]:
+    """Line and message of each further parent of an element."""
+    for row, parent in rows:
+        yield from ((row.line, loss) for loss in parent.losses)
+
+
+def _elsewhere(count: int) -> Iterator[str]:
+    if count:
+        elements = "1 element" if count == 1 else f"{count} elements"
+        yield f"the place of {elements} in the hierarchy is not imported: what is mapped to the parent names another"
+
+
 def _row(
     each: ForeignObject,
     links: Mapping[tuple[str, str], Sequence[str]],
     parents: Mapping[str, str],
     stated: frozenset[str],
-) -> Row:
+) -> tuple[Row, Parent]:
+    """An element with its links, and its parent."""
     cells = dict(each.cells)
     names = {attribute.name: attribute for attribute in ATTRIBUTES.get(each.part, ())} if each.part else {}
     # What another file of the archive or a relation states is taken over, and no other link removed for it.
     linked = {name for name in names if (each.id, name) in links}
-    cells.update(_linked(each, links, (stated & names.keys()) | linked))
-    if "parent" in names and (each.is_ours or each.id in parents) and not cells.get("parent"):
-        cells["parent"] = parents.get(each.id, "")
-    return Row(part=each.part, cells=cells, line=each.line)
+    cells.update(_linked(each, links, ((stated & names.keys()) | linked) - {"parent"}))
+    mapped = [*ids_in(cells.get("parent", "")), *links.get((each.id, "parent"), ())]
+    parent = parent_of(mapped, parents.get(each.id, "") if "parent" in names else "", each.id)
+    if "parent" in names and (each.is_ours or parent.id or "parent" in stated):
+        cells["parent"] = parent.id
+    return Row(part=each.part, cells=cells, line=each.line), parent
 
 
 def _linked(

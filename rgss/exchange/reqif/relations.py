@@ -2,54 +2,76 @@
 
 from __future__ import annotations
 
+import shlex
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from rgss.exchange.attributes import Part
+from rgss.exchange.foreign_names import OF_TARGET, RELATION_MEANINGS, ForeignNames
 from rgss.exchange.reqif.identifiers import relation_type_identifier
 from rgss.exchange.reqif.objects import ForeignObject, UnsoundObjectError
 from rgss.exchange.reqif.vocabulary import ACTOR, INCLUDE, MEASURE, relation_name
 from rgss.requirements import LinkKind
 
 _ANY_REQUIREMENT = (Part.STAKEHOLDER, Part.SYSTEM)
+_PARENT = "parent"
 
 
-class _LinkRule(NamedTuple):
-    """The attribute that states a relation, and what the relation may connect."""
+class _Ends(NamedTuple):
+    """Parts of the elements that have an attribute of ids, and of those that it names; a measure has no part."""
 
-    attribute: str
-    sources: tuple[Part | None, ...]
-    targets: tuple[Part | None, ...]
+    holders: tuple[Part | None, ...]
+    named: tuple[Part | None, ...]
 
 
-# A measure has no part.
-_RULES: Mapping[str, _LinkRule] = {
-    LinkKind.SATISFY.value: _LinkRule("satisfied_by", (Part.BLOCK, Part.BEHAVIOUR), (Part.SYSTEM,)),
-    LinkKind.VERIFY.value: _LinkRule("measure", (None,), (Part.SYSTEM,)),
-    LinkKind.DERIVE.value: _LinkRule("derived_from", (Part.SYSTEM,), _ANY_REQUIREMENT),
-    LinkKind.TRACE.value: _LinkRule("traces", (Part.SYSTEM,), _ANY_REQUIREMENT),
-    LinkKind.ALLOCATE.value: _LinkRule("allocated_to", (Part.BEHAVIOUR,), (Part.BLOCK,)),
-    LinkKind.REFINE.value: _LinkRule("refines", (Part.BEHAVIOUR,), (Part.BEHAVIOUR, *_ANY_REQUIREMENT)),
-    INCLUDE: _LinkRule("includes", (Part.BEHAVIOUR,), (Part.BEHAVIOUR,)),
-    ACTOR: _LinkRule("actors", (Part.BEHAVIOUR,), (Part.BLOCK,)),
+_ENDS: Mapping[str, _Ends] = {
+    "satisfied_by": _Ends((Part.SYSTEM,), (Part.BLOCK, Part.BEHAVIOUR)),
+    "measure": _Ends((Part.SYSTEM,), (None,)),
+    "derived_from": _Ends((Part.SYSTEM,), _ANY_REQUIREMENT),
+    "traces": _Ends((Part.SYSTEM,), _ANY_REQUIREMENT),
+    "allocated_to": _Ends((Part.BEHAVIOUR,), (Part.BLOCK,)),
+    "refines": _Ends((Part.BEHAVIOUR,), (Part.BEHAVIOUR, *_ANY_REQUIREMENT)),
+    "includes": _Ends((Part.BEHAVIOUR,), (Part.BEHAVIOUR,)),
+    "actors": _Ends((Part.BEHAVIOUR,), (Part.BLOCK,)),
+    _PARENT: _Ends((*_ANY_REQUIREMENT, Part.BLOCK), (*_ANY_REQUIREMENT, Part.BLOCK)),
 }
-_TURNED = (LinkKind.SATISFY.value, LinkKind.VERIFY.value)
-"""Relations that the element at their target states."""
+_MEANINGS: Mapping[str, str] = {
+    LinkKind.SATISFY.value: f"{OF_TARGET}satisfied_by",
+    LinkKind.VERIFY.value: f"{OF_TARGET}measure",
+    LinkKind.DERIVE.value: "derived_from",
+    LinkKind.TRACE.value: "traces",
+    LinkKind.ALLOCATE.value: "allocated_to",
+    LinkKind.REFINE.value: "refines",
+    INCLUDE: "includes",
+    ACTOR: "actors",
+}
+"""What the relations of rgss state."""
+
+
+class _Link(NamedTuple):
+    """A link that a relation states: the element with the attribute, the attribute, and the id that it names."""
+
+    holder: str
+    attribute: str
+    named: str
 
 
 class RelationReader:
     """Reader of relations, with a list of what could not be imported."""
 
-    def __init__(self, core: Any, objects: Mapping[str, ForeignObject], identifiers: Collection[str]) -> None:
+    def __init__(
+        self, core: Any, objects: Mapping[str, ForeignObject], identifiers: Collection[str], names: ForeignNames
+    ) -> None:
         """Create a reader of a file.
 
         Args:
             core: The content of the file as read by the library.
             objects: The objects that it may name, by their identifiers.
             identifiers: The identifiers of all such objects, including those that are not imported.
+            names: The mapped names of the file.
         """
-        self._core, self._objects, self._all = core, objects, identifiers
+        self._core, self._objects, self._all, self._mapped = core, objects, identifiers, names
         self._types = {
             each.identifier: each.long_name or each.identifier
             for each in core.spec_types or []
@@ -57,10 +79,17 @@ class RelationReader:
         }
         self._left: Counter[str] = Counter()
         """Number of relations that are not imported, by the identifier of their type."""
+        self._fitting: dict[str, Counter[str]] = {}
+        """Number of these relations that each meaning would take, by the identifier of their type."""
         self.broken: list[tuple[int, str]] = []
         """Line and message of each relation to a missing object."""
         self.lost: list[tuple[int, str]] = []
         """Line and message of each further position of an element in the hierarchy after its first."""
+
+    @property
+    def type_names(self) -> tuple[str, ...]:
+        """The names of all types of relations."""
+        return tuple(self._types.values())
 
     @property
     def stated(self) -> frozenset[str]:
@@ -70,12 +99,19 @@ class RelationReader:
         """
         found: dict[str, bool] = {}
         for each, name in self._types.items():
-            kind = relation_name(name)
-            if kind is not None and kind in _RULES:
-                is_whole = not self._left[each] or each == relation_type_identifier(kind)
-                attribute = _RULES[kind].attribute
+            is_whole = not self._left[each] or each == relation_type_identifier(relation_name(name) or "")
+            for meaning in self._meanings(name):
+                attribute = meaning.removeprefix(OF_TARGET)
                 found[attribute] = found.get(attribute, True) and is_whole
         return frozenset(attribute for attribute, is_whole in found.items() if is_whole)
+
+    def _meanings(self, type_name: str) -> tuple[str, ...]:
+        """What a relation of a type may state: by the mapping, else by its name."""
+        mapped = self._mapped.links_of(type_name)
+        if mapped is not None:
+            return mapped
+        own = _MEANINGS.get(relation_name(type_name) or "")
+        return () if own is None else (own,)
 
     def links(self) -> dict[tuple[str, str], list[str]]:
         """The ids that an attribute of an element names, in the file's order."""
@@ -90,14 +126,17 @@ class RelationReader:
                 self.broken.append((line, f"the relation {each.identifier!r} names the {what}, which does not exist"))
                 continue
             source, target = self._objects.get(each.source), self._objects.get(each.target)
-            place = None if source is None or target is None else _place(relation_name(kind), source, target)
-            if place is None or source is None or target is None:
+            if self._mapped.links_of(kind) == () or _is_implied(relation_name(kind), source):
+                continue
+            link = _link(self._meanings(kind), source, target)
+            if link is None:
                 self._left[each.relation_type_ref] += 1
-            elif place[1]:
-                known = found.setdefault(place, [])
-                other = source.id if relation_name(kind) in _TURNED else target.id
-                if other not in known:
-                    known.append(other)
+                fitting = [one for one in RELATION_MEANINGS if _link((one,), source, target) is not None]
+                self._fitting.setdefault(each.relation_type_ref, Counter()).update(fitting)
+                continue
+            known = found.setdefault((link.holder, link.attribute), [])
+            if link.named not in known:
+                known.append(link.named)
         return found
 
     def containment(self) -> dict[str, str]:
@@ -126,10 +165,57 @@ class RelationReader:
     def notes(self) -> Iterator[str]:
         """Notes on content that was not imported."""
         left: Counter[str] = Counter()
+        fitting: dict[str, Counter[str]] = {}
         for each, count in self._left.items():
             left[self._types[each]] += count
+            fitting.setdefault(self._types[each], Counter()).update(self._fitting[each])
         for kind, count in sorted(left.items()):
-            yield f"{count} relations of type {kind!r} are not imported: rgss has no such link between such elements"
+            relations = "1 relation of type {} is" if count == 1 else f"{count} relations of type {{}} are"
+            said = f"{relations.format(repr(kind))} not imported: rgss has no such link between such elements"
+            yield said + _option(kind, self._meanings(kind), fitting[kind])
+
+
+class Parent(NamedTuple):
+    """Parent of an element.
+
+    Attributes:
+        id: Its id; empty if the element is at the top.
+        losses: A message for each further parent.
+        is_elsewhere: True if the element is in another one in the hierarchy.
+    """
+
+    id: str
+    losses: tuple[str, ...]
+    is_elsewhere: bool
+
+
+def parent_of(stated: Sequence[str], around: str, element_id: str) -> Parent:
+    """The parent of an element: what is mapped to it counts before the hierarchy.
+
+    Args:
+        stated: The ids that a mapped attribute or relation names.
+        around: The id of the element around it in the hierarchy; empty if there is none.
+        element_id: Its id.
+    """
+    first = stated[0] if stated else around
+    others = dict.fromkeys(each for each in stated if each != first)
+    losses = tuple(f"{element_id}: it is under {first!r} and under {other!r}; {first!r} is kept" for other in others)
+    return Parent(first, losses, is_elsewhere=bool(around) and around != first)
+
+
+def _option(kind: str, present: Sequence[str], fitting: Counter[str]) -> str:
+    """The option that takes most relations of a type that are not imported; empty if none takes any."""
+    if not fitting:
+        return ""
+    most = max(fitting.values())
+    meaning = next(one for one in RELATION_MEANINGS if fitting[one] == most)
+    if all(mine.removeprefix(OF_TARGET) != meaning.removeprefix(OF_TARGET) for mine in present):
+        # What else the type means, by its name or the mapping, is not undone by the new option.
+        meanings = [*present, meaning]
+    else:
+        meanings = [meaning]
+    options = " ".join(f"--map-relation {shlex.quote(f'{kind}={one}')}" for one in meanings)
+    return f" ({options} takes such)"
 
 
 def _require_names(*references: str | None) -> None:
@@ -142,15 +228,27 @@ def _require_names(*references: str | None) -> None:
         raise UnsoundObjectError("a reference is empty")
 
 
-def _place(kind: str | None, source: ForeignObject, target: ForeignObject) -> tuple[str, str] | None:
-    """The element and the attribute that state a relation; no attribute if another attribute implies it."""
-    if kind is None:
+def _is_implied(kind: str | None, source: ForeignObject | None) -> bool:
+    """True for a relation that another attribute of its source implies."""
+    return kind == LinkKind.TRACE.value and source is not None and source.part is Part.BEHAVIOUR
+
+
+def _link(meanings: Sequence[str], source: ForeignObject | None, target: ForeignObject | None) -> _Link | None:
+    """The link that a relation states by the first meaning that fits its ends; None if none does."""
+    if source is None or target is None:
         return None
-    if kind == LinkKind.TRACE.value and source.part is Part.BEHAVIOUR:
-        return source.id, ""
-    rule = _RULES.get(kind)
-    if rule is None or source.part not in rule.sources or target.part not in rule.targets:
-        return None
-    if (source.type_name == MEASURE) != (kind == LinkKind.VERIFY.value):
-        return None
-    return (target if kind in _TURNED else source).id, rule.attribute
+    for meaning in meanings:
+        attribute = meaning.removeprefix(OF_TARGET)
+        holder, named = (target, source) if meaning.startswith(OF_TARGET) else (source, target)
+        if _fits(attribute, holder, named):
+            return _Link(holder.id, attribute, named.id)
+    return None
+
+
+def _fits(attribute: str, holder: ForeignObject, named: ForeignObject) -> bool:
+    ends = _ENDS[attribute]
+    if holder.part not in ends.holders or named.part not in ends.named:
+        return False
+    if attribute == _PARENT:
+        return holder.part is named.part and holder.id != named.id
+    return (named.type_name == MEASURE) == (attribute == "measure")

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from rgss.exchange.attributes import ATTRIBUTES, Part
 from rgss.exchange.content import Row
 from rgss.exchange.files import problem
-from rgss.exchange.foreign_names import LINKED, PART, ForeignNames, ids_text
+from rgss.exchange.foreign_names import LINKED, PART, ForeignNames
 from rgss.findings import Finding, Severity, shown
 
 
@@ -51,25 +51,27 @@ class ForeignRows:
             file: The file's name.
             row: The row, with the cells of all columns; its part, if it is of the sheet of one.
         """
-        cells = {name: ids_text(cell) if name in LINKED else cell for name, cell in row.cells.items()}
+        names = self._table.names
+        cells = {name: names.own_ids(name, cell) if name in LINKED else cell for name, cell in row.cells.items()}
+        cells["id"] = names.own_id(cells.get("id", "").strip())
         said = cells.pop(PART, "").strip()
         lacks = next((name for name in ("id", "text") if name in cells and not cells[name].strip()), "")
         if lacks:
             self._lacking[lacks] += 1
             return
-        stated = self._table.names.stated_part(said)
+        stated = names.stated_part(said)
         if said and stated is None:
             self._of_no_part[said] += 1
             return
-        part = row.part or stated or self._table.known.get(row.id) or self._table.part
-        names = {attribute.name for attribute in ATTRIBUTES[part]} if part is not None else cells.keys()
-        for name in cells.keys() - names:
+        part = row.part or stated or self._table.known.get(cells["id"]) or self._table.part
+        own = {attribute.name for attribute in ATTRIBUTES[part]} if part is not None else cells.keys()
+        for name in cells.keys() - own:
             if part is not None and cells[name].strip():
-                message = f"{row.id}: a {part.value} requirement has no {name!r}: {shown(cells[name])} is omitted"
+                message = f"{cells['id']}: a {part.value} requirement has no {name!r}: {shown(cells[name])} is omitted"
                 column = row.columns[name]
                 severity = Severity.WARNING
                 self.losses.append(problem(file, "loss", message, line=row.line, column=column, severity=severity))
-        yield replace(row, part=part, cells={name: cell for name, cell in cells.items() if name in names})
+        yield replace(row, part=part, cells={name: cell for name, cell in cells.items() if name in own})
 
     def notes(self) -> Iterator[str]:
         """Notes on rows that are not imported."""

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.studies.schemas.document_kinds import DOCUMENT_KINDS, document_kind, kind_of
+    from rgss.studies.schemas.document_kinds import DOCUMENT_KINDS, DocumentKind, document_kind, kind_of
     from rgss.studies.schemas.schema_headers import (
         SCHEMAS,
         cannot_write,

@@ -80,3 +80,34 @@ def test_an_option_that_is_wrong_is_one_line(rgss, untouched, table, options, co
     told = rgss("import", "csv", table, "--project", untouched, *options)
     assert (told.status, told.errors.count("\n")) == (2, 1)
     assert complaint in told.errors
+
+
+@pytest.mark.parametrize(
+    ("options", "complaint"),
+    [
+        (("--map-relation", "Satisfies"), "--map-relation 'Satisfies' is not TYPE=LINK (such as "),
+        (("--map-relation", "Satisfies=derives"), "'derives' is not what a relation may state (did you mean "),
+        (
+            ("--map-relation", "Fulfils=derived_from"),
+            "--map-relation: the file has no relations 'Fulfils' (it has none)",
+        ),
+        (("--id-prefix", "1-"), "--id-prefix '1-': an id is a letter, then letters, digits, and _ . -"),
+        (("--default", "id=x"), "--default 'id=x' is not NAME=VALUE with a known name (names: actor, actors, "),
+    ],
+)
+def test_a_relation_or_a_prefix_that_is_wrong_is_one_line(rgss, untouched, table, options, complaint):
+    command = ("import", "csv", table, "--project", untouched, "--mapping", table.with_suffix(".yaml"))
+    told = rgss(*command, "--as", "system", *options)
+    assert (told.status, told.errors.count("\n")) == (2, 1)
+    assert complaint in told.errors
+
+
+def test_numbers_are_ids_with_the_prefix_of_the_command_line_or_the_file(rgss, folder, table):
+    table.write_text(TABLE.replace("SYS-901", "901"), encoding="utf-8")
+    mapping = table.with_suffix(".yaml")
+    command = ("import", "csv", table, "--project", folder, "--as", "system", "--mapping", mapping)
+    assert "(give --id-prefix, such as --id-prefix SYS-)" in rgss(*command).errors
+    mapping.write_text(f"{MAPPING}id_prefix: SYS-\n", encoding="utf-8")
+    assert "added system DOORS-901" in rgss(*command, "--id-prefix", "DOORS-").output
+    assert rgss(*command, "--apply").status == 0
+    assert rgss(*command).output == "No changes.\n"

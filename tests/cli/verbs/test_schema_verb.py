@@ -9,6 +9,7 @@ from jsonschema import Draft7Validator
 
 from rgss.cli.verbs.schema import DOCUMENTS
 from rgss.documents import read_document
+from rgss.exchange import MAPPING_KIND
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.studies.schemas.document_kinds import DOCUMENT_KINDS
@@ -16,7 +17,8 @@ from rgss.sweep.trial_keys import key_of
 
 
 def test_the_choices_are_the_kinds():
-    assert tuple(kind.id for kind in DOCUMENT_KINDS) == DOCUMENTS
+    assert tuple(kind.id for kind in DOCUMENT_KINDS) == DOCUMENTS[:-1]
+    assert MAPPING_KIND.id == DOCUMENTS[-1]
 
 
 def test_the_kinds_are_listed(rgss):
@@ -40,7 +42,7 @@ def test_schemas_are_written(rgss, tmp_path):
     told = rgss("schema", "--out", folder)
 
     assert told.status == 0
-    assert told.output.startswith("19 schemas in ")
+    assert told.output.startswith("20 schemas in ")
     assert {path.name for path in folder.iterdir()} == {f"{name}.schema.json" for name in DOCUMENTS}
     assert json.loads((folder / "scene.schema.json").read_text()) == rgss("schema", "scene").document
     assert rgss("schema", "scene", "--out", tmp_path / "one").output.startswith("1 schema in ")

@@ -168,7 +168,7 @@ def test_what_a_foreign_file_leaves_open_is_asked_for(project, refused):
 
 def test_relations_between_what_cannot_be_linked_are_told(project):
     foreign = read_reqif(STRICTDOC, part=Part.STAKEHOLDER)
-    assert foreign.notes[-1].startswith("1 relations of type 'Parent' are not imported")
+    assert foreign.notes[-1].startswith("1 relation of type 'Parent' is not imported")
 
 
 def test_layout_of_another_tool_becomes_lines(exported, as_xml, project):

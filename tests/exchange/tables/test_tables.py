@@ -42,18 +42,28 @@ def rewritten(path, *, old, new):
     return path
 
 
-def test_an_empty_cell_of_what_is_there_already_is_filled_in_or_has_a_default_by_which_it_keeps_its_value(
-    project, written, refused
-):
-    """A default is for new elements, so that a hint at it would lead nowhere; the same import twice changes nothing."""
+def test_an_empty_cell_is_the_default_whatever_the_element_had(project, written, refused):
+    """The result follows from the file and the options alone, so that the same import twice changes nothing."""
     path = written / "t.csv"
     text = path.read_text(encoding="utf-8-sig")
     assert text.count(",low,draft,") == 1
     path.write_text(text.replace(",low,draft,", ",low,,"), encoding="utf-8", newline="")
 
     (line,) = refused(project.compare, read_csv(path), defaults={"owner": "me"})
-    assert line.endswith("SYS-2: status: is missing (fill it in) [exchange.value]")
-    assert project.compare(read_csv(path), defaults={"status": "approved"}) == ()
+    assert line.endswith("SYS-2: status: is missing (fill it in, or give --default status=…) [exchange.value]")
+    (change,) = project.compare(read_csv(path), defaults={"status": "approved"})
+    assert [(each.old, each.new) for each in change.attributes] == [("draft", "approved")]
+    assert project.compare(read_csv(path), defaults={"status": "draft"}) == ()
+
+
+def test_an_attribute_with_a_default_is_emptied_by_an_empty_default(project, written):
+    path = written / "t.csv"
+    text = path.read_text(encoding="utf-8-sig")
+    path.write_text(text.replace("STK-1,BLK-gripper", ",BLK-gripper"), encoding="utf-8", newline="")
+
+    assert [change.id for change in project.compare(read_csv(path), defaults={"traces": "STK-1"})] == ["SYS-1"]
+    (change,) = project.compare(read_csv(path), defaults={"traces": ""})
+    assert [(each.attribute.name, each.new) for each in change.attributes] == [("traces", "")]
 
 
 def test_another_reader_finds_every_requirement_in_the_csv(project):

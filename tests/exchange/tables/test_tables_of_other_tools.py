@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import openpyxl
 import pytest
 
@@ -56,7 +58,12 @@ def test_columns_are_what_they_are_mapped_to(project, table):
     assert foreign.rows[1].cells["priority"] == "high"
     assert foreign.rows[1].cells["derived_from"] == "STK-1; STK-2"
     changed, added = project.compare(foreign, defaults={**DEFAULTS, "priority": "low"})
-    assert [each.attribute.name for each in changed.attributes] == ["text"]
+    # An empty cell of the table is the default.
+    assert {each.attribute.name: each.new for each in changed.attributes} == {
+        "text": "The task shall end within 30 s.",
+        "rationale": "Unknown.",
+        "priority": "low",
+    }
     assert (added.id, added.entry["owner"]) == ("SYS-9", "me")
 
 
@@ -111,3 +118,38 @@ def test_a_table_of_rgss_is_the_same_with_a_mapping(project, tmp_path):
     foreign = read_csv(tmp_path / "t.csv", ForeignTable(names=ForeignNames(), part=Part.SYSTEM))
     assert project.compare(foreign) == ()
     assert {Part.STAKEHOLDER, Part.SYSTEM} <= foreign.whole
+
+
+def test_numbers_are_ids_with_a_prefix(project, table):
+    """Ids that begin with a letter are those of rgss already, so that an export can be imported again."""
+    rows = [
+        ["12", "", "The gripper shall hold 3 kg.", "Heavy.", "Requirement", "1", "13, STK-2", ""],
+        ["13", "", "The gripper shall hold 4 kg.", "Heavy.", "Requirement", "1", "7", ""],
+    ]
+    names = replace(NAMES, id_prefix="DOORS-", values={**VALUES, "derived_from": {"7": "STK-1"}})
+
+    def read():
+        return table(rows, names=names)
+
+    assert {row.id: row.cells["derived_from"] for row in read().rows} == {
+        "DOORS-12": "DOORS-13; STK-2",
+        "DOORS-13": "STK-1",
+    }
+    project.apply(read(), defaults=DEFAULTS, remove=False)
+    assert project.compare(read(), defaults=DEFAULTS) == ()
+    path = project.folder / "back.csv"
+    path.write_text(csv_text(project.content), encoding="utf-8", newline="")
+    back = read_csv(path, ForeignTable(names=ForeignNames(id_prefix="DOORS-")))
+    assert project.compare(back) == ()
+
+
+def test_an_id_and_the_same_with_the_prefix_are_duplicates(project, table, refused):
+    rows = [[each, "", "It shall hold.", "Heavy.", "Requirement", "1", "STK-2", ""] for each in ("12", "DOORS-12")]
+    (line,) = refused(project.compare, table(rows, names=replace(NAMES, id_prefix="DOORS-")), defaults=DEFAULTS)
+    assert "'DOORS-12' is already in line" in line
+
+
+def test_an_id_that_is_a_number_names_the_option(project, table, refused):
+    rows = [["12", "", "It shall hold.", "Heavy.", "Requirement", "1", "STK-2", ""]]
+    (line,) = refused(project.compare, table(rows), defaults=DEFAULTS)
+    assert line.endswith("(give --id-prefix, such as --id-prefix SYS-) [exchange.value]")
