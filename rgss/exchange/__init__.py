@@ -7,7 +7,7 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.exchange.absent_links import with_absent_links
     from rgss.exchange.applying import FileChange, planned, rehearsed, written
-    from rgss.exchange.attributes import ATTRIBUTES, Part
+    from rgss.exchange.attributes import Part
     from rgss.exchange.comparison import ChangeKind, ElementChange, ImportDefaults, compare, not_as_planned
     from rgss.exchange.content import Content, content_of, part_of
     from rgss.exchange.foreign_measures import with_measures_compared

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from rgss.studies.regression import GuardedMetric, RegressionGuard, WatchedRun
     from rgss.studies.scaffolding import write_scaffold
     from rgss.studies.scene_findings import check_scene
-    from rgss.studies.schemas import DOCUMENT_KINDS, DocumentKind, document_kind, write_headers, write_schemas
+    from rgss.studies.schemas import DOCUMENT_KINDS, DocumentKind, write_headers, write_schemas
     from rgss.studies.source_text import invisible_findings
     from rgss.studies.study import value_anchors
     from rgss.studies.trial_choice import TrialChoice

@@ -20,6 +20,12 @@ _ESCAPES_BREAKS = "strictdoc"
 r"""Line break in a string of StrictDoc: ``\n``, since XML would turn a real one into a blank."""
 
 
+_IDENTIFIER = "IDENTIFIER"
+"""Identifier of an object in the file, which is an id only if it is mapped to it."""
+_DELETED = "reqif.foreigndeleted"
+"""Attribute of the ReqIF Implementation Guide, true for an object that the other tool has deleted."""
+
+
 class UnsoundObjectError(ValueError):
     """An object of a file contradicts the types of the file."""
 
@@ -110,7 +116,10 @@ class ObjectReader:
         if kind is None:
             raise UnsoundObjectError(f"the object {each.identifier!r} is of no type")
         read = self._values(each, kind)
-        self.names.update(dict.fromkeys(read.stated))
+        self.names.update(dict.fromkeys((*read.stated, _IDENTIFIER)))
+        if any(long.lower() == _DELETED and value in ("true", "1") for long, value in read.values.items()):
+            self.omissions.deleted(read.type_name)
+            return None
         sources = self._mapped.sources(read.stated, read.values)
         by_name = {name: read.values.get(long, "") for name, long in sources.items()}
         element_id = self._mapped.own_id(_id_in(by_name, is_ours=read.is_ours))
@@ -140,11 +149,14 @@ class ObjectReader:
         """The values of an object by the file's names of its attributes, with the default values of its type."""
         stated = {definition.identifier: definition for definition in kind.attribute_definitions or ()}
         line = int(getattr(each.xml_node, "sourceline", None) or 1)
+        is_ours = kind.identifier in {type_identifier(own) for own in (*[part.value for part in Part], MEASURE)}
+        beside = {} if is_ours else self._of_object(each)
         read = ObjectValues(
             type_name=kind.long_name or kind.identifier,
-            is_ours=kind.identifier in {type_identifier(own) for own in (*[part.value for part in Part], MEASURE)},
-            stated=tuple(dict.fromkeys(each.long_name or each.identifier for each in stated.values())),
+            is_ours=is_ours,
+            stated=tuple(dict.fromkeys((*(each.long_name or each.identifier for each in stated.values()), *beside))),
             line=line,
+            values=beside,
         )
         for value in each.attributes:
             definition = stated.get(value.definition_ref)
@@ -162,6 +174,13 @@ class ObjectReader:
             if long not in read.values and (default := self._default(definition)) is not None:
                 read.values[long] = default
         return read
+
+    def _of_object(self, each: Any) -> dict[str, str]:
+        """What an object states in place of attributes: its name and description, and its identifier if it is mapped."""
+        named = {"LONG-NAME": each.long_name, "DESC": each.description}
+        if self._mapped.target(_IDENTIFIER):
+            named[_IDENTIFIER] = each.identifier
+        return {long: value for long, value in named.items() if value and value.strip()}
 
     def _part_of(self, type_name: str, element_id: str) -> Part | None:
         """The part of an object by its type or its id; None if nothing states it."""

@@ -22,6 +22,8 @@ from rgss.exchange.reqif.vocabulary import EXCHANGE_IDS
 from rgss.findings import shown
 
 _MOST_NAMED = 8
+_OF_OBJECT = ("LONG-NAME", "DESC")
+"""What the object itself has; other tools repeat an attribute there."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,6 +63,8 @@ class Omissions:
         """The attributes of these objects."""
         self._of_no_part: Counter[tuple[str, str]] = Counter()
         """Number of objects by the name and the value of the attribute that states their part."""
+        self._deleted: Counter[str] = Counter()
+        """Number of objects that the other tool has deleted, by the name of their type."""
         self._unused: dict[str, str] = {}
         """The attributes that are not imported, with the reason."""
         self.lost: list[tuple[int, str]] = []
@@ -76,6 +80,10 @@ class Omissions:
         """
         self._lacking[type_name, lacks] += 1
         self._attributes.setdefault((type_name, lacks), {}).update(dict.fromkeys(attributes))
+
+    def deleted(self, type_name: str) -> None:
+        """An object that the other tool has deleted."""
+        self._deleted[type_name] += 1
 
     def of_no_part(self, long: str, value: str) -> None:
         """An object whose part, by an attribute mapped for it, is none of rgss."""
@@ -99,6 +107,8 @@ class Omissions:
             return
         source = sources.get(name, long)
         names = [attribute.name for attribute in ATTRIBUTES[part]] if part is not None else []
+        if long in _OF_OBJECT and value in (each.strip() for other, each in read.values.items() if other != long):
+            return
         if source != long:
             if value == read.values.get(source, "").strip():
                 return
@@ -126,6 +136,10 @@ class Omissions:
             if count == 1:
                 objects = f"1 object of type {shown(type_name)} is not imported"
             yield f"{objects}: {' and '.join(f'no {each}' for each in lacks)}{among}{_taken(lacks, attributes)}"
+        for type_name, count in sorted(self._deleted.items()):
+            objects = "1 object" if count == 1 else f"{count} objects"
+            verb = "is" if count == 1 else "are"
+            yield f"{objects} of type {shown(type_name)} {verb} not imported: 'ReqIF.ForeignDeleted' says deleted"
         for (long, value), count in sorted(self._of_no_part.items()):
             option = f"--map-value {shlex.quote(f'{PART}:{value}=…')}"
             objects = "1 object is" if count == 1 else f"{count} objects are"
@@ -138,4 +152,6 @@ def _taken(lacks: Sequence[str], attributes: Sequence[str]) -> str:
     """Options that take the missing attributes, if some of the present ones are likely to be them."""
     likely = [next((each for each in attributes if likely_attribute(each) == name), None) for name in lacks]
     options = [option_for(each) for each in likely if each is not None]
+    if not options and list(lacks) == ["id"]:
+        options = ["--map IDENTIFIER=id --id-prefix …"]
     return f" ({' '.join(options)} takes them)" if options else ""

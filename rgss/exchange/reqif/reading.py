@@ -20,6 +20,7 @@ from rgss.exchange.reqif.archive import is_archive, reqif_members
 from rgss.exchange.reqif.objects import ForeignObject, ObjectReader, UnsoundObjectError
 from rgss.exchange.reqif.relations import Parent, RelationReader, parent_of
 from rgss.exchange.reqif.structure import structure_problems
+from rgss.exchange.reqif.unread import unread_notes
 from rgss.exchange.reqif.vocabulary import MEASURE
 from rgss.exchange.xml_guard import require_plain_xml
 from rgss.findings import Severity
@@ -150,7 +151,7 @@ def _content(
         measures=tuple((each.id, each.cells.get("text", "")) for each in found if each.type_name == MEASURE),
         records=one.reader.records,
         whole=frozenset(one.reader.own_parts),
-        notes=(*one.reader.omissions.notes(), *relations.notes(), *_elsewhere(elsewhere)),
+        notes=(*one.reader.omissions.notes(), *relations.notes(), *_elsewhere(elsewhere), *unread_notes(one.core)),
         losses=tuple(
             problem(one.file, "loss", message, line=line, severity=Severity.WARNING)
             for line, message in sorted((*one.reader.omissions.lost, *relations.lost, *_of_parents(rows)))

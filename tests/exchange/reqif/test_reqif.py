@@ -141,7 +141,10 @@ def test_a_file_of_strictdoc_is_imported(project, refused):
     foreign = read_reqif(STRICTDOC, part=Part.SYSTEM)
     assert foreign.notes == (
         "1 object of type 'SECTION' is not imported: no id and no text among their attributes 'ReqIF.ChapterName'",
-        "1 object of type 'TEXT' is not imported: no id among their attributes 'ReqIF.Text'",
+        (
+            "1 object of type 'TEXT' is not imported: no id among their attributes 'ReqIF.Text' "
+            "(--map IDENTIFIER=id --id-prefix … takes them)"
+        ),
         "the attribute 'ReqIF.Name' is not imported: rgss has none of that name (--map 'ReqIF.Name=…' takes it)",
     )
     assert {change.kind for change in project.compare(foreign, **assumed)} == {ChangeKind.ADDED}
