@@ -176,7 +176,7 @@ class ObjectReader:
         return read
 
     def _of_object(self, each: Any) -> dict[str, str]:
-        """What an object states in place of attributes: its name and description, and its identifier if it is mapped."""
+        """What an object states beside its attributes: name, description, and its identifier if that is mapped."""
         named = {"LONG-NAME": each.long_name, "DESC": each.description}
         if self._mapped.target(_IDENTIFIER):
             named[_IDENTIFIER] = each.identifier

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -27,6 +28,10 @@ from rgss.exchange.tables.heads import (
 from rgss.findings import Finding, shown
 
 _DIVIDERS = (",", ";", "\t")
+_STATED_DIVIDER = re.compile(r'"?sep=([,;\t])"?\r?\n', re.IGNORECASE)
+"""First line that states the separator to Excel."""
+_QUOTED = re.compile(r'"(?:[^"]|"")*"')
+_LONGEST_HEADS = 100_000
 _WRONG: Mapping[str, str] = MappingProxyType(
     {
         "unexpected end of data": "a cell that begins with a quotation mark has no closing one",
@@ -76,10 +81,12 @@ def read_csv(path: Path, foreign: ForeignTable | None = None) -> Content:
         line = content[: error.start].count(b"\n") + 1
         hint = "save it as CSV UTF-8"
         raise DocumentError([problem(file, "encoding", "is not UTF-8", line=line, hint=hint)]) from None
-    first = text.partition("\n")[0]
-    divider = max(_DIVIDERS, key=first.count)
+    stated = _STATED_DIVIDER.match(text)
+    divider = stated[1] if stated else _divider(text)
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=divider, strict=True)
     try:
+        if stated:
+            next(reader)
         first_row = [restored(head) for head in next(reader, [])]
         heads = found_heads(file, first_row, columns_of_both(), None if foreign is None else foreign.names)
         findings: list[Finding] = []
@@ -91,6 +98,12 @@ def read_csv(path: Path, foreign: ForeignTable | None = None) -> Content:
     if taken is None:
         return table_content(file, rows, findings, heads=[heads])
     return table_content(file, rows, findings, tuple(taken.notes()), taken.losses, [heads])
+
+
+def _divider(text: str) -> str:
+    """The separator of the first row, whose quoted cells may contain others."""
+    first = _QUOTED.sub("", text[:_LONGEST_HEADS]).partition("\n")[0]
+    return max(_DIVIDERS, key=first.count)
 
 
 def _rows(

@@ -20,7 +20,7 @@ from rgss.exchange.files import LARGEST_FILE_BYTES, problem, read_bytes
 from rgss.exchange.foreign_names import ForeignNames
 from rgss.exchange.tables.cell_comments import cell_comments
 from rgss.exchange.tables.foreign_rows import ForeignRows, ForeignTable
-from rgss.exchange.tables.formatted_cells import FormattedCell, SheetReader
+from rgss.exchange.tables.formatted_cells import FormattedCell, SheetReader, escaped_text
 from rgss.exchange.tables.heads import (
     MOST_COLUMNS,
     MOST_ROWS,
@@ -259,7 +259,7 @@ def _write_sheet(sheet: Any, part: Part, rows: list[Row]) -> None:
     aligned, bold = Alignment(vertical="top", wrap_text=True), Font(bold=True)
 
     def made(text: str) -> Any:
-        cell = WriteOnlyCell(sheet, text)
+        cell = WriteOnlyCell(sheet, escaped_text(text))
         cell.data_type = "s"  # openpyxl takes what begins with = for a formula
         # Excel then keeps it as text even after the cell is edited.
         cell.quotePrefix = starts_like_a_formula(text)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections import Counter
 from collections.abc import Iterator, Mapping
@@ -12,6 +13,9 @@ from rgss.exchange.content import Row
 from rgss.exchange.files import problem
 from rgss.exchange.foreign_names import LINKED, PART, ForeignNames
 from rgss.findings import Finding, Severity, shown
+
+_BREAK = re.compile(r"\r\n?")
+"""Line breaks within a cell, as programs of other systems write them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,7 +56,10 @@ class ForeignRows:
             row: The row, with the cells of all columns; its part, if it is of the sheet of one.
         """
         names = self._table.names
-        cells = {name: names.own_ids(name, cell) if name in LINKED else cell for name, cell in row.cells.items()}
+        cells = {
+            name: names.own_ids(name, cell) if name in LINKED else _BREAK.sub("\n", cell)
+            for name, cell in row.cells.items()
+        }
         cells["id"] = names.own_id(cells.get("id", "").strip())
         said = cells.pop(PART, "").strip()
         lacks = next((name for name in ("id", "text") if name in cells and not cells[name].strip()), "")

@@ -6,12 +6,27 @@ states. Its interface for that omits the formatting within inline texts and the 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
 
 from rgss.exchange.plain_forms import PlainText, omitted, shifted_text
+
+_ESCAPED = re.compile("_x(?![dD][89a-fA-F])([0-9a-fA-F]{4})_")
+# The x and not the underline before it: openpyxl removes each "x005F_" that it reads.
+_TO_ESCAPE = re.compile("\r|x(?=005F_)|(?<=_)x(?=[0-9a-fA-F]{4}_)")
+
+
+def unescaped_text(text: str) -> str:
+    """The text of a cell, in whose XML characters may be escaped as ``_x000D_`` (ECMA-376, ST_Xstring)."""
+    return _ESCAPED.sub(lambda found: chr(int(found[1], 16)), text)
+
+
+def escaped_text(text: str) -> str:
+    """A text as the XML of a cell has it, from which `unescaped_text` gives the same text."""
+    return _TO_ESCAPE.sub(lambda found: f"_x{ord(found[0]):04X}_", text)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,7 +51,7 @@ class FormattedCell:
             return PlainText(text="", losses=())
         if isinstance(self.value, list):
             return self._text_of_pieces()
-        plain = str(self.value).lower() if isinstance(self.value, bool) else str(self.value)
+        plain = str(self.value).lower() if isinstance(self.value, bool) else unescaped_text(str(self.value))
         loss = omitted(plain) if self.is_struck else ""
         return PlainText(text="" if loss else plain, losses=(loss,) if loss else ())
 
@@ -48,7 +63,7 @@ class FormattedCell:
     def _text_of_pieces(self) -> PlainText:
         text, losses = "", []
         for (is_struck, shift), pieces in groupby(self.value, self._formatting):
-            said = "".join(map(str, pieces))
+            said = unescaped_text("".join(map(str, pieces)))
             if is_struck:
                 losses.append(omitted(said))
                 continue

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import zipfile
+from dataclasses import replace
 
 import openpyxl
 import pytest
@@ -179,3 +180,30 @@ def test_a_comment_on_a_cell_is_reported_as_lost(read):
 
 def test_a_sheet_without_comments_loses_nothing(read):
     assert read(lambda _: None).losses == ()
+
+
+@pytest.mark.parametrize("is_shared", [False, True])
+@pytest.mark.parametrize(
+    ("stored", "text"),
+    [
+        ("One_x000D_\nTwo", "One\r\nTwo"),
+        ("max_xDE41_min", "max_xDE41_min"),
+        ("max_x_min", "max_x_min"),
+        (CellRichText("One", TextBlock(InlineFont(b=True), "_x0041_")), "OneA"),
+    ],
+)
+def test_characters_that_a_cell_escapes_are_read(read, stored, text, is_shared):
+    row = next(row for row in read(set_text(stored), is_shared=is_shared).rows if row.id == "SYS-1")
+    assert row.cells["text"] == text
+
+
+def test_a_text_that_looks_escaped_comes_back(project, tmp_path):
+    texts = ("max_x000D_min", "One\r\nTwo", "_x005F_x0041_", "_x_x0041_", "max005F_b")
+    content = project.content
+    (first, *_), last = content.rows[2:], content.rows[:2]
+    for text in texts:
+        path = tmp_path / "t.xlsx"
+        path.write_bytes(
+            excel_bytes(replace(content, rows=(*last, replace(first, cells={**first.cells, "text": text}))))
+        )
+        assert next(row for row in read_excel(path).rows if row.id == "SYS-1").cells["text"] == text

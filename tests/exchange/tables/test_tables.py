@@ -12,9 +12,9 @@ import openpyxl
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.exchange import tables
+from rgss.exchange import ForeignNames, tables
 from rgss.exchange.content import Content, Row
-from rgss.exchange.tables import csv_text, excel_bytes, read_csv, read_excel
+from rgss.exchange.tables import ForeignTable, csv_text, excel_bytes, read_csv, read_excel
 
 
 @pytest.fixture
@@ -120,6 +120,20 @@ def test_other_orders_dividers_and_byte_order_marks_are_read(project, tmp_path):
     csv.writer(out, delimiter=";").writerows([[*row[::-1]] for row in rows])
     (tmp_path / "t.csv").write_text(out.getvalue() + ";;;\r\n\r\n", encoding="utf-8-sig", newline="")
     assert project.compare(read_csv(tmp_path / "t.csv")) == ()
+
+
+@pytest.mark.parametrize("divider", [";", "\t", ","])
+@pytest.mark.parametrize("first", ["", "sep={}\r\n", '"sep={}"\n'])
+def test_a_separator_may_be_stated_or_stand_beside_others_in_quoted_heads(project, tmp_path, divider, first):
+    """Excel reads and writes the line that states it."""
+    out = io.StringIO(newline="")
+    writer = csv.writer(out, delimiter=divider, lineterminator="\r\n")
+    heads, *rows = csv.reader(io.StringIO(csv_text(project.content)))
+    writer.writerow([*heads, "Notes; remarks, and\tmore" + ",;" * 40])
+    writer.writerows([*row, ""] for row in rows)
+    path = tmp_path / "t.csv"
+    path.write_text(first.format(divider) + out.getvalue(), encoding="utf-8", newline="")
+    assert project.compare(read_csv(path, ForeignTable(names=ForeignNames()))) == ()
 
 
 def test_numbers_truth_values_and_other_sheets_of_a_workbook(project, written):

@@ -153,3 +153,10 @@ def test_an_id_that_is_a_number_names_the_option(project, table, refused):
     rows = [["12", "", "It shall hold.", "Heavy.", "Requirement", "1", "STK-2", ""]]
     (line,) = refused(project.compare, table(rows), defaults=DEFAULTS)
     assert line.endswith("(give --id-prefix, such as --id-prefix SYS-) [exchange.value]")
+
+
+def test_line_breaks_of_other_systems_within_a_cell_are_line_breaks(tmp_path):
+    path = tmp_path / "t.csv"
+    path.write_bytes(b'ID,Object Text\r\nSYS-1,"One\r\nTwo\rThree\nFour"\r\n')
+    (row,) = read_csv(path, ForeignTable(names=NAMES)).rows
+    assert row.cells["text"] == "One\nTwo\nThree\nFour"
