@@ -8,6 +8,7 @@ from typing import Any
 
 from rgss.exchange.attributes import ATTRIBUTES, Form, Part
 from rgss.exchange.foreign_names import PART, ForeignNames
+from rgss.exchange.plain_forms import PlainText
 from rgss.exchange.reqif.identifiers import type_identifier
 from rgss.exchange.reqif.omissions import ObjectValues, Omissions
 from rgss.exchange.reqif.prose import from_xhtml
@@ -158,21 +159,18 @@ class ObjectReader:
             line=line,
             values=beside,
         )
+        texts: dict[str, PlainText] = {}
         for value in each.attributes:
-            definition = stated.get(value.definition_ref)
-            if definition is None:
+            if value.definition_ref not in stated:
                 raise UnsoundObjectError(f"the object {each.identifier!r} has a value of no attribute of its type")
-            long = definition.long_name or definition.identifier
-            if value.attribute_type.name == "XHTML":
-                rich = from_xhtml(value.xml_node.find("THE-VALUE"), exact=self._exact)
-                read.values[long] = rich.text
-                read.losses[long] = (int(getattr(value.xml_node, "sourceline", None) or line), rich.losses)
-            else:
-                read.values[long] = self._text(value)
+            if value.definition_ref in texts:
+                raise UnsoundObjectError(f"the object {each.identifier!r} has two values of one attribute")
+            texts[value.definition_ref] = self._text(value)
+            read.lines[value.definition_ref] = int(getattr(value.xml_node, "sourceline", None) or line)
         for definition in stated.values():
-            long = definition.long_name or definition.identifier
-            if long not in read.values and (default := self._default(definition)) is not None:
-                read.values[long] = default
+            text = texts.get(definition.identifier) or self._default(definition)
+            if text is not None:
+                read.add(definition.long_name or definition.identifier, definition.identifier, text)
         return read
 
     def _of_object(self, each: Any) -> dict[str, str]:
@@ -214,26 +212,28 @@ class ObjectReader:
                 self.omissions.attribute(long, read, element_id, part, sources)
         return cells
 
-    def _default(self, definition: Any) -> str | None:
-        """Default value of an attribute as text; None if it has none."""
+    def _default(self, definition: Any) -> PlainText | None:
+        """Default value of an attribute; None if it has none."""
         stated = None if definition.xml_node is None else definition.xml_node.find("DEFAULT-VALUE")
         if stated is None or not len(stated):
             return None
         value = stated[0]
         if value.tag == "ATTRIBUTE-VALUE-XHTML":
-            return from_xhtml(value.find("THE-VALUE"), exact=self._exact).text
+            return PlainText(text=from_xhtml(value.find("THE-VALUE"), exact=self._exact).text, losses=())
         if value.tag == "ATTRIBUTE-VALUE-ENUMERATION":
             return self._chosen([each.text for each in value.iterfind("VALUES/ENUM-VALUE-REF")])
         return self._plain(value.get("THE-VALUE", ""))
 
-    def _text(self, value: Any) -> str:
+    def _text(self, value: Any) -> PlainText:
+        if value.attribute_type.name == "XHTML":
+            return from_xhtml(value.xml_node.find("THE-VALUE"), exact=self._exact)
         return self._chosen(value.value) if isinstance(value.value, list) else self._plain(str(value.value))
 
-    def _chosen(self, choices: Sequence[str]) -> str:
+    def _chosen(self, choices: Sequence[str]) -> PlainText:
         unknown = next((each for each in choices if each not in self._choices), None)
         if unknown is not None:
             raise UnsoundObjectError(f"there is no choice {unknown!r}")
-        return "; ".join(self._choices[each] for each in choices)
+        return PlainText(text="; ".join(self._choices[each] for each in choices), losses=())
 
-    def _plain(self, text: str) -> str:
-        return text.replace("\\n", "\n") if self._escapes_breaks else text
+    def _plain(self, text: str) -> PlainText:
+        return PlainText(text=text.replace("\\n", "\n") if self._escapes_breaks else text, losses=())

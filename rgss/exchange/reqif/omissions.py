@@ -18,6 +18,7 @@ from rgss.exchange.foreign_names import (
     likely_attribute,
     option_for,
 )
+from rgss.exchange.plain_forms import PlainText
 from rgss.exchange.reqif.vocabulary import EXCHANGE_IDS
 from rgss.findings import shown
 
@@ -36,7 +37,8 @@ class ObjectValues:
         stated: The names of all attributes of its type.
         line: Its first line.
         values: The values.
-        losses: Line and content that each value loses with its markup.
+        losses: Line and content that each value loses, with its markup or since another has its name.
+        lines: The line of each value, by the identifier of its attribute.
     """
 
     type_name: str
@@ -45,6 +47,23 @@ class ObjectValues:
     line: int
     values: dict[str, str] = field(default_factory=dict)
     losses: dict[str, tuple[int, tuple[str, ...]]] = field(default_factory=dict)
+    lines: dict[str, int] = field(default_factory=dict)
+
+    def add(self, long: str, definition: str, value: PlainText) -> None:
+        """A value; of several attributes of one name, the first with a value counts, and the others are losses.
+
+        Args:
+            long: The name of its attribute.
+            definition: The identifier of its attribute.
+            value: The value.
+        """
+        line, before = self.lines.get(definition, self.line), self.values.get(long, "").strip()
+        if not before:
+            self.values[long], self.losses[long] = value.text, (line, value.losses)
+        elif value.text.strip() not in ("", before):
+            where, losses = self.losses.get(long, (line, ()))
+            loss = f"the value {shown(value.text.strip())} of another attribute of that name is omitted"
+            self.losses[long] = (where, (*losses, loss))
 
 
 class Omissions:

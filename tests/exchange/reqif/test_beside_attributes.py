@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from rgss.exchange import ForeignNames, Part
@@ -89,3 +91,29 @@ def test_attributes_of_relations_and_specifications_are_noted(read_with):
         "the attributes of 1 relation are not imported: 'Comment'",
         "the attributes of 1 specification are not imported: 'Scope'",
     )
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "text", "losses"),
+    [
+        ("It shall hold.", "gripper", "It shall hold.", ["'gripper'"]),
+        ("It shall hold.", "It shall hold.", "It shall hold.", []),
+        ("", "gripper", "gripper", []),
+        ("It shall hold.", "", "It shall hold.", []),
+    ],
+)
+def test_of_two_attributes_of_one_name_the_first_counts_and_the_other_is_a_loss(as_xml, first, second, text, losses):
+    types = {"Req": (*TYPES["Req"], ("Group", "STRING"))}
+    values = {"ReqIF.ForeignID": "SYS-8", "ReqIF.Text": first, "Group": second}
+    file = reqif_of(types, [("Req", values)]).replace('LONG-NAME="Group"', 'LONG-NAME="ReqIF.Text"')
+    foreign = read_reqif(as_xml(file), part=Part.SYSTEM)
+    assert [row.cells["text"] for row in foreign.rows] == [text]
+    said = "SYS-8: ReqIF.Text: the value {} of another attribute of that name is omitted"
+    assert [loss.message for loss in foreign.losses] == [said.format(loss) for loss in losses]
+
+
+def test_two_values_of_one_attribute_are_refused(as_xml, refused):
+    text = reqif_of(TYPES, OBJECTS[:1])
+    value = re.search("<ATTRIBUTE-VALUE-XHTML.*?</ATTRIBUTE-VALUE-XHTML>", text)[0]
+    (line,) = refused(read_reqif, as_xml(text.replace(value, value + value.replace("3 kg", "4 kg"))), part=Part.SYSTEM)
+    assert "the object '_o0' has two values of one attribute" in line
