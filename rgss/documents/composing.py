@@ -22,6 +22,7 @@ from yaml.events import (
 
 from rgss.documents.positions import ListPlaces, MappingPlaces, Mark, Places, Position, mark_of, position_of
 from rgss.documents.refusals import MOST_PROBLEMS, cut_short, end_of, refusal
+from rgss.documents.yaml_parsers import EMPTY_IN_FLOW, READ_ALIKE_NOT
 from rgss.errors import DocumentError
 from rgss.findings import Finding, shown
 
@@ -37,13 +38,6 @@ _INTEGER = re.compile(r"[+-]?(0|[1-9][0-9]{0,17})")
 _FLOAT = re.compile(
     r"[+-]?(((0|[1-9][0-9]*)\.[0-9]*|\.[0-9]+)([eE][+-]?[0-9]{1,3})?|(0|[1-9][0-9]*)[eE][+-]?[0-9]{1,3})"
 )
-_READ_ALIKE_NOT = re.compile("[\t\x85\u2028\u2029]|[|>][-+0-9]{0,2}#")
-"""Signs after which PyYAML's two parsers may disagree: libyaml takes tabs between tokens, and a comment that touches
-the head of a block scalar."""
-
-_EMPTY_IN_FLOW = re.compile(r":\s*[,}\]#]")
-"""Possible omitted value of a flow mapping, which the two parsers locate differently."""
-
 _DIRECTIVE = re.compile(r"(?:(?:[ \t]*(?:#[^\r\n]*)?|%YAML 1\.[12])[\r\n])*(?=%(?!YAML 1\.[12][\r\n]))")
 """Text before a rejected directive; a version known to both parsers is accepted."""
 
@@ -127,9 +121,9 @@ class Composer:
 
     def _compose_stream(self) -> tuple[Any, Places]:
         fast = getattr(yaml, "CSafeLoader", None)
-        if fast is not None and not _READ_ALIKE_NOT.search(self._text):
+        if fast is not None and not READ_ALIKE_NOT.search(self._text):
             try:
-                watched = "?" in self._text or _EMPTY_IN_FLOW.search(self._text) is not None
+                watched = "?" in self._text or EMPTY_IN_FLOW.search(self._text) is not None
                 return self._compose_with(fast(self._text), watched=watched)
             except (yaml.MarkedYAMLError, _ParsersDisagreeError):
                 self._findings.clear()

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from rgss.documents.positions import Location
+from rgss.documents.yaml_parsers import composed
 from rgss.documents.yaml_text import entry_lines, inline_text, value_lines
 from rgss.errors import DefinitionError
 
@@ -104,6 +104,10 @@ def edited(text: str, edits: Sequence[Edit]) -> str:
     return "".join([*parts, text[done:]])
 
 
+_COMMENT = re.compile(r"(?:[ \t]*\r?\n)*([ \t]*)#[^\r\n]*(?:\r?\n|\Z)")
+"""A line with a comment alone, and the empty lines before it."""
+
+
 class _Editor:
     def __init__(self, text: str, edits: Sequence[Edit]) -> None:
         self._text = text
@@ -112,7 +116,7 @@ class _Editor:
             if isinstance(edit, RemoveEntry):
                 self._removed.setdefault(edit.location, set()).add(edit.index)
         self._appended = {(edit.key,) for edit in edits if isinstance(edit, AppendEntry)}
-        root = yaml.compose(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+        root = composed(text)
         if root is None:
             raise _missing(())
         self._root: Node = root
@@ -189,13 +193,17 @@ class _Editor:
         key, old = around.value[index]
         start, end = old.start_mark.index, self._end(old)
         if around.flow_style:
-            return _Splice(start, end, inline_text(value))
+            # Without a blank an omitted value would become a part of the key.
+            gap = " " if self._text[:start].endswith(":") else ""
+            return _Splice(start, end, f"{gap}{inline_text(value)}")
         colon = self._text.index(":", key.end_mark.index) + 1
         comment = re.match(r"[ \t]*(#[^\r\n]*)", self._text[colon:start])
         stop = self._line_end(end)
         rest = self._text[end:stop] if comment is None else f" {comment[1]}"
         first, *more = value_lines(value, key.start_mark.column, key.end_mark.column + 1)
         head = f" {first}{rest}" if first else rest
+        if more and (past := self._past_comments(end, key.start_mark.column)) > self._next_line(end):
+            stop = self._line_end(self._line_start(past - 1))
         return _Splice(colon, stop, self._joined([head.rstrip(), *more]))
 
     def _insert(self, around: MappingNode, behind: int, edit: SetKey) -> _Splice:
@@ -205,7 +213,7 @@ class _Editor:
         column = around.value[behind][0].start_mark.column
         head = f"{' ' * column}{edit.key}:"
         first, *more = value_lines(edit.value, column, len(head))
-        return self._lines_behind(end, [f"{head} {first}" if first else head, *more])
+        return self._lines_behind(end, column, [f"{head} {first}" if first else head, *more])
 
     def _remove_key(self, around: MappingNode, index: int) -> _Splice:
         key, value = around.value[index]
@@ -213,7 +221,7 @@ class _Editor:
         if around.flow_style and index:
             return _Splice(self._end(around.value[index - 1][1]), self._end(value), "")
         if index:
-            return _Splice(self._line_start(start), self._next_line(self._end(value)), "")
+            return _Splice(self._line_start(start), self._past_comments(self._end(value), key.start_mark.column), "")
         # The first key of a mapping follows a dash or a brace, which is kept.
         stop = self._end(value) if len(around.value) == 1 else around.value[1][0].start_mark.index
         return _Splice(start, stop, "")
@@ -233,11 +241,26 @@ class _Editor:
         if node.flow_style or not node.value:
             return _Splice(end - 1, end - 1, f"{', ' if node.value else ''}{inline_text(edit.entry)}")
         apart = [""] if self._entries_stand_apart(node) else []
-        return self._lines_behind(end, [*apart, *entry_lines(edit.entry, node.start_mark.column)])
+        column = node.start_mark.column
+        return self._lines_behind(end, column, [*apart, *entry_lines(edit.entry, column)])
 
-    def _lines_behind(self, end: int, lines: Sequence[str]) -> _Splice:
-        """Edit that inserts whole lines after the line of a position."""
+    def _past_comments(self, end: int, column: int) -> int:
+        """Start of the first line behind a value and the comments that are indented as parts of it.
+
+        Such a comment behind a block scalar of fewer lines would become a part of its text.
+
+        Args:
+            end: The end of the value.
+            column: The column of its key, or of the dash before it.
+        """
         place = self._next_line(end)
+        while (comment := _COMMENT.match(self._text, place)) and len(comment[1]) > column:
+            place = comment.end()
+        return place
+
+    def _lines_behind(self, end: int, column: int, lines: Sequence[str]) -> _Splice:
+        """Edit that inserts whole lines behind a value."""
+        place = self._past_comments(end, column)
         if self._text[:place].endswith("\n"):
             return _Splice(place, place, self._joined([*lines, ""]))
         return _Splice(place, place, self._joined(["", *lines]))
@@ -261,7 +284,8 @@ class _Editor:
             stop = node.end_mark.index - 1 if last else items[index + 1].start_mark.index
             return _Splice(items[index].start_mark.index, stop, "")
         dash = self._text.rindex("-", 0, items[index].start_mark.index)
-        start, stop = self._line_start(dash), self._next_line(self._end(items[index]))
+        start = self._line_start(dash)
+        stop = self._past_comments(self._end(items[index]), dash - start)
         while self._is_blank(stop) and start and self._is_blank(self._line_start(start - 1)):
             start = self._line_start(start - 1)
         return _Splice(start, stop, "")
