@@ -25,14 +25,15 @@ _VAGUE = phrases("""
     customary, cutting-edge, decent, desirable, easy to *, effective, effectively, efficient, efficiently,
     effortless, effortlessly, elegant, elegantly, environmentally friendly, ergonomic, ergonomically, excessive,
     excessively, expandable, extremely, fairly, flexible, flexibly, frequently, generally, good enough,
-    good-quality, graceful, gracefully, high-quality, ideal, inadequate, infrequently, insignificant,
-    insufficient, intuitive, intuitively, largely, lots of, maintainable, many, meaningful, moderate, modern,
-    more or less, mostly, nearly, negligible, normally, numerous, occasionally, often, operator-friendly, plenty
-    of, proficient, properly, quite, rarely, rather, realistic, realistically, reasonable, reasonably, relevant,
-    satisfactory, seamless, seamlessly, seldom, sensible, sensibly, several, significant, significantly, simple
-    to *, some, somewhat, state of the art, substantial, substantially, sufficient, sufficiently, suitable,
-    suitably, timely, tolerable, typical, typically, undue, unduly, unreasonable, unreasonably, user-friendly,
-    usual, usually, various, versatile, very, with ease, without difficulty, world-class
+    good-quality, graceful, gracefully, high-quality, ideal, in most cases, inadequate, infrequently,
+    insignificant, insufficient, intuitive, intuitively, largely, legible, legibly, lots of, maintainable, many,
+    meaningful, moderate, modern, more or less, most of the time, mostly, nearly, negligible, normally,
+    numerous, occasionally, often, operator-friendly, plenty of, proficient, properly, quite, rarely, rather,
+    realistic, realistically, reasonable, reasonably, relevant, satisfactory, seamless, seamlessly, seldom,
+    sensible, sensibly, several, significant, significantly, simple to *, some, somewhat, state of the art,
+    substantial, substantially, sufficient, sufficiently, suitable, suitably, timely, tolerable, typical,
+    typically, undue, unduly, unreasonable, unreasonably, user-friendly, usual, usually, various, versatile,
+    very, with ease, without difficulty, world-class
 """)
 _NUMBER_NEXT = re.compile(r"\.?\s*[~±]?[$€£¥]?\d")
 # Behind a number it is the sign of a range.
