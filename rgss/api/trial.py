@@ -196,10 +196,23 @@ def run_one(
                 f"rate_hz must be from {_LOWEST_HZ:g} to {_HIGHEST_HZ:g}, got {rate_hz:g}", hint=_OF_THE_STUDY
             )
         settings = spec.settings
+        _refuse_coarse(spec.fidelity, rate_hz, settings.physics.solver_iterations)
         spec = replace(spec, settings=replace(settings, physics=replace(settings.physics, rate_hz=rate_hz)))
     seen = spec.fidelity is Fidelity.CONTACT
     record, trace = compute(run_traced_trial, spec) if seen else (compute(run_trial, spec), None)
     return Trial(record=record, _spec=spec, _trace=trace, _drawing=drawing)
+
+
+def _refuse_coarse(fidelity: Fidelity, rate_hz: float, iterations: int) -> None:
+    """Refuse a rate at which contact physics was not validated, as a study's file and a what-if do."""
+    from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
+
+    if fidelity is Fidelity.CONTACT and (rate_hz < LEAST_RATE_HZ or rate_hz * iterations < LEAST_ITERATIONS_HZ):
+        raise DefinitionError(
+            f"contact physics needs at least {LEAST_RATE_HZ:g} Hz and {LEAST_ITERATIONS_HZ:g} solver iterations a "
+            f"second, got rate_hz={rate_hz:g} and {rate_hz * iterations:g}",
+            hint="240 Hz with 20 iterations are validated",
+        )
 
 
 def payload_of(

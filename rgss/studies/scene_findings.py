@@ -19,6 +19,7 @@ from rgss.scenes import (
 from rgss.studies.checks import (
     OF_ONE_GRIPPER,
     TooTall,
+    check_step_findings,
     checked_mounting,
     closing_texts,
     held_load_findings,
@@ -67,9 +68,10 @@ def check_scene(project: Project) -> SceneCheck:
         project: The project.
     """
     try:
-        from rgss.trials import scene_problems
+        from rgss.trials import check_step_problems, scene_problems
 
         of_bodies = scene_problems(project.scene)
+        of_checks = check_step_problems(project.scene, project.study.task)
         skipped = _NOT_SEARCHED if _refuses_search(project, of_bodies) else ""
         of_hands = _HandProblems()
         for file in _gripper_files(project):
@@ -96,6 +98,7 @@ def check_scene(project: Project) -> SceneCheck:
     ]
     found += held
     found += step_findings(project, of_hands.steps, grippers=every)
+    found += check_step_findings(project, of_checks)
     found += places.outgrown_regions()
     found += mesh_volume_findings(project.folder / label, label=label)
     found += [

@@ -8,8 +8,10 @@ if TYPE_CHECKING:
     from rgss.trials.conditions import DrawnValue, conditions_of, drawn_values
     from rgss.trials.filming import Film
     from rgss.trials.geometry_checks import (
+        CheckStepProblem,
         HandStepProblem,
         HeldLoad,
+        check_step_problems,
         draw_problems,
         hand_step_problems,
         held_loads,

@@ -293,6 +293,10 @@ def test_a_script_that_sweeps_with_processes(empty, guarded, said):
             "rate_hz must be from 60 to 10000, got 1 (omit it for the study's own)",
         ),
         (
+            lambda study: study.trial(1, fidelity="contact", rate_hz=100),
+            "contact physics needs at least 120 Hz and 2400 solver iterations a second, got rate_hz=100 and ",
+        ),
+        (
             lambda study: study.payload(1, friction=-0.1),
             "friction must be at least 0, got -0.1 (omit it for that of the gripper's file)",
         ),

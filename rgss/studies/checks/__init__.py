@@ -21,7 +21,7 @@ if TYPE_CHECKING:
         remedy,
     )
     from rgss.studies.checks.seal_check import seal_finding, unsealed_objects
-    from rgss.studies.checks.step_check import step_findings
+    from rgss.studies.checks.step_check import check_step_findings, step_findings
     from rgss.studies.checks.strict_check import strict_findings
     from rgss.studies.checks.task_time_check import task_time_findings
     from rgss.studies.checks.threshold_check import threshold_findings

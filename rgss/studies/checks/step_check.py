@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from rgss.findings import Finding, Severity
@@ -10,7 +10,7 @@ from rgss.studies.project import Project
 from rgss.tasks import HandAction
 
 if TYPE_CHECKING:
-    from rgss.trials import HandStepProblem
+    from rgss.trials import CheckStepProblem, HandStepProblem
 
 
 def step_findings(
@@ -52,3 +52,25 @@ def step_findings(
             hint = "move to place before it, or increase largest_drop of the place region"
         severity = Severity.ERROR if is_of_all else Severity.INFO
         yield loaded.document.finding(rule, message, at, hint=hint, severity=severity)
+
+
+def check_step_findings(project: Project, problems: Iterable[CheckStepProblem]) -> Iterator[Finding]:
+    """Findings about conditions of check steps that the task itself excludes.
+
+    Args:
+        project: The project; the task of the package, which has no file, has no check.
+        problems: The violated conditions.
+    """
+    loaded = project.study.task_file
+    if loaded is None:
+        return
+    reported: set[tuple[str | int, ...]] = set()
+    for problem in problems:
+        step, at = loaded.program.steps[problem.step], loaded.places[problem.step]
+        # The cycles of a repetition share the step of the file: the first one is enough.
+        if (*at, problem.key) in reported:
+            continue
+        reported.add((*at, problem.key))
+        message = f"{step.name!r} is violated even if every step is exact: {problem.detail}"
+        hint = "move the check, or change the condition, the place or the position of the object"
+        yield loaded.document.finding("task.check-violated", message, (*at, problem.key), hint=hint)
