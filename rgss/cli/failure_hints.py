@@ -24,9 +24,12 @@ def failure_hint(record: TrialRecord, project: Project, controller: JointControl
 
     study = project.study
     if record.failure is Failure.PLANNING_LIMIT:
+        task = project.scene.task
+        is_yaw_stated = task.candidates is None and not task.is_yaw_free
+        turned = "turn the hand ('grasp_yaw', 'place_yaw') or " if is_yaw_stated else ""
         return (
             f"give the planner more time (what sets planning.time_limit in {study.design_space}), try another planner "
-            f"there, lower planning.clearance in {study.label}, or move bodies apart in {study.scene}"
+            f"there, lower planning.clearance in {study.label}, or {turned}move bodies apart in {study.scene}"
         )
     if record.failure is Failure.OBJECT_DROPPED and " tilted by " in record.failure_detail:
         return (

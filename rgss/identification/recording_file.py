@@ -12,6 +12,7 @@ from itertools import groupby, pairwise
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rgss.documents import chunks_of, write_output
 from rgss.errors import DocumentError
@@ -26,8 +27,15 @@ LEAST_SAMPLES = 8
 LARGEST_GAP = 1.5
 """Time between samples of a segment, over the usual one, from which samples are missing."""
 
+MOST_VELOCITY_RATIO = 2.0
+"""Ratio of the change of a position to the integral of its velocity, or its inverse, from which the two disagree."""
+
 LONGEST_SAMPLING_S = 0.2
 """Usual time between samples from which the response of a servo is not seen; times in ms are longer."""
+
+Array = NDArray[np.float64]
+
+_LEAST_CORRELATION = 0.9
 
 _COMMENTS = ("robot", "recorded", "control")
 _COMMANDS = "# commands:"
@@ -126,6 +134,7 @@ def read_recording(path: Path) -> Recording:
             )
             for index, name in enumerate(joints)
         }
+        _check_velocities(path, line, joint, part[:, 0], series[joint])
         segments.append(Segment(pose=pose, joint=joint, signal=signal, times_s=part[:, 0], series=series))
         start = end
     return Recording(
@@ -196,7 +205,7 @@ def _joints(path: Path, header: Sequence[str], head: int) -> tuple[tuple[str, ..
     return tuple(joints), tuple(units)
 
 
-def _values(path: Path, rows: Sequence[Sequence[str]], header: Sequence[str], head: int) -> np.ndarray[tuple[int, int]]:
+def _values(path: Path, rows: Sequence[Sequence[str]], header: Sequence[str], head: int) -> Array:
     """Time and motion of each line, in the units of the file."""
     if not rows:
         raise _wrong(path, head + 2, "the recording has no samples")
@@ -218,9 +227,7 @@ def _values(path: Path, rows: Sequence[Sequence[str]], header: Sequence[str], he
     return np.array(found)
 
 
-def _check_times(
-    path: Path, times_s: np.ndarray[tuple[int]], labels: Sequence[tuple[str, str, str]], head: int
-) -> None:
+def _check_times(path: Path, times_s: Array, labels: Sequence[tuple[str, str, str]], head: int) -> None:
     differences = np.diff(times_s)
     inside = np.array([one == other for one, other in pairwise(labels)], dtype=bool)
     usual_s = float(np.median(differences[inside])) if inside.any() else math.inf
@@ -234,6 +241,25 @@ def _check_times(
         if inside[index] and difference_s > LARGEST_GAP * usual_s:
             problem = f"samples are missing: {difference_s:g} s to this one, {usual_s:g} s usually"
             raise _wrong(path, line, problem, "record the segment again")
+
+
+def _check_velocities(path: Path, line: int, joint: str, times_s: Array, series: JointSeries) -> None:
+    """Refuse a segment whose measured velocities are not those of its measured positions, such as others in degrees.
+
+    Motion that noise hides is not compared.
+    """
+    speeds = series.measured_rad_s
+    steps = 0.5 * (speeds[1:] + speeds[:-1]) * np.diff(times_s)
+    travel = np.concatenate([[0.0], np.cumsum(steps)])
+    moved, travel = series.measured_rad - np.mean(series.measured_rad), travel - np.mean(travel)
+    both = float(np.linalg.norm(moved) * np.linalg.norm(travel))
+    if both == 0.0 or abs(float(moved @ travel)) < _LEAST_CORRELATION * both:
+        return
+    ratio = float(moved @ travel) / float(travel @ travel)
+    if 1.0 / MOST_VELOCITY_RATIO <= ratio <= MOST_VELOCITY_RATIO:
+        return
+    problem = f"measured positions of {joint} change by {ratio:.2g} times the integral of its measured velocities"
+    raise _wrong(path, line, problem, "give both in the unit of their columns and in one direction")
 
 
 def _wrong(path: Path, line: int, message: str, hint: str = "", column: int = 1) -> DocumentError:

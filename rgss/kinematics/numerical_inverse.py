@@ -149,10 +149,14 @@ class NumericalInverse:
 
     def _reached(self, residual: PoseResidual, starts: Vector, *, limited: bool = True) -> list[Vector]:
         """Distinct ends of the descents that converge to the pose."""
-        ends = np.round(self._descend(residual, starts, limited=limited and self.is_redundant), _DIGITS)
+        is_limited = limited and self.is_redundant
+        ends = np.round(self._descend(residual, starts, limited=is_limited), _DIGITS)
+        if is_limited:
+            # Rounding may leave the range of a joint at its limit.
+            ends = np.clip(ends, self._lower, self._upper)
         same = _REDUNDANT_SAME if self.is_redundant else _SAME
         ends = ends[residual.deviation(self._chain.state(ends)) < TOLERANCE]
-        if not (limited and self.is_redundant):
+        if not is_limited:
             ends[:, self._turns] = _principal(ends[:, self._turns])
         kept: list[Vector] = []
         while len(ends):

@@ -15,7 +15,8 @@ from rgss.tasks import StepControl
 from rgss.trials import ControlMode, JointController
 
 PROJECT = SimpleNamespace(
-    study=SimpleNamespace(label="studies/a.yaml", design_space="designs/b.yaml", scene="scenes/c.yaml")
+    study=SimpleNamespace(label="studies/a.yaml", design_space="designs/b.yaml", scene="scenes/c.yaml"),
+    scene=SimpleNamespace(task=SimpleNamespace(candidates=None, is_yaw_free=False)),
 )
 
 
@@ -44,6 +45,16 @@ def test_a_failure_has_a_hint_with_the_file(failure, detail, parts):
     hint = failure_hint(SimpleNamespace(failure=failure, failure_detail=detail), PROJECT, JointController())
 
     assert all(part in hint for part in parts)
+
+
+@pytest.mark.parametrize(
+    ("candidates", "is_yaw_free", "named"), [(None, False, True), (None, True, False), (("a",), False, False)]
+)
+def test_a_planner_out_of_time_may_have_a_path_to_another_yaw_where_it_is_stated(candidates, is_yaw_free, named):
+    scene = SimpleNamespace(task=SimpleNamespace(candidates=candidates, is_yaw_free=is_yaw_free))
+    failed = SimpleNamespace(failure=Failure.PLANNING_LIMIT, failure_detail="")
+    hint = failure_hint(failed, SimpleNamespace(study=PROJECT.study, scene=scene), JointController())
+    assert ("turn the hand ('grasp_yaw', 'place_yaw')" in hint) is named
 
 
 def test_other_failures_have_none():

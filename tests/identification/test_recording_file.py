@@ -179,3 +179,38 @@ def test_what_has_no_end_or_is_too_large_is_not_read(tmp_path, monkeypatch):
 
 def test_a_file_that_is_not_there(tmp_path):
     assert "cannot be read" in complaint(tmp_path / "none.csv").message
+
+
+def scaled(path, column, factor):
+    """The values of a column times a factor."""
+    head, rows = path.read_text().splitlines()[:4], [line.split(",") for line in path.read_text().splitlines()[4:]]
+    for row in rows:
+        row[column] = f"{float(row[column]) * factor:.9g}"
+    path.write_text("\n".join([*head, *map(",".join, rows)]) + "\n")
+
+
+@pytest.mark.parametrize(("column", "factor", "ratio"), [(7, 57.3, "0.017"), (6, 57.3, "57"), (7, -1.0, "-1")])
+def test_positions_and_velocities_in_different_units_are_refused(path, column, factor, ratio):
+    """The fit would take velocities in degrees for radians, with a Coulomb friction that is 57 times too large."""
+    scaled(path, column, factor)
+
+    found = complaint(path)
+
+    assert found.line == 5
+    change = f"change by {ratio} times the integral of its measured velocities"
+    assert found.message == f"measured positions of j1 {change}"
+    assert found.hint == "give both in the unit of their columns and in one direction"
+
+
+def test_a_gyroscope_with_a_wrong_scale_is_read(path):
+    scaled(path, 7, 1.3)
+    assert read_recording(path).joints == ("j1",)
+
+
+def test_motion_that_noise_hides_is_not_compared(path):
+    noise = np.random.default_rng(1).normal(0.0, 1e-3, 10_000)
+    head, rows = path.read_text().splitlines()[:4], [line.split(",") for line in path.read_text().splitlines()[4:]]
+    for row, one in zip(rows, noise, strict=False):
+        row[6] = f"{one:.9g}"
+    path.write_text("\n".join([*head, *map(",".join, rows)]) + "\n")
+    assert read_recording(path).joints == ("j1",)

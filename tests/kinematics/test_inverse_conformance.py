@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -163,6 +164,22 @@ def test_position_and_axis_alone_leave_the_turn_to_the_arm(links, least):
     again = inverse.solve(turned)
     assert len(again) == len(solutions)
     assert np.max(np.abs(np.array(again) - np.array(solutions))) < 1e-4
+
+
+@pytest.mark.parametrize("is_turn_free", [False, True])
+def test_no_joint_leaves_its_range_where_the_arm_is_at_its_limit(is_turn_free):
+    """Planners refuse what lies outside by a rounding error, as half a turn with eleven digits does."""
+    links = tuple(replace(link, range=(-math.pi, math.pi)) for link in SEVEN)
+    narrow = replace(links[3], range=(-math.pi / 3, math.pi))
+    arm = Arm(serial_robot((*links[:3], narrow, *links[4:])), Pose())
+    inverse = inverse_kinematics(arm, is_turn_free=is_turn_free)
+    poses = [arm.tool_pose(np.array([0.1 * one, 0.3, 0.2, 1.2, 0.3, 0.5, math.pi])) for one in range(6)]
+
+    found = np.array([q for pose in poses for q in inverse.solve(pose)])
+
+    at_limit = (np.abs(found - arm.lower_rad) < 1e-9) | (np.abs(found - arm.upper_rad) < 1e-9)
+    assert at_limit.any()
+    assert np.all((found >= arm.lower_rad) & (found <= arm.upper_rad))
 
 
 def test_a_line_with_a_free_turn_keeps_the_last_joint_still():

@@ -51,7 +51,7 @@ def test_the_normal_mounting_cannot_take_the_cube_and_says_so(capsys):
 
     _, output = told(capsys, "run", "1", "--study", LITE6, "--fidelity", "kinematic")
     # A straight move has no planning problem whose goal could be invalid.
-    too_wide = "red_cube of 30 mm is too wide to enter gripper lite6_parallel in its mounting normal"
+    too_wide = "red_cube, 30 mm across, is too wide to enter gripper lite6_parallel in its mounting normal"
     assert f"Failed at red_cube.to_grasp: unreachable_waypoint: {too_wide}, which opens to 16 mm" in output
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import ipaddress
 from pathlib import Path
 
 from rgss.cli.driven.real_drivers import REAL_DRIVERS
 from rgss.errors import DefinitionError, QuantityError
+from rgss.findings import shown
 
 DRIVERS = ("simulated", *(one.name for one in REAL_DRIVERS))
 _ONLY_WITH_DRIVER = ("address", "speed", "go", "recording", "gripper_output")
@@ -51,11 +53,26 @@ def check_driver(options: argparse.Namespace, *, has_pictures: bool) -> None:
                 raise DefinitionError(f"--{name} is for a real robot", hint="omit it with --driver simulated")
     elif options.go and not options.address:
         raise DefinitionError(f"--driver {options.driver} --go needs --address", hint="give the controller's address")
+    if options.address is not None:
+        _check_address(options.address)
     if options.recording is not None and options.driver != "simulated" and not options.go:
         raise DefinitionError("a rehearsal measures nothing to record", hint="--recording needs --go")
     if options.gripper_output is not None and (options.driver != "ur" or not 0 <= options.gripper_output <= 7):
         raise DefinitionError("--gripper-output must be from 0 to 7 and is for --driver ur")
     speed_of(options)
+
+
+def _check_address(address: str) -> None:
+    """Refuse numbers that are no IP address: resolvers fill in missing ones, so that another robot would move."""
+    if not set(address.strip()) <= set("0123456789."):
+        return
+    try:
+        ipaddress.IPv4Address(address)
+    except ValueError as error:
+        raise DefinitionError(
+            f"--address must be a name or four numbers from 0 to 255, got {shown(address)}",
+            hint="such as 192.168.0.10, without leading zeros",
+        ) from error
 
 
 def speed_of(options: argparse.Namespace) -> float:

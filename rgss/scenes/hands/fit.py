@@ -19,7 +19,7 @@ def too_wide(geometry: GripperGeometry, scene: Scene) -> str:
     if geometry.cup is not None or (half_m := grasp_opening_m(scene, geometry)) < geometry.largest_opening_m:
         return ""
     return (
-        f"{scene.workpiece.id} of {_millimetres(2 * half_m)} is too wide to enter {_named(geometry)}, "
+        f"{scene.workpiece.id}, {_millimetres(2 * half_m)} across, is too wide to enter {_named(geometry)}, "
         f"which opens to {_millimetres(2 * geometry.largest_opening_m)}"
     )
 
@@ -34,7 +34,7 @@ def too_narrow(geometry: GripperGeometry, scene: Scene) -> str:
     if geometry.cup is not None or (half_m := grasp_opening_m(scene, geometry)) > geometry.least_opening_m:
         return ""
     return (
-        f"{scene.workpiece.id} of {_millimetres(2 * half_m)} is too narrow to be touched by {_named(geometry)}, "
+        f"{scene.workpiece.id}, {_millimetres(2 * half_m)} across, is too narrow to be touched by {_named(geometry)}, "
         f"which closes to {_millimetres(2 * geometry.least_opening_m)}"
     )
 

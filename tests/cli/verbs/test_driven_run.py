@@ -156,6 +156,11 @@ def test_the_folder_of_a_recording_is_asked_for_before_the_robot(rgss, untouched
         (("--driver", "simulated", "--go"), "--go is for a real robot"),
         (("--driver", "simulated", "--address", "x"), "--address is for a real robot"),
         (("--driver", "xarm", "--go"), "--driver xarm --go needs --address"),
+        (
+            ("--driver", "ur", "--address", "192.168.10", "--go"),
+            "--address must be a name or four numbers from 0 to 255, got '192.168.10' (such as 192.168.0.10",
+        ),
+        (("--driver", "xarm", "--address", " 10.0.0.7"), "--address must be a name or four numbers from 0 to 255"),
         (("--driver", "ur", "--recording", "a.csv"), "a rehearsal measures nothing to record"),
         (("--driver", "xarm", "--gripper-output", "1"), "--gripper-output must be from 0 to 7 and is for --driver ur"),
         (("--driver", "ur", "--gripper-output", "8"), "--gripper-output must be from 0 to 7"),

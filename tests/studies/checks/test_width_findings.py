@@ -35,7 +35,7 @@ def test_an_object_wider_than_the_open_fingers(shipped, share, found):
     assert len(reasons) == found
     for name, reason in reasons:
         assert name == project.scene.workpiece.id
-        assert f"of {2e3 * share * geometry.largest_opening_m:.4g} mm is too wide to enter gripper" in reason
+        assert f", {2e3 * share * geometry.largest_opening_m:.4g} mm across, is too wide to enter gripper" in reason
 
 
 @pytest.mark.parametrize(("share", "found"), [(1.01, 0), (0.99, 1)])
@@ -46,7 +46,10 @@ def test_an_object_narrower_than_the_closed_fingers(shipped, share, found):
     assert len(reasons) == found
     for name, reason in reasons:
         assert name == project.scene.workpiece.id
-        assert f"of {2e3 * share * geometry.least_opening_m:.4g} mm is too narrow to be touched by gripper" in reason
+        assert (
+            f", {2e3 * share * geometry.least_opening_m:.4g} mm across, is too narrow to be touched by gripper"
+            in reason
+        )
 
 
 def test_chosen_grasps_have_findings_of_their_own(shipped):

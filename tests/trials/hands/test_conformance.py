@@ -49,8 +49,8 @@ def test_what_is_too_wide_for_a_mounting_is_not_entered(trial, fidelity):
 
     assert record.failed_phase == "move_to_grasp"
     assert record.failure_detail == (
-        "no valid configuration for grasp: cup of 38 mm is too wide to enter gripper lite6 in its mounting reverse, "
-        "which opens to 38 mm"
+        "no valid configuration for grasp: cup, 38 mm across, is too wide to enter gripper lite6 in its mounting "
+        "reverse, which opens to 38 mm"
     )
 
 
