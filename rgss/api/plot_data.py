@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from rgss.api.argument_terms import text_argument
 from rgss.assessment import VariantMeasures
 from rgss.errors import DefinitionError
-from rgss.measures import Measure
+from rgss.measures import Measure, estimate_ranges
 from rgss.studies import Project
 from rgss.tradeoff import Decision
 
@@ -72,6 +72,7 @@ def plotted_measure(project: Project, measured: Sequence[VariantMeasures], measu
         better=measure.better,
         estimates={one.variant.id: one.estimates[measure.id] for one in measured if measure.id in one.estimates},
         limits=tuple(limits),
+        within=estimate_ranges(project.measures)[measure.id],
     )
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from rgss.figures import exact_figure, rounded_figure
 from rgss.reports.study_page import study_report_to_html
+from rgss.trace.views import share_in_words
 
 pytestmark = pytest.mark.browser
 
@@ -110,6 +111,8 @@ def test_no_id_is_on_two_lines(reader, study, tmp_path, width):
 
 def test_a_figure_is_the_same_in_sentences_and_in_tables_of_the_script(reader, study, tmp_path):
     figures = [2e9, -1.256127e9, 43000.0, 9999.96, 0.1, 1.2e-5, 3.4e-9, 1e-4, 0.0, 123456789.0]
+    # Exact ties, each towards the even digit.
+    figures += [1234.5, 1235.5, -1234.5, 12.125, 10000.5, 10001.5]
     document = copy.deepcopy(study.document)
     count = len(document["variants"]["id"])
     measure = next(one for one in document["measures"] if one["weight"])
@@ -124,6 +127,18 @@ def test_a_figure_is_the_same_in_sentences_and_in_tables_of_the_script(reader, s
     )
     texts = {row[column] for row in reader.rows("#measures-table")}
     assert texts == {rounded_figure(figure) for figure in figures}
+
+
+def test_a_share_is_the_same_in_sentences_and_in_tables_of_the_script(reader, study, tmp_path):
+    shares = [0.125, 0.135, 0.0, 1.0, 0.99962, 0.9961, 0.0004, 0.0125, 0.456, 0.995]
+    document = copy.deepcopy(study.document)
+    acceptability = document["decision"]["acceptability"]
+    like = acceptability["variants"][0]
+    acceptability["variants"] = [like | {"variant": place + 1, "first": one} for place, one in enumerate(shares)]
+    _opened(reader, document, study, tmp_path)
+    reader.script("document.getElementById('acceptability-table').closest('details').open = true")
+    reader.until("return document.querySelectorAll('#acceptability-table tbody tr').length > 0")
+    assert {row[1] for row in reader.rows("#acceptability-table")} == {share_in_words(one) for one in shares}
 
 
 def test_a_limit_of_thousands_has_separators_everywhere(reader, page, study):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import pytest
 
 from rgss.assessment.measuring import measure_variants
@@ -83,5 +85,12 @@ def test_weights_decide_only_where_the_program_has_some():
         remedy=FlatRemedy.VARY_THE_WORLD,
         effective=(("t", 1.0),),
     )
-    assert "what decides is t 1" in list(flat_sentences((flat,)))[1]
+    assert list(flat_sentences((flat,)))[1] == (
+        "The weight of 0.2 separates nothing; t decides alone, and without it the order is the same."
+    )
+    several = dataclasses.replace(flat, effective=(("t", 0.75), ("c", 0.25)))
+    assert list(flat_sentences((several, several)))[-1] == (
+        "Weights of 0.4 in all separate nothing; what decides is t 0.75, c 0.25, and without the others the order is "
+        "the same."
+    )
     assert len(list(flat_sentences((flat,), decides=False))) == 1

@@ -112,6 +112,11 @@ class StudyDecision:
     shown_feasible: bool = False
 
     @property
+    def is_alone(self) -> bool:
+        """True if a single variant is compared, so that it has no rivals."""
+        return self.variants == 1
+
+    @property
     def is_final(self) -> bool:
         """True if the choice and the portfolio are proven best, and no part of the analysis is missing."""
         is_whole = self.robustness is None or not self.robustness.analysis.not_computed

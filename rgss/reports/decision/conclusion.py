@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 from rgss.assessment import SeedGroup
 from rgss.counted import counted
-from rgss.decision.study_decision import DesignStanding, Feasibility, RobustnessFindings, StudyDecision
-from rgss.reports.decision.words import basis_text, variants_text
+from rgss.decision.study_decision import Conclusion, DesignStanding, Feasibility, StudyDecision
+from rgss.reports.decision.tie_sentences import tie_sentences
+from rgss.reports.decision.words import basis_text, share_text, variants_text
 from rgss.trace.views import share_in_words
-from rgss.tradeoff.robustness import ENOUGH_REPLICATES, FEWEST_AT_THRESHOLD, TIE_PROBABILITY, ChoiceUncertainty, Rival
-
-MOST_TIES = 4
-"""Most groups of tied variants that are named."""
+from rgss.tradeoff.robustness import ENOUGH_REPLICATES, FEWEST_AT_THRESHOLD
 
 MOST_NAMED = 8
 """Most requirements of one verdict that are named."""
@@ -28,37 +25,60 @@ def headline(made: StudyDecision) -> str:
     Args:
         made: The decision.
     """
-    found, count = made.conclusion, len(made.conclusion.standings)
-    shown = found.count(Feasibility.FEASIBLE)
-    open_, infeasible = found.count(Feasibility.OPEN), found.count(Feasibility.INFEASIBLE)
-    by = f" (by {', '.join(found.open_by)})" if found.open_by else ""
+    found = made.conclusion
     others = [name for name, ids in (("a test", found.failed.tests), ("a record", found.failed.records)) if ids]
     deciding = " or ".join([", ".join(["a measure", *others[:-1]]), *others[-1:]])
     every = f"every requirement that {deciding} decides" if found.unmeasured else "every requirement"
-    is_feasible = found.chosen is not None and found.chosen.feasibility is Feasibility.FEASIBLE
-    counts = (
-        f"{shown} of {count} {'is' if shown == 1 else 'are'} shown to meet {'them all' if is_feasible else every}; "
+    name = f"Variant {made.decision.chosen}{', the only one compared,' if made.is_alone else ''}"
+    by_estimates = f"{name} is chosen by its estimates"
+    feasibility = None if made.decision.chosen is None or found.chosen is None else found.chosen.feasibility
+    if feasibility is None:
+        whose = "the only one compared does not meet" if made.is_alone else "none meets"
+        text = (
+            f"No variant is chosen: {whose} every requirement by its {basis_text(shown_feasible=made.shown_feasible)}"
+        )
+    else:
+        text = {
+            Feasibility.FEASIBLE: f"{name} is chosen and shown to meet {every}",
+            Feasibility.OPEN: f"{by_estimates}, which do not show yet that it meets every requirement",
+            Feasibility.INFEASIBLE: f"{by_estimates}, but shown to miss a requirement",
+        }[feasibility]
+    if made.is_alone:
+        parts = [text + _open_by(found, feasibility)]
+    else:
+        them = "them all" if feasibility is Feasibility.FEASIBLE else every
+        parts = [f"{text}{'; ' if feasibility is None else ': '}{_counts(found, them)}"]
+    return " ".join((*parts, *_failed(found)))
+
+
+def _counts(found: Conclusion, every: str) -> str:
+    """Numbers of the variants that are shown to meet the requirements, open and infeasible."""
+    shown = found.count(Feasibility.FEASIBLE)
+    open_, infeasible = found.count(Feasibility.OPEN), found.count(Feasibility.INFEASIBLE)
+    by = f" (by {', '.join(found.open_by)})" if found.open_by else ""
+    return (
+        f"{shown} of {len(found.standings)} {'is' if shown == 1 else 'are'} shown to meet {every}; "
         f"{open_} {'is' if open_ == 1 else 'are'} open{by}, {infeasible} infeasible."
     )
+
+
+def _open_by(found: Conclusion, feasibility: Feasibility | None) -> str:
+    """End of the headline of a single variant: what leaves it open."""
+    if not found.open_by:
+        return "."
+    are = "is" if len(found.open_by) == 1 else "are"
+    return f"{'; ' if feasibility is None else ': '}{', '.join(found.open_by)} {are} open."
+
+
+def _failed(found: Conclusion) -> Iterator[str]:
+    """Sentences on the requirements that no design meets, as their tests or records say."""
     if found.failed.tests:
         them = "it" if len(found.failed.tests) == 1 else "them"
-        counts += f" Tests of {', '.join(found.failed.tests)} failed: no design meets {them}."
+        yield f"Tests of {', '.join(found.failed.tests)} failed: no design meets {them}."
     if found.failed.records:
-        of = ", ".join(found.failed.records)
-        counts += (
-            f" The verification record of {of} says not met: no design meets it."
-            if len(found.failed.records) == 1
-            else f" The verification records of {of} say not met: no design meets them."
-        )
-    if made.decision.chosen is None or found.chosen is None:
-        basis = basis_text(shown_feasible=made.shown_feasible)
-        return f"No variant is chosen: none meets every requirement by its {basis}; {counts}"
-    words = {
-        Feasibility.FEASIBLE: f"is chosen and shown to meet {every}",
-        Feasibility.OPEN: "is chosen by its estimates, which do not show yet that it meets every requirement",
-        Feasibility.INFEASIBLE: "is chosen by its estimates, but shown to miss a requirement",
-    }[found.chosen.feasibility]
-    return f"Variant {made.decision.chosen} {words}: {counts}"
+        of, is_one = ", ".join(found.failed.records), len(found.failed.records) == 1
+        says, them = ("record of {} says", "it") if is_one else ("records of {} say", "them")
+        yield f"The verification {says.format(of)} not met: no design meets {them}."
 
 
 def rule_sentence(made: StudyDecision) -> str:
@@ -73,6 +93,9 @@ def rule_sentence(made: StudyDecision) -> str:
         within = (
             f"miss no threshold on what varies from trial to trial by more than {share} of it, and no other threshold"
         )
+    if made.is_alone:
+        which = f"it is shown to {within}" if made.shown_feasible else f"its estimates {within}"
+        return f"Rule: the variant is chosen if {which}."
     value = "of the highest value" if made.decision.program == "additive" else f"that {made.decision.program} prefers"
     end = "largest" if made.last_of_equals else "smallest"
     with_weight = " with a weight above 0" if made.unweighted else ""
@@ -178,11 +201,15 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
     if made.practical_margin:
         good = f"the best, or worth less than it by at most the practical margin of {made.practical_margin:g}"
     draws = found.analysis.draws
-    yield (
-        f"Probability that variant {made.decision.chosen} is feasible and {good}: {share_of_draws(one.good, draws)}; "
-        f"that it is feasible: {share_of_draws(float(one.feasible[one.chosen]), draws)}; that no variant is feasible: "
-        f"{share_of_draws(one.none_feasible, draws)}."
-    )
+    feasible = share_of_draws(float(one.feasible[one.chosen]), draws)
+    if made.is_alone:
+        yield f"Probability that variant {made.decision.chosen} is feasible: {feasible}."
+    else:
+        yield (
+            f"Probability that variant {made.decision.chosen} is feasible and {good}: "
+            f"{share_of_draws(one.good, draws)}; that it is feasible: {feasible}; that no variant is feasible: "
+            f"{share_of_draws(one.none_feasible, draws)}."
+        )
     if made.tolerance:
         yield (
             "Feasible is here what misses no threshold on what varies from trial to trial by more than "
@@ -191,10 +218,13 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
             f"{share_of_draws(one.as_required, draws)}."
         )
     if one.scarce:
+        follow, were = (
+            ("this probability follows", "it was") if made.is_alone else ("these probabilities follow", "they were")
+        )
         yield (
             f"At the threshold of {', '.join(one.scarce)}, {counted(made.trials, 'trial')} would have fewer than "
-            f"{FEWEST_AT_THRESHOLD:g} failures: so few that these probabilities follow the assumed population of "
-            "designs. In emulated studies of this kind they were up to 0.3 too high."
+            f"{FEWEST_AT_THRESHOLD:g} failures: so few that {follow} the assumed population of "
+            f"designs. In emulated studies of this kind {were} up to 0.3 too high."
         )
     if one.heavy_tailed:
         have = "has" if len(one.heavy_tailed) == 1 else "have"
@@ -203,17 +233,14 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
             "of the choice or of a tied variant hardly show. In emulated studies of 10 replicates in which 5 % of "
             "times were ten times as long, the first of these probabilities was 0.63 where 0.52 were right."
         )
-    yield from _ties(found, one)
+    if made.is_alone:
+        return
+    yield from tie_sentences(found, one)
     gains = "; ".join(f"{count} more: {gain:.4f}" for count, gain in one.gains.of_more)
     yield (
         f"Expected gain of value by more replicates of every variant: {gains}; "
         f"by perfect knowledge: {one.gains.perfect:.4f}."
     )
-
-
-def share_text(share: float) -> str:
-    """Text of a share, such as 5 %."""
-    return f"{100.0 * share:.3g} %"
 
 
 def share_of_draws(share: float, draws: int) -> str:
@@ -229,53 +256,3 @@ def share_of_draws(share: float, draws: int) -> str:
         return share_in_words(share)
     unseen = 100.0 * _UNSEEN / draws
     return f"> {100.0 - unseen:.6g} %" if share >= 1.0 else f"< {unseen:.2g} %"
-
-
-def _ties(found: RobustnessFindings, one: ChoiceUncertainty) -> Iterator[str]:
-    groups: dict[tuple[object, ...], list[Rival]] = {}
-    for rival in one.rivals:
-        key = (round(rival.probability, 3), replace(rival, row=0, probability=0.0))
-        groups.setdefault(key, []).append(rival)
-    if not groups:
-        yield "No other variant is tied with it."
-        return
-    for members in list(groups.values())[:MOST_TIES]:
-        yield _tie(found, members)
-    rest = [rival.row for members in list(groups.values())[MOST_TIES:] for rival in members]
-    if rest:
-        yield f"Tied with less probability: {variants_text(found.variants(tuple(rest)))}."
-
-
-def _tie(found: RobustnessFindings, members: list[Rival]) -> str:
-    rival = members[0]
-    names = variants_text(found.variants(tuple(one.row for one in members)))
-    why = "within the practical margin, " if rival.within_margin else ""
-    tied = f"Tied: {names} ({why}as good with a probability of {share_in_words(rival.probability)})"
-    if not any(found.analysis.feasible[one.row] for one in members):
-        return f"{tied}; not feasible by the estimates, which more replicates could change."
-    if rival.by_feasibility:
-        pronoun = "it" if len(members) == 1 else "they"
-        return (
-            f"{tied}; by value alone {pronoun} would not be tied, being as good with the choice feasible in less than "
-            f"{share_text(TIE_PROBABILITY)}: replicates that settle the open verdicts break the tie."
-        )
-    if rival.measure is None:
-        if rival.clipped:
-            return (
-                f"{tied}; their estimates differ in {', '.join(rival.clipped)}, but beyond an end of the value "
-                "function, where no difference is worth anything; another worst or best breaks the tie."
-            )
-        return f"{tied}; no estimate differs, so that only a measure in which they differ breaks the tie."
-    if rival.separated:
-        return (
-            f"{tied}; the replicates separate them, most by {rival.measure}: no more of them, but a smaller margin, "
-            "breaks the tie."
-        )
-    if rival.replicates is None:
-        return f"{tied}; they differ most in {rival.measure}, and no affordable number of replicates separates them."
-    if rival.fixed:
-        return (
-            f"{tied}; they differ most in {rival.measure}, which no replicate changes; about {rival.replicates} "
-            "replicates would show whose value is higher."
-        )
-    return f"{tied}; they differ most in {rival.measure}; about {rival.replicates} replicates would separate them."

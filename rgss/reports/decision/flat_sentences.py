@@ -22,12 +22,16 @@ def flat_sentences(flat: tuple[FlatWeight, ...], *, decides: bool = True) -> Ite
             f"{_remedy(one)}"
         )
     if decides and len(flat) and flat[0].effective:
-        weights = ", ".join(f"{name} {weight:.3g}" for name, weight in flat[0].effective)
-        total = sum(one.weight for one in flat)
-        yield (
-            f"Weights of {total:.3g} in all separate nothing; what decides is {weights}, and without the others the "
-            "order is the same."
+        effective = flat[0].effective
+        deciding = (
+            f"{effective[0][0]} decides alone"
+            if len(effective) == 1
+            else f"what decides is {', '.join(f'{name} {weight:.3g}' for name, weight in effective)}"
         )
+        total = sum(one.weight for one in flat)
+        others = "the others" if len(flat) > 1 else "it"
+        what = f"Weights of {total:.3g} in all separate" if len(flat) > 1 else f"The weight of {total:.3g} separates"
+        yield f"{what} nothing; {deciding}, and without {others} the order is the same."
 
 
 def _remedy(one: FlatWeight) -> str:

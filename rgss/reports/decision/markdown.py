@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from rgss.counted import counted
 from rgss.decision.robustness import not_computed_lines
 from rgss.decision.sensitivity import ExchangeRates
 from rgss.decision.study_decision import RobustnessFindings, SideBySide, StudyDecision
@@ -50,7 +51,9 @@ def decision_section(made: StudyDecision) -> str:
     found, exchange = made.robustness, None if made.sensitivity is None else made.sensitivity.exchange
     if made.comparison is None:
         basis = basis_text(shown_feasible=made.shown_feasible)
-        parts += [f"No variant of study `{made.study}` meets every requirement by its {basis}.", ""]
+        whose = "The only variant" if made.is_alone else "No variant"
+        meets = "does not meet" if made.is_alone else "meets"
+        parts += [f"{whose} of study `{made.study}` {meets} every requirement by its {basis}.", ""]
     elif found is not None:
         parts += [*_choice(made, made.comparison), ""]
         parts += [*_deciding(made, made.comparison, found), ""]
@@ -117,10 +120,19 @@ def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:
         else ""
     )
     basis = basis_text(shown_feasible=made.shown_feasible)
-    yield (
-        f"**Variant {decision.chosen}** is chosen{ties} from {made.variants} variants with {made.trials} trials; "
-        f"{decision.counts.feasible} of them meet every requirement by their {basis}{within}."
-    )
+    trials = counted(made.trials, "trial")
+    if made.is_alone:
+        yield (
+            f"**Variant {decision.chosen}**, the only one compared, is chosen with {trials}; it meets every "
+            f"requirement by its {basis}{within}."
+        )
+    else:
+        feasible = decision.counts.feasible
+        meet = "meets every requirement by its" if feasible == 1 else "meet every requirement by their"
+        yield (
+            f"**Variant {decision.chosen}** is chosen{ties} from {made.variants} variants with {trials}; "
+            f"{feasible} of them {meet} {basis}{within}."
+        )
     yield ""
     standing = (headline(made), standing_sentence(made), stale_sentence(made), rule_sentence(made))
     lines = (*standing, *uncertainty_sentences(made), *seeds_sentences(made.seeds))
@@ -151,6 +163,8 @@ def _lead(made: StudyDecision, compared: SideBySide) -> str:
         rows = [(row.name, [value_in_words(cell) for cell in row.cells]) for row in compared.objectives]
         parts = [f"`{name}` {cells[0]}" + "".join(f" (runner-up {each})" for each in cells[1:]) for name, cells in rows]
         return f"The objectives of the program, in turn: {', '.join(parts)}."
+    if len(compared.variants) == 1:
+        return "No other variant meets every requirement, so that there is no runner-up."
     gains = sorted((gain.amount, gain.measure) for gain in made.gains)
     ahead = ", ".join(f"`{measure}` ({gain:+.3f})" for gain, measure in reversed(gains) if gain > 5e-4)
     behind = ", ".join(f"`{measure}` ({gain:+.3f})" for gain, measure in gains if gain < -5e-4)
@@ -159,6 +173,9 @@ def _lead(made: StudyDecision, compared: SideBySide) -> str:
 
 def _deciding(made: StudyDecision, compared: SideBySide, found: RobustnessFindings) -> Iterator[str]:
     decision = made.decision
+    if made.is_alone:
+        yield "*What decides it.* No other variant is compared, so that no weight changes the choice."
+        return
     yield f"*What decides it.* {_lead(made, compared)}"
     if decision.excluded_better:
         requirements = ", ".join(f"{one.requirement} ({one.excluded})" for one in decision.deciding_requirements)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterator, Sequence
 
-from rgss.reports.decision.sentences import noise_sentence, unmeasured_sentence, violated_text
+from rgss.reports.decision.sentences import nearest_sentence, noise_sentence, unmeasured_sentence
 from rgss.reports.decision.words import moved_limit
 from rgss.reports.plain_numbers import Plain
 from rgss.trace.views import rounded_away, share_in_words
@@ -94,7 +94,7 @@ def conflict_reasons(decision: Decision) -> Iterator[str]:
         together = " together" if len(repair.changes) > 1 else ""
         chosen = "" if repair.winner is None else f"; then {feasible}variant {repair.winner} is chosen"
         yield f"The smallest repair: {moved}{together}{chosen}."
-    yield f"Nearest is variant {conflicts.nearest.variant}, which {violated_text(conflicts)}."
+    yield nearest_sentence(decision, conflicts)
 
 
 def _easiest_first(conflicts: Conflicts) -> list[JointRepair]:

@@ -19,7 +19,14 @@ from rgss.reports.decision.conclusion import (
 from rgss.reports.decision.json import assumptions_to_json, costs_to_json
 from rgss.reports.decision.limit_sentences import limit_sentences
 from rgss.reports.decision.report_conflicts import conflict_reasons
-from rgss.reports.decision.sentences import cautions, no_portfolio, portfolio_proof, reading_lines, reasons
+from rgss.reports.decision.sentences import (
+    cautions,
+    enumeration_clause,
+    no_portfolio,
+    portfolio_proof,
+    reading_lines,
+    reasons,
+)
 from rgss.reports.failure_drivers import cases_to_json, driver_sentence
 from rgss.reports.plain_numbers import Plain, plain_number
 from rgss.tradeoff import Contribution, PortfolioDecision
@@ -162,7 +169,7 @@ def _certificate(certificate: Certificate) -> Plain:
         "alternatives": certificate.alternatives,
         "objective": certificate.objective,
         "objective_recomputed": certificate.objective_recomputed,
-        "enumeration_agrees": certificate.enumeration_agrees.value,
+        "enumeration": enumeration_clause(certificate),
         "checks": [check.text for check in certificate.checks],
     }
 

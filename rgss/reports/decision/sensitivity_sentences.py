@@ -6,8 +6,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from rgss.decision.sensitivity import BentEnd, BentValue, Sensitivity, Tornado
-from rgss.reports.decision.words import amount, ids_text, moves_text, score, variants_text
+from rgss.reports.decision.words import amount, moves_text, score, variants_text
 from rgss.tradeoff.robustness import KeptAlternative, KeptFor
+
+_ALL_TOGETHER = "all together"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,14 +80,17 @@ def bend_sentences(bends: Sequence[BentValue]) -> Iterator[str]:
     for bend in bends:
         if not bend.flips:
             ends = (bend.convex.curvature, bend.concave.curvature)
-            steady.setdefault(ends, []).append(bend.measure or "all together")
+            steady.setdefault(ends, []).append(bend.measure or _ALL_TOGETHER)
     for (low, high), names in steady.items():
         bent = (
             f"to a risk tolerance of {1.0 / high:.2g} of the range, convex or concave"
             if high == -low
             else f"with a curvature from {low:.2g} to {high:.2g}"
         )
-        yield f"Bent {bent}, these value functions do not change the choice: {', '.join(names)}."
+        if len(names) == 1:
+            yield f"Bent {bent}, {_bent(names[0])} not change the choice."
+        else:
+            yield f"Bent {bent}, these value functions do not change the choice: {', '.join(names)}."
 
 
 def range_sentence(tornado: Tornado) -> str:
@@ -95,10 +100,14 @@ def range_sentence(tornado: Tornado) -> str:
     shares = len(tornado.bars) - stated - elicited
     cut = [bar.id for bar in tornado.bars if bar.basis.value.startswith("cut_")]
     smaller = f" Nearer, since beyond it a value function is not defined: {', '.join(cut)}." if cut else ""
-    return (
-        f"Of the ranges {stated} are stated, {elicited} elicited and {shares} defaults, a share of the value or of the "
-        f"distance of its ends, or a curvature: a convention and no evidence.{smaller}"
-    )
+    convention = "a share of the value or of the distance of its ends, or a curvature: a convention and no evidence"
+    sources = ((stated, "stated"), (elicited, "elicited"), (shares, f"by default {convention}"))
+    named = [(number, source) for number, source in sources if number]
+    if len(named) == 1:
+        return f"Every range is {named[0][1]}.{smaller}"
+    (first, source), *rest = named
+    others = "".join(f", {number} {source}" for number, source in rest)
+    return f"Of the ranges {first} {'is' if first == 1 else 'are'} {source}{others}.{smaller}"
 
 
 def agreement_sentences(found: Sensitivity) -> Iterator[str]:
@@ -136,14 +145,19 @@ def _why(found: Sensitivity, one: KeptAlternative) -> str:
     return f"within {found.keep_margin:g} of the best{where}"
 
 
+def _bent(name: str) -> str:
+    """Subject and verb of a sentence on bent value functions: one of a measure, or all."""
+    return "all value functions together do" if name == _ALL_TOGETHER else f"the value function of {name} does"
+
+
 def _flip(bend: BentValue, end: BentEnd, word: str) -> str:
     what = f"the value function of {bend.measure}" if bend.measure else "all value functions together"
     tolerance = (
         "" if end.flip_tolerance is None else f" beyond a risk tolerance of {end.flip_tolerance:.2g} of the range"
     )
     half = "" if end.flip_halfway is None else f" (half of the value at {amount(end.flip_halfway, bend.unit)})"
-    wins = f"{ids_text(end.flip_winners)} win" if len(end.flip_winners) > 1 else f"{ids_text(end.flip_winners)} wins"
-    return f"Bent {word}{tolerance}{half}, {what} lets another design win: {wins}."
+    lets = "lets" if bend.measure else "let"
+    return f"Bent {word}{tolerance}{half}, {what} {lets} {variants_text(end.flip_winners)} win."
 
 
 def tied_by_weights_sentence(variants: tuple[int, ...]) -> str:

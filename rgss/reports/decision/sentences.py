@@ -7,12 +7,20 @@ from dataclasses import dataclass
 
 from rgss.decision.study_decision import ClosestLimit, StudyDecision
 from rgss.measures import ModelGap
-from rgss.reports.decision.conclusion import share_text
 from rgss.reports.decision.flat_sentences import flat_sentences
 from rgss.reports.decision.model_sentences import model_cautions
-from rgss.reports.decision.words import amount, basis_text, ids_text, variants_text
+from rgss.reports.decision.words import amount, basis_text, ids_text, share_text, variants_text
 from rgss.trace.views import share_in_words, value_in_words
-from rgss.tradeoff import Agreement, Check, CheckKind, Conflicts, ConflictSurvival, DecisionStatus, PortfolioDecision
+from rgss.tradeoff import (
+    Agreement,
+    Check,
+    CheckKind,
+    Conflicts,
+    ConflictSurvival,
+    Decision,
+    DecisionStatus,
+    PortfolioDecision,
+)
 from rgss.tradeoff.programs import Certificate
 
 _WITHOUT_WEIGHTS = frozenset({"lexicographic", "epsilon_constraint"})
@@ -43,7 +51,10 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
     is_additive = decision.program == "additive"
     best = "has the highest value" if is_additive else f"is the choice of the {decision.program} program"
     feasible = decision.counts.feasible
-    among = f"{best} of the {feasible} variants that meet" if feasible > 1 else "is the one variant that meets"
+    if made.is_alone:
+        among = "is the only one compared, and meets"
+    else:
+        among = f"{best} of the {feasible} variants that meet" if feasible > 1 else "is the one variant that meets"
     limits = " and every limit of the program" if decision.program == "epsilon_constraint" else ""
     within = ""
     if made.tolerance:
@@ -87,7 +98,7 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
                 for each in decision.deciding_requirements
             ),
         )
-    else:
+    elif not made.is_alone:
         preferred = "of higher value" if is_additive else "that the program would prefer"
         yield Reason(text=f"No requirement excludes a variant {preferred}.")
     close = [
@@ -173,16 +184,25 @@ def certificate_sentence(certificate: Certificate) -> str:
     Args:
         certificate: The certificate of a decision.
     """
+    gap = "" if certificate.gap is None else f", gap {value_in_words(certificate.gap)}"
+    return f"Certificate: {certificate.status.value} by {certificate.solver}{gap}; {enumeration_clause(certificate)}."
+
+
+def enumeration_clause(certificate: Certificate) -> str:
+    """Clause on the agreement of a certificate with enumeration.
+
+    Args:
+        certificate: The certificate of a decision.
+    """
     count = certificate.alternatives
-    enumeration = f"enumeration of {'the one variant' if count == 1 else f'all {count} variants'}"
-    compared = {
+    enumerated = {1: "the one variant", 2: "both variants"}.get(count, f"all {count} variants")
+    enumeration = f"enumeration of {enumerated}"
+    return {
         Agreement.AGREED: f"{enumeration} agrees",
         Agreement.DISAGREED: f"{enumeration} DISAGREES",
         Agreement.NOT_COMPARED: f"{enumeration} decides, the solver gave no answer in its time",
         Agreement.NOT_ENUMERATED: "not enumerated",
     }[certificate.enumeration_agrees]
-    gap = value_in_words(certificate.gap)
-    return f"Certificate: {certificate.status.value} by {certificate.solver}, gap {gap}; {compared}."
 
 
 def notable_checks(checks: tuple[Check, ...]) -> list[str]:
@@ -233,6 +253,21 @@ def unmeasured_sentence(names: Sequence[str]) -> str:
     return (
         f"No trial that ran gives a value that {' or '.join(names)} limits. {verdict} inconclusive, and the choice "
         "leaves out variants without an estimate."
+    )
+
+
+def nearest_sentence(decision: Decision, conflicts: Conflicts) -> str:
+    """Sentence on the variant that violates least; of a single variant that it does.
+
+    Args:
+        decision: A decision without a choice.
+        conflicts: Its conflicts.
+    """
+    variant, what = conflicts.nearest.variant, violated_text(conflicts)
+    return (
+        f"Variant {variant} {what}."
+        if decision.counts.alternatives == 1
+        else f"Nearest: variant {variant}, which {what}."
     )
 
 

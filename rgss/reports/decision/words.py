@@ -99,3 +99,8 @@ def moves_text(before: Mapping[str, float], after: Mapping[str, float]) -> str:
 def score(value: float | None) -> str:
     """A weighted value, or a difference of two, with four places."""
     return UNKNOWN if value is None else f"{value:.4f}"
+
+
+def share_text(share: float) -> str:
+    """Text of a share, such as 5 %."""
+    return f"{100.0 * share:.3g} %"

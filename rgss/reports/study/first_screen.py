@@ -74,7 +74,13 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         ],
         "bullets": bullets[:MOST_BULLETS],
         "more_limits": max(0, len(bullets) - MOST_BULLETS),
-        "changes": list(_changes(decision, {name: one["name"] for name, one in units.items()})),
+        "changes": list(
+            _changes(
+                decision,
+                {name: one["name"] for name, one in units.items()},
+                is_alone=len(document["variants"]["id"]) == 1,
+            )
+        ),
         "other_changes": _other_changes(decision["modelling"]["rows"]),
     }
 
@@ -105,7 +111,7 @@ def _bullet(requirement: Mapping[str, Any], measures: Mapping[str, Any], place: 
         return None
     low, high = (entry_at(measure.get(name), place) for name in ("low", "high"))
     limit, at_most = requirement["threshold"], requirement["comparison"] in ("<=", "<")
-    scale = bottom, top = _scale(value, limit, low, high)
+    scale = bottom, top = _scale(value, limit, low, high, most=measure.get("most"))
     unit = measure["unit"]
     interval, beyond = None, [False, False]
     if low is not None and high is not None and low < high:
@@ -131,14 +137,17 @@ def _bullet(requirement: Mapping[str, Any], measures: Mapping[str, Any], place: 
     }
 
 
-def _scale(value: float, limit: float, low: float | None, high: float | None) -> tuple[float, float]:
+def _scale(
+    value: float, limit: float, low: float | None, high: float | None, *, most: float | None
+) -> tuple[float, float]:
     """Ends of a bullet chart: 0 and, with some room, the value, its limit and the interval up to twice the limit.
 
-    Below 0 it goes only if the value or the limit is negative.
+    Below 0 it goes only if the value or the limit is negative, and beyond the most that is possible only for the limit.
     """
     reach = 2.0 * abs(limit)
     ends = [min(max(one, -reach), reach) for one in (low, high) if one is not None]
-    top = _ROOM * max(0.0, limit, value, *ends)
+    furthest = max(0.0, limit, value, *ends)
+    top = _ROOM * furthest if most is None else max(min(_ROOM * furthest, most), furthest)
     if value >= 0.0 and limit >= 0.0:
         return 0.0, top or 1.0
     return _ROOM * min(0.0, limit, value, *ends), top
@@ -149,15 +158,19 @@ def _percent(value: float, scale: tuple[float, float]) -> float:
     return round(min(max(100.0 * (value - bottom) / (top - bottom), 0.0), 100.0), 2)
 
 
-def _changes(decision: Mapping[str, Any], names: Mapping[str, str]) -> Iterator[str]:
+def _changes(decision: Mapping[str, Any], names: Mapping[str, str], *, is_alone: bool) -> Iterator[str]:
     """Sentences on what would change the choice: a few assumptions, and the nearest weight."""
     rows = decision["modelling"]["rows"]
     yield from [row["sentence"] for row in rows if row["changes"]][:MOST_CHANGES]
     nearest = _nearest_weight(decision["weight_ranges"], names)
     if nearest is not None:
         yield nearest
+    elif is_alone:
+        yield "No weight: no other variant is compared."
+    elif len(decision["weight_ranges"]) == 1:
+        yield "No weight: a single measure is valued."
     elif decision["weight_ranges"]:
-        yield "No single weight: each can have any value, with the others in proportion."
+        yield "No weight by itself: each can have any value while the others keep their proportions."
 
 
 def _other_changes(rows: Sequence[Mapping[str, Any]]) -> str:

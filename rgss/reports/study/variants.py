@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from rgss.assessment import VariantMeasures, requirements_with_criteria
 from rgss.decision import unweighted_measures
 from rgss.decision.robustness import Robustness
 from rgss.designs import value_columns
-from rgss.measures import Measure, MeasureKind
+from rgss.measures import Measure, MeasureKind, Range, estimate_ranges
 from rgss.reports.plain_numbers import (
     FEWER_DIGITS,
     SHOWN_DIGITS,
@@ -106,7 +107,11 @@ def measure_columns(project: Project, measured: Sequence[VariantMeasures]) -> li
         measured: Every variant with its estimates.
     """
     weights = project.study.trade_off.weighting.weights
-    return [_measure(project, measure, measured, weights.get(measure.id)) for measure in project.measures.measures]
+    possible = estimate_ranges(project.measures)
+    return [
+        _measure(project, measure, measured, weights.get(measure.id)) | _possible(possible[measure.id])
+        for measure in project.measures.measures
+    ]
 
 
 def requirement_columns(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> list[Plain]:
@@ -173,6 +178,12 @@ def _measure(project: Project, measure: Measure, measured: Sequence[VariantMeasu
         column["high"] = condensed(plain_numbers((one.high for one in estimates), digits))
         column["n"] = condensed([one.n for one in estimates])
     return column
+
+
+def _possible(within: Range) -> Plain:
+    """The ends that no estimate can leave, such as 1 of a share; an end that is not known is left out."""
+    ends = {"least": within.low, "most": within.high}
+    return {name: end for name, end in ends.items() if math.isfinite(end)}
 
 
 def _requirement(

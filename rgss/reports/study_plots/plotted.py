@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 
 from rgss.figures import exact_figure
-from rgss.measures import Direction, Estimate
+from rgss.measures import Direction, Estimate, Range
 from rgss.requirements import Comparison, Criterion
 
 
@@ -63,6 +63,7 @@ class PlottedMeasure:
         better: Its preferred direction.
         estimates: Estimate for each variant.
         limits: Limits that requirements set to it.
+        within: Range that no estimate can leave, such as that of a share.
     """
 
     id: str
@@ -71,6 +72,7 @@ class PlottedMeasure:
     better: Direction
     estimates: Mapping[int, Estimate]
     limits: tuple[Limit, ...] = ()
+    within: Range = field(default_factory=Range)
 
     @property
     def title(self) -> str:

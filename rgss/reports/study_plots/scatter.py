@@ -124,7 +124,7 @@ def scatter_designs(
         those = [variant for variant in shown if designs.roles[variant] is role]
         points = ([x.value(variant) for variant in those], [y.value(variant) for variant in those])
         if those:
-            ax.scatter(*points, zorder=3 + order, **MARKS[role])
+            ax.scatter(*points, zorder=3 + order, clip_on=False, **MARKS[role])
         for variant in those if intervals and role in _NAMED else ():
             across, up = x.interval(variant), y.interval(variant)
             if across is not None:
@@ -135,7 +135,26 @@ def scatter_designs(
     for measure, vertical in ((x, True), (y, False)):
         for limit in measure.limits:
             draw_limit(ax, limit, vertical=vertical)
+        end_within(ax, measure, vertical=vertical)
     return _places(x, y, shown)
+
+
+def end_within(ax: Axes, measure: PlottedMeasure, *, vertical: bool) -> None:
+    """End the axis of a measure where its estimates must, such as that of a share at 1; no mark or limit is left out.
+
+    Args:
+        ax: The axes, with all that is drawn.
+        measure: The measure.
+        vertical: True for its values along the horizontal axis.
+    """
+    data = ax.dataLim.intervalx if vertical else ax.dataLim.intervaly
+    low, high = sorted(ax.get_xlim() if vertical else ax.get_ylim())
+    drawn = [*data, *(limit.value for limit in measure.limits if low <= limit.value <= high)]
+    if min(drawn) >= measure.within.low:
+        low = max(low, measure.within.low)
+    if max(drawn) <= measure.within.high:
+        high = min(high, measure.within.high)
+    (ax.set_xlim if vertical else ax.set_ylim)(low, high)
 
 
 def draw_limit(ax: Axes, limit: Limit, *, vertical: bool, words: bool = True) -> None:

@@ -19,7 +19,7 @@ from rgss.reports.study_plots.canvas import (
     set_alt_text,
 )
 from rgss.reports.study_plots.plotted import PlottedDesigns, PlottedMeasure, Role
-from rgss.reports.study_plots.scatter import draw_limit
+from rgss.reports.study_plots.scatter import draw_limit, end_within
 
 _MOST_NAMED = 40
 """With more designs, the axis labels only some of them."""
@@ -48,6 +48,8 @@ def spread_figure(
     for ax in (wide, boxes):
         for limit in measure.limits:
             draw_limit(ax, limit, vertical=False, words=ax is wide)
+    # The boxes share the scale of the intervals.
+    end_within(wide, measure, vertical=False)
     wide.set_ylabel(f"{measure.title}\n{measure.better_end}", fontsize=9.5, color=INK)
     wide.set_xlabel("design variant, the best on the left; bars are 95 % intervals", fontsize=9.5, color=INK)
     boxes.set_xlabel(grouped_by, fontsize=9.5, color=INK)
@@ -79,6 +81,7 @@ def _draw_intervals(ax: Axes, measure: PlottedMeasure, designs: PlottedDesigns, 
             [at for at, _ in those],
             [measure.value(variant) for _, variant in those],
             zorder=3 + order,
+            clip_on=False,
             **{**MARKS[role], "s": 0.6 * float(MARKS[role]["s"])},
         )
     step = max(1, -(-len(ordered) // _MOST_NAMED))
@@ -117,6 +120,7 @@ def _draw_boxes(
                     [at + side[number] for number in those],
                     [values[number] for number in those],
                     zorder=3 + order,
+                    clip_on=False,
                     **{**MARKS[role], "s": 0.45 * float(MARKS[role]["s"])},
                 )
     ax.set_xticks(range(len(names)), [f"{name}\n{len(kept[name])}" for name in names], fontsize=9)

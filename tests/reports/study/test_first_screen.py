@@ -206,7 +206,9 @@ def test_what_would_change_it():
     assert shown["changes"] == ["Weight of TIME: nearly 0 instead of 0.4. Then variants 1–3 come first."]
     free = [{"measure": "time", "weight": 0.4, "low": 0.0, "high": 1.0, "below": [], "above": []}]
     shown = first_screen_content(changed(modelling={"rows": []}, weight_ranges=free))
-    assert shown["changes"] == ["No single weight: each can have any value, with the others in proportion."]
+    assert shown["changes"] == ["No weight: a single measure is valued."]
+    shown = first_screen_content(changed(modelling={"rows": []}, weight_ranges=free * 2))
+    assert shown["changes"] == ["No weight by itself: each can have any value while the others keep their proportions."]
     shown = first_screen_content(changed(modelling={"rows": []}, weight_ranges=[]))
     assert (shown["changes"], shown["other_changes"]) == ([], "")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from rgss.reports.decision.sentences import noise_sentence, unmeasured_sentence, violated_text
+from rgss.reports.decision.sentences import nearest_sentence, noise_sentence, unmeasured_sentence
 from rgss.reports.decision.words import UNKNOWN, basis_text, moved_limit
 from rgss.reports.plain_text import aligned_table
 from rgss.trace.views import share_in_words
@@ -29,7 +29,7 @@ def conflict_lines(decision: Decision, *, shown_feasible: bool) -> Iterator[str]
     yield ""
     yield from _minimal(conflicts)
     yield from _joint_repairs(conflicts)
-    yield from ("", f"Nearest: variant {conflicts.nearest.variant}, which {violated_text(conflicts)}.")
+    yield from ("", nearest_sentence(decision, conflicts))
 
 
 def headline(decision: Decision, *, shown_feasible: bool) -> str:
@@ -39,15 +39,14 @@ def headline(decision: Decision, *, shown_feasible: bool) -> str:
         decision: A decision without a choice.
         shown_feasible: Whether verdicts decide what is feasible.
     """
-    unknown = set(decision.unmeasured)
+    unknown, is_alone = set(decision.unmeasured), decision.counts.alternatives == 1
     if not unknown:
-        return f"No variant meets every requirement by its {basis_text(shown_feasible=shown_feasible)}."
+        whose = "The only variant does not meet" if is_alone else "No variant meets"
+        return f"{whose} every requirement by its {basis_text(shown_feasible=shown_feasible)}."
     other = next(one.variant for one in decision.infeasible if set(one.requirements) <= unknown)
     names = " and ".join(one.removeprefix(EVIDENCE_PREFIX) for one in decision.unmeasured)
-    return (
-        f"No variant can be chosen: the trials give no value of {names}. All else that is asked is met, by variant "
-        f"{other} for one."
-    )
+    by = "" if is_alone else f", by variant {other} for one"
+    return f"No variant can be chosen: the trials give no value of {names}. All else that is asked is met{by}."
 
 
 def _requirements(decision: Decision, conflicts: Conflicts) -> list[str]:

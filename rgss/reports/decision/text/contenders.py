@@ -50,7 +50,7 @@ def _front(found: RobustnessFindings) -> str:
     unsupported = [analysis.variants[one.row] for one in front if one.support is Support.UNSUPPORTED]
     none = f"; no weights choose {variants_text(unsupported)}." if unsupported else "; each is best for some weights."
     if len(front) == 1:
-        none = ", at all weights."
+        none = " alone, the best at all weights."
     return f"Pareto front: {variants_text([analysis.variants[one.row] for one in front])}{none}"
 
 

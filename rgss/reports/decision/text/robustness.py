@@ -28,17 +28,21 @@ def robustness_lines(made: StudyDecision) -> Iterator[str]:
     if made.decision.chosen is None:
         yield from ("", *missing) if missing else ()
         return
-    yield from ("", "What nearly won")
-    yield from contender_lines(found)
+    if not made.is_alone:
+        yield from ("", "What nearly won")
+        yield from contender_lines(found)
     yield from ("", "What would change it")
     weighting = found.analysis.weighting
-    if weighting is not None:
+    if made.is_alone:
+        yield "Weights: none changes the choice, as no other variant is compared."
+    elif weighting is not None:
         yield from _weights(found, weighting)
     chosen = next((one.value for one in made.decision.ranking if one.variant == made.decision.chosen), None)
     yield from _limits(found, chosen or 0.0, made.tolerance)
     if weighting is not None:
         yield from assumption_lines(found)
-    yield _reversals(found)
+    if not made.is_alone:
+        yield _reversals(found)
     yield from (f"Not analysed: {name}: {reason}." for name, reason in found.analysis.refused.items())
     yield from missing
     if not found.is_missing(Part.EFFECTS):

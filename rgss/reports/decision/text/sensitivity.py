@@ -44,7 +44,7 @@ def sensitivity_lines(found: Sensitivity) -> Iterator[str]:
         rows = [list(row.cells) for row in exchange_rows(found.exchange)]
         yield from aligned_table(list(EXCHANGE_HEADS), rows, right=(1, 2, 3))
         yield from exchange_sentences(found.exchange)
-    if found.kept is not None:
+    if found.kept is not None and len(found.variants) > 1:
         yield ""
         yield f"Designs worth keeping ({keep_rule(found)})"
         yield from _kept(kept_groups(found))

@@ -33,12 +33,12 @@ def tornado_lines(tornado: Tornado) -> Iterator[str]:
             f"Tornado: lead of variant {tornado.chosen} over the best other design{other} {score(tornado.lead)} as it "
             f"is (variant {tornado.rival})"
         )
-    if tornado.has_leads:
-        yield from _bars(tornado, moving[:MOST_BARS])
-    if tornado.has_leads and len(moving) > MOST_BARS:
+    drawn = moving[:MOST_BARS] if tornado.has_leads else ()
+    yield from _bars(tornado, drawn)
+    if len(drawn) < len(moving) and drawn:
         yield f"And {len(moving) - MOST_BARS} more that move it less (--json has them)."
     if tornado.still:
-        inputs = counted(len(tornado.still), "more input" if moving else "input")
+        inputs = counted(len(tornado.still), "more input" if drawn else "input")
         moves = "moves nothing within its range" if len(tornado.still) == 1 else "move nothing within their ranges"
         yield f"{inputs} {moves} (--json names them)."
     if tornado.without_range:

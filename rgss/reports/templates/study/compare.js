@@ -107,14 +107,14 @@ const startDistributions = () => {
     measures.forEach((measure, index) => {
       const number = index === 0 ? "" : String(index + 1), from = 1 - each * (index + 1);
       // Each measure has its own scale, with its name and its preferred direction below it.
-      layout[`xaxis${number}`] = { anchor: `y${number}`, title: { text: plotText(withBetter(measure)), standoff: 4, font: { size: 12 } }, automargin: false, ...rangeAlike(found.filter((one) => one.measure === measure).flatMap((one) => one.values)) };
+      layout[`xaxis${number}`] = { anchor: `y${number}`, title: { text: plotText(withBetter(measure)), standoff: 4, font: { size: 12 } }, automargin: false, ...scaleOf(found.filter((one) => one.measure === measure).flatMap((one) => one.values), measure) };
       layout[`yaxis${number}`] = { anchor: `x${number}`, domain: [from + each * 0.5, from + each * 0.98], showticklabels: false, type: "category", automargin: false };
       for (const row of found.filter((one) => one.measure === measure)) {
         const few = row.places.length <= MOST_POINTS;
         traces.push({ type: "box", orientation: "h", x: row.places.map((place) => at(measure.value, place)), y: row.places.map(() => measure.id), xaxis: `x${number}`, yaxis: `y${number}`, name: plotText(row.name), legendgroup: row.name, showlegend: index === 0, offsetgroup: row.name, marker: { color: colourOf(row.name), size: 5, opacity: 0.7 }, boxpoints: few ? "all" : "outliers", jitter: 0.6, pointpos: 0, hoveron: "points+boxes", hovertext: row.places.map((place) => plotText(`variant ${variants.id[place]}: ${estimate(measure, place)}`)), hoverinfo: "text+x", meta: row.places.map((place) => variants.id[place]) });
       }
       const place = placeOf.get(data.decision.chosen);
-      if (place !== undefined && shownMask[place] && known(at(measure.value, place))) traces.push({ x: [at(measure.value, place)], y: [measure.id], xaxis: `x${number}`, yaxis: `y${number}`, mode: "markers", name: `variant ${variants.id[place]}, chosen`, showlegend: index === 0, legendgroup: "chosen", marker: markerOf(CHOSEN, 6), hoverinfo: "text", text: [plotText(`variant ${variants.id[place]}, chosen: ${estimate(measure, place)}`)], meta: [variants.id[place]] });
+      if (place !== undefined && shownMask[place] && known(at(measure.value, place))) traces.push({ x: [at(measure.value, place)], y: [measure.id], xaxis: `x${number}`, yaxis: `y${number}`, mode: "markers", cliponaxis: false, name: `variant ${variants.id[place]}, chosen`, showlegend: index === 0, legendgroup: "chosen", marker: markerOf(CHOSEN, 6), hoverinfo: "text", text: [plotText(`variant ${variants.id[place]}, chosen: ${estimate(measure, place)}`)], meta: [variants.id[place]] });
     });
     return { traces, layout: { ...layout, showlegend: true } };
   });

@@ -36,11 +36,22 @@ const kindOf = variants.id.map((id, place) => {
   return variants.pareto[place] === null ? FEASIBLE : FRONT;
 });
 
+// A number with some significant digits. Python rounds exact ties to the even digit, JavaScript away from 0: here as Python.
+const rounded = (value, digits) => {
+  const [mantissa, power] = value.toExponential(40).split("e");
+  const end = mantissa.indexOf(".") + digits, kept = mantissa.slice(0, end);
+  const isEven = /[02468]\.?$/.test(kept), isTie = /^50*$/.test(mantissa.slice(end).replace(".", ""));
+  return isTie && isEven ? Number(`${kept}e${power}`) : Number(value.toPrecision(digits));
+};
+const withDecimals = (value, decimals) => {
+  const digits = 1 + Number(value.toExponential(40).split("e")[1]) + decimals;
+  return (digits < 1 ? value : rounded(value, digits)).toFixed(decimals);
+};
 // As rounded_figure in Python: four digits; from 10,000 whole, with separators; from 1e9 and below 1e-4 with a power of ten.
 const figureText = (value) => {
-  const size = Math.abs(value), rounded = Number(value.toPrecision(4));
-  if (size >= 1e9 || (size > 0 && Math.abs(rounded) < 1e-4)) return value.toExponential(3).replace(/\.?0*e\+?/, "e");
-  return Math.abs(rounded) >= 10000 ? Math.round(value).toLocaleString("en-US") : String(rounded);
+  const size = Math.abs(value), short = rounded(value, 4);
+  if (size >= 1e9 || (size > 0 && Math.abs(short) < 1e-4)) return short.toExponential(3).replace(/\.?0*e\+?/, "e");
+  return Math.abs(short) >= 10000 ? Number(withDecimals(value, 0)).toLocaleString("en-US") : String(short);
 };
 const show = (value, unit = "1") => {
   if (!known(value)) return "–";
@@ -48,7 +59,14 @@ const show = (value, unit = "1") => {
   const text = figureText(value);
   return unit === "1" || unit === "" ? text : `${text} ${unit}`;
 };
-const percent = (share) => (!known(share) ? "–" : share > 0 && share < 0.001 ? "< 0.1 %" : `${Number((100 * share).toPrecision(share < 0.1 ? 2 : 3))} %`);
+// As share_in_words in Python.
+const percent = (share) => {
+  if (!known(share)) return "–";
+  if (share > 0 && share < 0.001) return "< 0.1 %";
+  if (share >= 0.9995 && share < 1 - 1e-9) return "> 99.9 %";
+  const isNearEnd = (share > 0 && share < 0.1) || (share >= 0.995 && share < 1 - 1e-9);
+  return `${withDecimals(100 * share, isNearEnd ? 1 : 0)} %`;
+};
 const withUnit = (name, unit) => (unit === "1" || unit === "" ? name : `${name} [${unit}]`);
 const interval = (measure, place) => {
   const low = at(measure.low, place), high = at(measure.high, place);

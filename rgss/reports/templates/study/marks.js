@@ -1,9 +1,13 @@
 // ------------------------------------------------------- coinciding marks, titles of axes
-// A scale for values that are all alike: a tenth of them on both sides, where the library takes 1, whatever they are.
-const rangeAlike = (values) => {
+// The scale of a measure ends where its estimates must, such as a share at 1, unless something drawn lies beyond.
+// Values that are all alike have a tenth of them on both sides, where the library takes 1, whatever they are.
+const scaleOf = (values, { least, most } = {}) => {
   const [low, high] = [Math.min(...values), Math.max(...values)], room = Math.abs(low) / 10 || 1;
-  return high - low > 1e-9 * Math.abs(low) ? {} : { range: [low - room, low + room] };
+  const from = known(least) && low >= least ? least : null, to = known(most) && high <= most ? most : null;
+  if (high - low > 1e-9 * Math.abs(low)) return { autorangeoptions: { ...(from === null ? {} : { clipmin: from }), ...(to === null ? {} : { clipmax: to }) } };
+  return { range: [Math.max(low - room, from ?? -Infinity), Math.min(high + room, to ?? Infinity)] };
 };
+const SHARE = { least: 0, most: 1 };
 // Width and height in pixels that the marks of a plot have: some nine tenths of the room between its margins.
 const roomOf = (host) => [0.9 * Math.max(100, host.clientWidth - 110), 0.85 * 220];
 // Variants whose marks would cover each other are one mark, that of the most prominent, with their number.

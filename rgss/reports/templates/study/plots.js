@@ -129,7 +129,7 @@ const startMeasures = () => {
       const value = (place) => at(measure.value, place);
       traces.push({
         x: mine.map((place) => index.get(place)), y: mine.map(value), mode: "markers", name: KINDS[kind].name,
-        marker: markerOf(kind), text: texts(mine), hoverinfo: "text", meta: mine.map((place) => variants.id[place]),
+        marker: markerOf(kind), cliponaxis: false, text: texts(mine), hoverinfo: "text", meta: mine.map((place) => variants.id[place]),
         error_y: measure.from_trials ? {
           type: "data", symmetric: false, color: KINDS[kind].colour, thickness: 1, width: 2,
           array: mine.map((place) => (at(measure.high, place) ?? value(place)) - value(place)),
@@ -143,7 +143,7 @@ const startMeasures = () => {
     return { traces, layout: {
       shapes: limits.map((one) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: one.threshold, y1: one.threshold, line: { color: "#d55e00", dash: "dash", width: 1.5 } })),
       xaxis: { title: { text: "variants, by this measure" }, ...(places.length <= 12 ? { dtick: 1 } : {}) },
-      yaxis: { title: { text: plotText(withBetter(measure)) }, ...rangeAlike([...places.flatMap((place) => [measure.value, measure.low, measure.high].map((column) => at(column, place)).filter(known)), ...limits.map((one) => one.threshold)]) },
+      yaxis: { title: { text: plotText(withBetter(measure)) }, ...scaleOf([...places.flatMap((place) => [measure.value, measure.low, measure.high].map((column) => at(column, place)).filter(known)), ...limits.map((one) => one.threshold)], measure) },
     } };
   });
   const update = tableIn("measures-table", {
@@ -200,7 +200,7 @@ const startPareto = () => {
         text: mine.map((group) => labels.get(group)?.text ?? ""), textposition: mine.map((group) => labels.get(group)?.position ?? "top right"), textfont: { size: 12 }, cliponaxis: false,
         hovertext: mine.map((group) => namesOf(group) + `<br>${plotText(`${horizontal.id}: ${together(horizontal, group)}`)}<br>${plotText(`${vertical.id}: ${together(vertical, group)}`)}`) });
     }
-    const axis = (measure) => ({ title: { text: plotText(withBetter(measure)) }, ...rangeAlike(places.map((place) => at(measure.value, place))) });
+    const axis = (measure) => ({ title: { text: plotText(withBetter(measure)) }, ...scaleOf(places.map((place) => at(measure.value, place)), measure) });
     return { traces, layout: { xaxis: axis(horizontal), yaxis: axis(vertical) } };
   }, { bySize: true });
   for (const select of [across, up]) select.addEventListener("change", redraw);
@@ -226,7 +226,7 @@ const startWeights = () => {
   const update = tableIn("weights-table", {
     label: "Contribution of each measure at these weights",
     columns: [{ head: "rank", cell: (row) => String(row.rank) }, { head: "variant", number: true, cell: (row) => variantLink(variants.id[row.place]) },
-      ...weighted.map((one, index) => ({ head: one.id, number: true, cell: (row) => parts(row)[index].toFixed(4), value: (row) => parts(row)[index], to: (row) => figureAddress(variants.id[row.place], one.id) })), { head: "value", number: true, cell: (row) => row.value.toFixed(4), value: (row) => row.value, to: (row) => figureAddress(variants.id[row.place], "value") }],
+      ...weighted.map((one, index) => ({ head: one.id, number: true, cell: (row) => withDecimals(parts(row)[index], 4), value: (row) => parts(row)[index], to: (row) => figureAddress(variants.id[row.place], one.id) })), { head: "value", number: true, cell: (row) => withDecimals(row.value, 4), value: (row) => row.value, to: (row) => figureAddress(variants.id[row.place], "value") }],
     rows: shownRanking, size: 20, source: "Computed here: the weight times the value of the variant's figure.",
   });
   rankingWatchers.push(update);
@@ -254,7 +254,7 @@ const startAcceptability = () => {
     if (chosen && !bars.includes(chosen)) bars.splice(-1, 1, chosen);
     const ink = getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
     return { traces: [{ type: "bar", x: bars.map((one) => String(one.variant)), y: bars.map((one) => one.first), error_y: { type: "data", symmetric: false, color: ink, thickness: 1, array: bars.map((one) => Math.min(1 - one.first, 1.96 * one.error)), arrayminus: bars.map((one) => Math.min(one.first, 1.96 * one.error)) }, marker: { color: bars.map((one) => KINDS[kindOf[placeOf.get(one.variant)]].colour), pattern: { shape: bars.map((one) => (kindOf[placeOf.get(one.variant)] === INFEASIBLE ? "/" : "")), fillmode: "replace", bgcolor: "#8a8a8a", fgcolor: "#ffffff", size: 7, solidity: 0.15 } }, hoverinfo: "text", text: bars.map((one) => plotText(`variant ${one.variant}: first in ${percent(one.first)}`)), textposition: "none", meta: bars.map((one) => one.variant) }],
-      layout: { xaxis: { type: "category", title: { text: `variant${chosen ? " (chosen: bold)" : ""}${bars.length < all.length ? `, ${bars.length} of ${all.length}` : ""}` }, tickmode: "array", tickangle: 0, tickvals: bars.map((one) => String(one.variant)), ticktext: bars.map((one) => (one.variant === data.decision.chosen ? `<b>${one.variant}</b>` : String(one.variant))) }, yaxis: { title: { text: "share of draws, higher is better" }, rangemode: "tozero", tickformat: ".0%" } } };
+      layout: { xaxis: { type: "category", title: { text: `variant${chosen ? " (chosen: bold)" : ""}${bars.length < all.length ? `, ${bars.length} of ${all.length}` : ""}` }, tickmode: "array", tickangle: 0, tickvals: bars.map((one) => String(one.variant)), ticktext: bars.map((one) => (one.variant === data.decision.chosen ? `<b>${one.variant}</b>` : String(one.variant))) }, yaxis: { title: { text: "share of draws, higher is better" }, rangemode: "tozero", ...scaleOf([0, ...bars.map((one) => one.first)], SHARE), tickformat: ".0%" } } };
   });
   onShown(tableIn("acceptability-table", {
     label: "Acceptability of the shown variants",
@@ -300,13 +300,13 @@ const startEffects = () => {
     const across = (those) => (narrow ? those.map((row) => found.indexOf(row)) : [those.map((row) => plotText(row.factor)), those.map((row) => plotText(row.level))]);
     one.main.forEach((term, index) => {
       const mine = found.filter((row) => row.factor === term.factor);
-      traces.push({ x: across(mine), y: mine.map((row) => row.mean), mode: "lines+markers", name: plotText(`${term.factor} (${percent(term.share)})`), line: { color: PALETTE[index % PALETTE.length], dash: DASHES[index % DASHES.length] }, marker: { size: 9 },
+      traces.push({ x: across(mine), y: mine.map((row) => row.mean), mode: "lines+markers", cliponaxis: false, name: plotText(`${term.factor} (${percent(term.share)})`), line: { color: PALETTE[index % PALETTE.length], dash: DASHES[index % DASHES.length] }, marker: { size: 9 },
         error_y: term.low === null ? { visible: false } : { type: "data", symmetric: false, thickness: 1, array: mine.map((row) => row.high - row.effect), arrayminus: mine.map((row) => row.effect - row.low) } });
     });
     if (shownPlaces.length < total) {
       traces.push({ x: across(found), y: found.map((row) => row.brushed), mode: "markers", name: "mean of the shown variants", marker: { symbol: "x", size: 10, color: "#d55e00" } });
     }
-    return { traces, layout: { xaxis: narrow ? { type: "linear", tickvals: found.map((_, index) => index), ticktext: found.map((row) => plotText(row.level)), tickangle: -90 } : { type: "multicategory" }, yaxis: { title: { text: plotText(`mean of ${withBetter(measureOf.get(one.measure))}`) } }, height: 390 } };
+    return { traces, layout: { xaxis: narrow ? { type: "linear", tickvals: found.map((_, index) => index), ticktext: found.map((row) => plotText(row.level)), tickangle: -90 } : { type: "multicategory" }, yaxis: { title: { text: plotText(`mean of ${withBetter(measureOf.get(one.measure))}`) }, ...scaleOf(found.flatMap((row) => [row.mean, row.brushed, ...(known(row.low) ? [row.mean - row.effect + row.low, row.mean - row.effect + row.high] : [])]).filter(known), measureOf.get(one.measure)) }, height: 390 } };
   });
   const update = tableIn("effects-table", {
     label: "Main effects",

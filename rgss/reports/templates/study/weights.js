@@ -114,8 +114,8 @@ const drawSliders = () => {
       const share = normalised()[index];
       // The slider that is dragged keeps its position.
       if (Math.abs(Number(slider.value) - share) > 0.005) slider.value = String(share);
-      told.textContent = share.toFixed(3);
-      slider.setAttribute("aria-valuetext", `${share.toFixed(3)} of the weight`);
+      told.textContent = withDecimals(share, 3);
+      slider.setAttribute("aria-valuetext", `${withDecimals(share, 3)} of the weight`);
     });
     const worst = [one.worst, one.too_high].filter(known).map((end) => show(end, measure.unit)).join(" and ");
     const scale = worst ? `0 at ${worst}, 1 at ${show(one.best, measure.unit)}` : "";
@@ -138,7 +138,7 @@ const drawSliders = () => {
     columns: [
       { head: "rank", cell: (row) => String(row.rank) },
       { head: "variant", number: true, cell: (row) => variantLink(variants.id[row.place]) },
-      { head: "value", number: true, cell: (row) => row.value.toFixed(4), to: () => "#weights-plot" },
+      { head: "value", number: true, cell: (row) => withDecimals(row.value, 4), to: () => "#weights-plot" },
       { head: "rank in the study", number: true, cell: (row) => show(variants.rank[row.place]), to: (row) => figureAddress(variants.id[row.place], "value") },
     ],
     rows: shownRanking,
