@@ -66,6 +66,21 @@ _SECTIONS = (
     ("provenance", "Provenance"),
 )
 
+_SCRIPTED = (
+    "explore",
+    "verdicts",
+    "measures",
+    "pareto",
+    "distributions",
+    "compare",
+    "weights",
+    "acceptability",
+    "effects",
+    "trials",
+    "evidence",
+)
+"""Sections that a script fills; without scripts the page leaves them out, and says so."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class TrialPictures:
@@ -152,6 +167,7 @@ def study_report_to_html(
         comparison=comparison_rows(document),
         compared_trials=compared_trials(document),
         report_sections=_SECTIONS[1:] if glance is None else _SECTIONS,
+        scripted=_SCRIPTED,
         pictures=[_picture(one) for one in pictures],
         worst_failure=next((place for place, one in enumerate(pictures) if one.worst), None),
         pictures_notice=pictures_notice,

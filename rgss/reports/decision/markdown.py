@@ -17,7 +17,6 @@ from rgss.reports.decision.conclusion import (
     headline,
     rule_sentence,
     seeds_sentences,
-    share_text,
     stale_sentence,
     standing_sentence,
     uncertainty_sentences,
@@ -33,6 +32,7 @@ from rgss.reports.decision.words import (
     kept_share,
     moves_text,
     score,
+    share_text,
     variants_text,
 )
 from rgss.trace.views import share_in_words, value_in_words

@@ -18,12 +18,11 @@ from rgss.reports.decision.conclusion import (
 )
 from rgss.reports.decision.json import assumptions_to_json, costs_to_json
 from rgss.reports.decision.limit_sentences import limit_sentences
+from rgss.reports.decision.portfolio_sentences import no_portfolio, portfolio_proof
 from rgss.reports.decision.report_conflicts import conflict_reasons
 from rgss.reports.decision.sentences import (
     cautions,
     enumeration_clause,
-    no_portfolio,
-    portfolio_proof,
     reading_lines,
     reasons,
 )

@@ -18,8 +18,6 @@ from rgss.tradeoff import (
     Conflicts,
     ConflictSurvival,
     Decision,
-    DecisionStatus,
-    PortfolioDecision,
 )
 from rgss.tradeoff.programs import Certificate
 
@@ -61,25 +59,7 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
         within = f", within the tolerance of {share_text(made.tolerance)} on what varies from trial to trial"
     basis = basis_text(shown_feasible=made.shown_feasible)
     yield Reason(text=f"Variant {decision.chosen} {among} every requirement{limits} by the {basis}{within}.")
-    others = [variant for variant in decision.ties if variant != decision.chosen]
-    if decision.surpassed:
-        names = variants_text(decision.surpassed).capitalize()
-        have = "has" if len(decision.surpassed) == 1 else "have"
-        yield Reason(
-            text=f"{names} {have} the same value, but another of this value is better in a quantity beyond the end of "
-            "its value function, and no worse in any."
-        )
-        others = [variant for variant in others if variant not in decision.surpassed]
-    if others:
-        names = ", ".join(map(str, others))
-        end = "largest" if made.last_of_equals else "smallest"
-        have = f"Variant {names} has" if len(others) == 1 else f"Variants {names} have"
-        yield Reason(text=f"{have} the same value; the {end} id is chosen.")
-    if decision.near_ties:
-        near = variants_text(decision.near_ties)
-        margin = made.practical_margin
-        how = f"Within the practical margin of {margin:g} of it" if margin else "As good within the program's tolerance"
-        yield Reason(text=f"{how}: {near}.")
+    yield from _equals(made)
     if made.gains and decision.runner_up in decision.ties:
         # Its contributions may differ and cancel.
         apart = f", with other contributions: {_gains(made)}" if _gains(made) != _NO_GAINS else ""
@@ -108,6 +88,30 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
     ]
     if close:
         yield Reason(text=f"Closest limits: {'; '.join(close)}.")
+
+
+def _equals(made: StudyDecision) -> Iterator[Reason]:
+    """Reasons for the choice among variants of its value, and those within the margin."""
+    decision = made.decision
+    others = [variant for variant in decision.ties if variant != decision.chosen]
+    if decision.surpassed:
+        names = variants_text(decision.surpassed).capitalize()
+        have = "has" if len(decision.surpassed) == 1 else "have"
+        yield Reason(
+            text=f"{names} {have} the same value, but another of this value is better in a quantity beyond the end of "
+            "its value function, and no worse in any."
+        )
+        others = [variant for variant in others if variant not in decision.surpassed]
+    if others:
+        names = ", ".join(map(str, others))
+        end = "largest" if made.last_of_equals else "smallest"
+        have = f"Variant {names} has" if len(others) == 1 else f"Variants {names} have"
+        yield Reason(text=f"{have} the same value; the {end} id is chosen.")
+    if decision.near_ties:
+        near = variants_text(decision.near_ties)
+        margin = made.practical_margin
+        how = f"Within the practical margin of {margin:g} of it" if margin else "As good within the program's tolerance"
+        yield Reason(text=f"{how}: {near}.")
 
 
 def _side(limit: ClosestLimit) -> str:
@@ -212,35 +216,6 @@ def notable_checks(checks: tuple[Check, ...]) -> list[str]:
     ]
 
 
-def no_portfolio(portfolio: PortfolioDecision) -> str:
-    """Reason why there is no portfolio; empty if there is one.
-
-    Args:
-        portfolio: The choice of a portfolio.
-    """
-    if portfolio.objective is not None:
-        return ""
-    if portfolio.status is DecisionStatus.UNDECIDED:
-        return f"No portfolio that serves every study was found{_cut(portfolio)}; there may be one."
-    return (
-        f"No portfolio of this size serves every study; unserved by itself: {', '.join(portfolio.unserved) or 'none'}."
-    )
-
-
-def portfolio_proof(portfolio: PortfolioDecision) -> str:
-    """Sentence on the proof that a portfolio is best, or on the bound of the gap.
-
-    Args:
-        portfolio: The choice of a portfolio.
-    """
-    if portfolio.status is DecisionStatus.BEST_FOUND:
-        gap = value_in_words(portfolio.gap)
-        return f"best found, not proven best: another one can be better by at most {gap}{_cut(portfolio)}"
-    return (
-        "proven best" if portfolio.cut is None else f"proven best; of fewer members not every value is{_cut(portfolio)}"
-    )
-
-
 def unmeasured_sentence(names: Sequence[str]) -> str:
     """Sentence on requirements without a value in any variant; empty if there are none.
 
@@ -306,7 +281,3 @@ def _gains(made: StudyDecision) -> str:
     shown = sorted(made.gains, key=lambda gain: -abs(gain.amount))
     parts = [f"{gain.measure} {gain.amount:+.4f}" for gain in shown if abs(gain.amount) > 5e-5]
     return ", ".join(parts) or _NO_GAINS
-
-
-def _cut(portfolio: PortfolioDecision) -> str:
-    return "" if portfolio.cut is None else f" ({portfolio.cut.value})"

@@ -12,7 +12,8 @@ from rgss.reports.decision.conclusion import (
     standing_sentence,
     uncertainty_sentences,
 )
-from rgss.reports.decision.sentences import certificate_sentence, no_portfolio, notable_checks, portfolio_proof, reasons
+from rgss.reports.decision.portfolio_sentences import no_portfolio, portfolio_proof
+from rgss.reports.decision.sentences import certificate_sentence, notable_checks, reasons
 from rgss.reports.decision.text.conflicts import conflict_lines
 from rgss.reports.decision.words import score
 from rgss.reports.plain_text import aligned_table
