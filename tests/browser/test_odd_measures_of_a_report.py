@@ -153,3 +153,20 @@ def test_a_parameter_named_role_is_not_the_role_in_the_decision(reader, study, t
         reader.driver.get(address)
         reader.until("return document.documentElement.dataset.ready === 'yes'")
         assert reader.script("return document.getElementById('distribution-by').value") == value
+
+
+@pytest.mark.parametrize("width", [1440, 320])
+def test_a_name_of_eighty_characters_without_a_blank_stays_in_its_place(reader, study, tmp_path, width):
+    document = copy.deepcopy(study.document)
+    for one in document["measures"]:
+        one["name"] = f"{one['id']}_{'of_the_cup_upon_the_tray_' * 4}"[:80]
+    page = tmp_path / "report.html"
+    page.write_text(study_report_to_html(document, study.trace), encoding="utf-8")
+    reader.open(page, width=width)
+    assert reader.script("return document.querySelectorAll('.bullet').length") > 2
+    assert reader.script("return document.documentElement.scrollWidth - document.documentElement.clientWidth") == 0
+    beyond = reader.script(
+        "return Array.from(document.querySelectorAll('.bullet-verdict, .weight output'), (one) =>"
+        " one.getBoundingClientRect().right - one.parentElement.getBoundingClientRect().right).filter((by) => by > 1)"
+    )
+    assert beyond == []

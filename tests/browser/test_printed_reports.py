@@ -172,3 +172,24 @@ def test_requirements_of_the_printed_trace_share_sheets(reader, study, tmp_path)
     file = tmp_path / "trace.html"
     file.write_text(report_to_html(study.trace), encoding="utf-8")
     assert printed_pages(reader, file) < 25 + len(study.trace.verification) / 2
+
+
+_LEGENDS_IN_PLOTS = """
+const top = (one) => one.getBoundingClientRect().top;
+return Array.from(document.querySelectorAll('.js-plotly-plot')).filter((plot) => plot.querySelector('.legend'))
+  .map((plot) => [plot.id, plot.querySelector('.legend').getBoundingClientRect().bottom - top(plot)
+    - plot._fullLayout._size.t])
+  .filter(([, below]) => below > 1);
+"""
+
+
+def test_legends_lie_above_their_plots_on_paper(reader, page):
+    """Of plots that a narrow window had with legends of several lines."""
+    reader.open(page, width=650)
+    try:
+        reader.script("dispatchEvent(new Event('beforeprint'))")
+        drawn = reader.script("return document.querySelectorAll('.js-plotly-plot .legend').length")
+        assert drawn > 3
+        assert reader.script(_LEGENDS_IN_PLOTS) == []
+    finally:
+        reader.script("dispatchEvent(new Event('afterprint'))")
