@@ -117,6 +117,14 @@ def test_intervals_and_boxes_of_a_measure(study, plot):
     assert sorted(y for _, y in points(wide)) == sorted(frame["value"].round(9))
 
 
+def test_the_axis_of_a_share_ends_at_one(plot):
+    wide, boxes = plot.measure("S").axes
+    (ax,) = plot.pareto("t_p", "S").axes
+    assert [one.get_ylim()[1] for one in (wide, boxes, ax)] == [1.0, 1.0, 1.0]
+    # No other measure is cut.
+    assert ax.get_xlim()[1] > max(x for x, _ in points(ax))
+
+
 def test_a_bar_is_as_long_as_the_state_took(study, plot):
     variant = int(study.trials.index[0][0])
     figure = plot.timeline(variant)

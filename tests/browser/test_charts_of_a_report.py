@@ -355,3 +355,19 @@ EMPTY = {
     "not_computed": [],
     "meanings": [],
 }
+
+
+def test_axes_of_shares_end_at_one(reader, page):
+    reader.open(page)
+    reader.script(
+        "for (const [id, value] of [['measure-choice', 'S'], ['pareto-y', 'S']]) {"
+        " const select = document.getElementById(id); select.value = value; select.dispatchEvent(new Event('change')); }"
+    )
+    for name in ("measures", "pareto", "acceptability"):
+        reader.script("document.getElementById(`${arguments[0]}-plot`).scrollIntoView()", name)
+        reader.until("return document.querySelector(`#${arguments[0]}-plot .main-svg`) !== null", name)
+        low, high = reader.script(
+            "return document.getElementById(`${arguments[0]}-plot`)._fullLayout.yaxis.range", name
+        )
+        assert low >= 0.0
+        assert high <= 1.0

@@ -153,6 +153,17 @@ def test_a_chart_is_to_scale():
     assert share["label"] == "SHARE: 0.95 (0.88 to 0.99), demanded at least 0.9: inconclusive"
 
 
+def test_a_chart_of_a_share_ends_at_one():
+    document = copy.deepcopy(DOCUMENT)
+    document["measures"][1] |= {"value": [0.5, 1.0], "high": [0.7, 1.0], "least": 0.0, "most": 1.0}
+    share = first_screen_content(document)["bullets"][0]
+    assert (share["at"], share["limit"], share["interval"][1]) == (100.0, 90.0, 100.0)
+    # A limit that nothing can reach is still in its chart.
+    document["requirements"][1]["threshold"] = 1.25
+    share = first_screen_content(document)["bullets"][0]
+    assert (share["at"], share["limit"]) == (80.0, 100.0)
+
+
 def test_an_interval_that_goes_far_is_cut_at_the_end_of_the_chart():
     document = copy.deepcopy(DOCUMENT)
     document["measures"][0]["high"] = [35.0, 900.0]
