@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from rgss.decision.robustness.findings import RequirementPrice
 from rgss.tradeoff import AdditiveValue, TradeProblem
-from rgss.tradeoff.problem import EVIDENCE_PREFIX, Comparison, EvidenceTable
-from rgss.tradeoff.programs import condition_column, orderings_of, violations, weighted_values
+from rgss.tradeoff.problem import Comparison, EvidenceTable
+from rgss.tradeoff.programs import condition_column, orderings_of, unknown_evidence, weighted_values
 from rgss.tradeoff.robustness import condition_masks, price_list
 
 _NO_ANCHORS: Mapping[str, tuple[str, ...]] = MappingProxyType({})
@@ -32,9 +32,7 @@ def requirement_prices(
     totals = weighted_values(problem, table)
     masks = condition_masks(problem, table)
     # No limit admits a design without a measure that the program needs, in every replicate if it does there.
-    needed = [EVIDENCE_PREFIX + measure for measure in problem.evidence_needs]
-    unknown = violations(problem, table)[:, [problem.requirements.index(name) for name in needed]]
-    known = ~np.isnan(totals) & ~unknown.any(axis=1)
+    known = ~np.isnan(totals) & ~unknown_evidence(problem, table).any(axis=1)
 
     orderings = orderings_of(problem.program, problem, table)
 

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.programs.additive import AdditiveValue
     from rgss.tradeoff.programs.certificate import Certificate, certify
     from rgss.tradeoff.programs.columns import condition_column, keeps, single_values
-    from rgss.tradeoff.programs.enumeration import Enumeration, enumerate_alternatives, violations
+    from rgss.tradeoff.programs.enumeration import Enumeration, enumerate_alternatives, unknown_evidence, violations
     from rgss.tradeoff.programs.lexicographic import Aim, EpsilonConstraint, Lexicographic
     from rgss.tradeoff.programs.minimax_regret import MinimaxRegret, Scenarios
     from rgss.tradeoff.programs.preferences import Preferences, Program, check_preferences

@@ -98,10 +98,18 @@ def violations(preferences: Preferences, table: EvidenceTable) -> NDArray[np.boo
     for condition in preferences.conditions:
         statistics = condition_column(condition, table)
         violated[:, requirements.index(condition.requirement)] |= ~keeps(condition.sense, statistics, condition.limit)
-    for measure, every_replicate in preferences.evidence_needs.items():
-        unknown = np.isnan(table.column(measure))
-        if every_replicate:
-            samples = table.replicates(measure)
-            unknown |= (samples.ran & np.isnan(samples.values)).any(axis=1)
+    for measure, unknown in zip(preferences.evidence_needs, unknown_evidence(preferences, table).T, strict=True):
         violated[:, requirements.index(EVIDENCE_PREFIX + measure)] |= unknown
     return violated
+
+
+def unknown_evidence(preferences: Preferences, table: EvidenceTable) -> NDArray[np.bool_]:
+    """Mask of the needed measures that are unknown of each alternative, shape (n, k), in the order of the needs."""
+    needs = preferences.evidence_needs
+    unknown = np.zeros((len(table), len(needs)), dtype=np.bool_)
+    for place, (measure, every_replicate) in enumerate(needs.items()):
+        unknown[:, place] = np.isnan(table.column(measure))
+        if every_replicate:
+            samples = table.replicates(measure)
+            unknown[:, place] |= (samples.ran & np.isnan(samples.values)).any(axis=1)
+    return unknown
