@@ -14,7 +14,8 @@ from rgss.assessment.within_designs import Array
 PERMUTATIONS = 19_999
 """Permutations that are drawn where there are more; else all are taken."""
 
-_BATCH = 500
+_BATCH = 50
+"""Orders at a time: products of larger matrices take threads longer to divide than to compute."""
 _EQUAL = 1e-9
 
 Orders = NDArray[np.intp]

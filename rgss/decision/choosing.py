@@ -86,6 +86,7 @@ def choose(
     measured: Sequence[VariantMeasures],
     *,
     problem: TradeProblem | None = None,
+    resamples: int | None = None,
     independent: tuple[SolverRun, ...] = (),
     time_limit: float | None = None,
 ) -> Decision:
@@ -95,6 +96,7 @@ def choose(
         project: The project with its study.
         measured: Every variant with its estimates.
         problem: Result of `trade_problem` for them, if it was computed already.
+        resamples: Draws that test a conflict against noise, as for `rgss.tradeoff.decide`; 0 for none.
         independent: Runs of other solvers than HiGHS, as further checks.
         time_limit: Seconds for the runs of a solver over levels.
 
@@ -110,6 +112,7 @@ def choose(
         margin=margin,
         last_of_equals=project.study.trade_off.last_of_equals,
         seed=project.study.seed,
+        resamples=resamples,
         independent=independent,
         time_limit=time_limit,
     )

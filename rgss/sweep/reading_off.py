@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 from rgss.evidence import EvidenceStore, Piece, PieceKind, TrialRecord
+from rgss.sweep.task_queue import Trial
 from rgss.sweep.trial_keys import trials_of
 from rgss.trials import PlanningSettings
 from rgss.trials.code import versions
@@ -35,17 +37,21 @@ class FoundTrials:
 
 
 class StoredSearches:
-    """Searches that a study's trials left in the store; each piece is read once."""
+    """Searches that a study's trials left in the store; each piece and each known trial is read once."""
 
-    def __init__(self, store: EvidenceStore, settings: PlanningSettings) -> None:
+    def __init__(
+        self, store: EvidenceStore, settings: PlanningSettings, known: Mapping[str, TrialRecord] = MappingProxyType({})
+    ) -> None:
         """Begin with no piece read.
 
         Args:
             store: The evidence.
             settings: Settings of the searches.
+            known: Records by key that were read from the store already.
         """
         self._store = store
         self._settings = settings
+        self._known = known
         self._versions = versions()
         self._pieces: dict[str, Piece | None] = {}
         self._plans: dict[str, TaskPlan] = {}
@@ -64,26 +70,45 @@ class StoredSearches:
         """
         trials = trials_of(specs)
         there = self._store.has(trial.key for trial in trials)
+        # Variants whose trials have the same inputs have the same record, but for their number.
+        alike = {trial.digests.trial for trial in trials if trial.key in there}
         read: dict[str, _Pieces] = {}
+        derived: set[str] = set()
         for trial in trials:
-            pieces = None if trial.key in there else self._pieces_of(trial.spec)
-            if pieces is not None:
-                read[trial.key] = pieces
-        missing = tuple(trial.spec for trial in trials if trial.key not in there and trial.key not in read)
+            if trial.key in there:
+                continue
+            if trial.digests.trial not in alike:
+                pieces = self._pieces_of(trial.spec)
+                if pieces is None:
+                    continue
+                read[trial.digests.trial] = pieces
+                alike.add(trial.digests.trial)
+            derived.add(trial.key)
+        missing = tuple(trial.spec for trial in trials if trial.key not in there and trial.key not in derived)
         # Records are of no use where some are missing, and take the most time.
-        records = {} if missing else dict(self._store.records(there))
-        if not missing:
-            for trial in trials:
-                if trial.key in read:
-                    plan, pieces_of_trial = read[trial.key]
-                    records[trial.key] = record_with_plan(trial.spec, plan, pieces_of_trial)
+        records = {} if missing else self._records(trials, there, read)
         return FoundTrials(
             records=records,
             keys={(trial.spec.variant, trial.spec.seed): trial.key for trial in trials},
             stored=len(there),
-            read_off=len(read),
+            read_off=len(derived),
             missing=missing,
         )
+
+    def _records(
+        self, trials: Sequence[Trial], there: Collection[str], read: Mapping[str, _Pieces]
+    ) -> dict[str, TrialRecord]:
+        """Records of trials by key: the stored ones, and those that have the inputs of one that is stored or read."""
+        records = {key: self._known[key] for key in there if key in self._known}
+        records.update(self._store.records(key for key in there if key not in records))
+        made = {trial.digests.trial: records[trial.key] for trial in trials if trial.key in records}
+        for trial in trials:
+            if trial.key in records:
+                continue
+            if trial.digests.trial not in made:
+                made[trial.digests.trial] = record_with_plan(trial.spec, *read[trial.digests.trial])
+            records[trial.key] = replace(made[trial.digests.trial], variant=trial.spec.variant)
+        return records
 
     def _pieces_of(self, spec: TrialSpec) -> _Pieces | None:
         """The plan of a trial and its other pieces, made under the study's own clock and limits; None if they lack."""

@@ -10,7 +10,9 @@ from rgss.evidence import EvidenceStore
 from rgss.studies import load_project, trial_settings, trial_specs
 from rgss.sweep import StoredSearches, key_of, sweep
 from rgss.trials.pieces import Pieces
+from tests.cli.conftest import made_record
 from tests.fixtures.shipped_project import REPOSITORY
+from tests.fixtures.stored_trials import put_trials
 
 pytestmark = pytest.mark.engine
 
@@ -116,3 +118,16 @@ def test_trials_that_are_stored_are_taken_as_they_are(searched):
     project, store = searched
     found = StoredSearches(store, trial_settings(project).planning).find(specs_of(project))
     assert (found.stored, found.read_off, found.missing) == (len(VARIANTS) * len(SEEDS), 0, ())
+
+
+def test_a_variant_with_the_inputs_of_another_one_has_its_record(tmp_path):
+    """Under one planning limit variants 16 and 18 do not differ; the store has neither pieces nor the trial of 18."""
+    project = project_with()
+    variants = [project.designs.variant(number) for number in (16, 18)]
+    specs = limited(trial_specs(project, variants=variants, seeds=[1]), 4.0)
+    with EvidenceStore.open(tmp_path / "evidence.sqlite") as store:
+        put_trials(store, specs[:1], made_record)
+        found = StoredSearches(store, trial_settings(project).planning).find(specs)
+        (stored,) = store.records([key_of(specs[0])]).values()
+    assert (found.stored, found.read_off, found.missing) == (1, 1, ())
+    assert found.records[key_of(specs[1])] == replace(stored, variant=18)

@@ -84,7 +84,7 @@ def assumption_outcomes(
         TradeoffError: The choice is ill posed, or no optimum was proved.
         DefinitionError: As for `trade_problem`.
     """
-    decision = choose(project, measured)
+    decision = choose(project, measured, resamples=0)
     reader = ScenarioEvidenceReader(project, measured, store)
     return tuple(_outcome(project, measured, decision, reader, question) for question in questions_of(project))
 
@@ -130,7 +130,7 @@ def _outcome(
                 read_off=found.read_off,
                 in_motion=in_motion,
             )
-        other = choose(scenario.project, found.measured)
+        other = choose(scenario.project, found.measured, resamples=0)
         if other.unmeasured and not decision.unmeasured:
             return AssumptionOutcome(question=question, taken_as=_taken_as(scenario), reason=_lacking(other, question))
         former, chosen = decision.chosen, other.chosen

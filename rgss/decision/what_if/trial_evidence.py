@@ -60,7 +60,8 @@ class ScenarioEvidenceReader:
             store: The evidence.
         """
         self._measured = tuple(measured)
-        self._searches = StoredSearches(store, trial_settings(project).planning)
+        known = {key: record for one in measured for key, record in zip(one.trials, one.records, strict=True)}
+        self._searches = StoredSearches(store, trial_settings(project).planning, known)
 
     def read(self, scenario: Scenario) -> ScenarioEvidence:
         """The evidence of a scenario, without a simulation.
