@@ -51,10 +51,8 @@ def board_to_html(
     ranked = sum(rank is not None for rank in document["variants"]["rank"])
     modelling = _assumptions(decision["modelling"]["rows"])
     compared = [[row["name"], *(cell["text"] for cell in row["cells"])] for row in comparison_rows(document)]
-    failures, facts = (
-        _failures(document["trials"], document["variants"]["id"]),
-        [(name, _short(str(value))) for name, value in document["provenance"]["study"]],
-    )
+    failures = _failures(document["trials"], document["variants"]["id"])
+    facts = [(name, _short(str(value))) for name, value in document["provenance"]["study"]]
     failed = sorted((one for one in pictures if one.failed), key=lambda one: not one.worst)
     repairs, excluded = _repairs(document["conflicts"]), _excluded(document["conflicts"])
     room = sum(map(len, (*decision["reasons"], *decision["cautions"])))
@@ -81,6 +79,7 @@ def board_to_html(
         best_heads=heads,
         best=rows,
         left_out=" ".join(filter(None, (_ranked_in_words(ranked, len(rows)), *_columns_left(document)))),
+        exchange=(document["sensitivity"] or {}).get("exchange"),
         tornado=Markup("" if tornado is None else tornado_svgs(tornado, most_bars=_MOST_ROWS)),  # noqa: S704 - own drawing
         tornado_more="" if tornado is None else _more(tornado.moving, _MOST_ROWS, "inputs of the tornado"),
         repairs=repairs[:_MOST_LINES],

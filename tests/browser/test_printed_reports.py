@@ -68,6 +68,13 @@ def test_a_caution_is_whole_where_there_is_room(study):
     assert caution not in board_to_html(study.document | {"decision": decision})
 
 
+def test_the_choice_has_what_differences_are_worth_to_it(study):
+    exchange = {"reference": "C_total", "worth": "-2 s of t_e 436 USD."}
+    page = board_to_html(study.document | {"sensitivity": {"exchange": exchange}})
+    assert "are worth to the choice, in C_total. -2 s of t_e 436 USD." in page
+    assert 'id="exchange"' not in board_to_html(study.document | {"sensitivity": None})
+
+
 def test_assumptions_that_change_the_choice_come_first(study):
     cells = ["prices", "as stated", "1.5", "variant 2", "yes"]
     row = {"cells": cells, "sentence": "Then variant 2 is chosen."}

@@ -107,7 +107,8 @@ def analyse_sensitivity(
             raise moved
         tornado = moved
         if moved is not None:
-            exchange = parts.compute(Part.EXCHANGE_RATES, lambda: exchange_rates_of(standings, moved), None)
+            tied = _not_separated(decision, found)
+            exchange = parts.compute(Part.EXCHANGE_RATES, lambda: exchange_rates_of(standings, moved, tied=tied), None)
         bends = () if tornado is None else bent_values_of(project, tornado, problem.value_functions)
         keep = trade_off.practical_margin if margin is None else margin
         kept = parts.compute(Part.KEPT, lambda: _kept(standings, keep), None)
@@ -153,6 +154,14 @@ def _tornado(
     rows = {variant: row for row, variant in enumerate(found.variants)}
     tied = tuple(rows[variant] for variant in decision.ties)
     return tornado_of(inputs, standings.as_it_is(), tied[0], tied, found.variants)
+
+
+def _not_separated(decision: Decision, found: Robustness) -> frozenset[int] | None:
+    """The designs that the evidence does not separate from the choice; None where their uncertainty is not known."""
+    uncertainty = None if found.weighting is None else found.weighting.uncertainty
+    if uncertainty is None:
+        return None
+    return frozenset((*decision.ties, *(found.variants[one.row] for one in uncertainty.rivals if not one.separated)))
 
 
 def _kept(standings: Standings, margin: float) -> tuple[KeptAlternative, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,6 +42,8 @@ class BetterDesign:
         extra: Its quantity of the reference minus that of the chosen design, in the reference's unit.
         value_change: Its weighted value minus that of the chosen design; NaN if a quantity is unknown.
         misses: The requirements that it misses; empty if it is feasible.
+        is_tied: Whether the evidence does not separate its value from that of the chosen design; None if there is too
+            little evidence to tell.
     """
 
     variant: int
@@ -48,6 +51,7 @@ class BetterDesign:
     extra: float
     value_change: float
     misses: tuple[str, ...]
+    is_tied: bool | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -102,7 +106,9 @@ class ExchangeRates:
     lead: Worth | None
 
 
-def exchange_rates_of(standings: Standings, tornado: Tornado) -> ExchangeRates | None:
+def exchange_rates_of(
+    standings: Standings, tornado: Tornado, *, tied: Collection[int] | None = None
+) -> ExchangeRates | None:
     """The exchange rates at the chosen design.
 
     The reference is the measure that the study names, or the first in money, or the one with the greatest weight;
@@ -111,6 +117,7 @@ def exchange_rates_of(standings: Standings, tornado: Tornado) -> ExchangeRates |
     Args:
         standings: The designs of the study.
         tornado: The sensitivity of the choice, with its lead.
+        tied: Ids of the designs that the evidence does not separate from the choice; None if that is not known.
 
     Returns:
         The rates; None if each measure with a weight has a target, or only one measure has a weight.
@@ -118,7 +125,7 @@ def exchange_rates_of(standings: Standings, tornado: Tornado) -> ExchangeRates |
     reference = _reference(standings)
     if reference is None or len(standings.measures) < 2:
         return None
-    pricing = _Pricing(standings, reference, standings.table.row_of(tornado.chosen))
+    pricing = _Pricing(standings, reference, standings.table.row_of(tornado.chosen), tied)
     return ExchangeRates(
         variant=tornado.chosen,
         reference=reference,
@@ -133,12 +140,13 @@ def exchange_rates_of(standings: Standings, tornado: Tornado) -> ExchangeRates |
 class _Pricing:
     """Values of changes at the chosen design, in the reference."""
 
-    def __init__(self, standings: Standings, reference: str, chosen: int) -> None:
+    def __init__(self, standings: Standings, reference: str, chosen: int, tied: Collection[int] | None) -> None:
         self._standings = standings
         self._functions = _functions(standings)
         self._weights: dict[str, float] = dict(zip(standings.measures, standings.weights.tolist(), strict=True))
         self._chosen = chosen
         self._reference = reference
+        self._tied = tied
         self.direction = 1.0 if self._functions[reference].more_is_better else -1.0
 
     def worth(self, gain: float) -> Worth:
@@ -193,14 +201,18 @@ class _Pricing:
             return None
         totals = self._standings.as_it_is().totals
         # The least worsening of the reference, then the highest value, then the least id.
-        worse = np.round(-self.direction * extra[rows], 9)
+        # Differences below the rounding of the quantities, of whatever magnitude, are none.
+        grain = _EQUAL * max(float(np.abs(table.column(self._reference)[rows]).max()), 1e-300)
+        worse = np.round(-self.direction * extra[rows] / grain)
         row = int(rows[np.lexsort((rows, -np.nan_to_num(totals[rows], nan=-np.inf), worse))[0]])
+        variant = int(table.variants[row])
         return BetterDesign(
-            variant=int(table.variants[row]),
+            variant=variant,
             quantity=float(quantities[row]),
             extra=float(extra[row]),
             value_change=float(totals[row] - totals[self._chosen]),
             misses=self._misses(row),
+            is_tied=None if self._tied is None else variant in self._tied,
         )
 
     def _misses(self, row: int) -> tuple[str, ...]:

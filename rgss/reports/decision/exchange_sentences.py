@@ -56,9 +56,14 @@ def exchange_sentences(found: ExchangeRates) -> tuple[str, ...]:
         if any(rate.better is not None and rate.better.misses for rate in found.rates)
         else ""
     )
+    tied = (
+        " Tied: the evidence does not separate its value from that of the choice."
+        if any(rate.better is not None and rate.better.is_tied for rate in found.rates)
+        else ""
+    )
     better = (
         f"Better design: of the feasible ones that are better in the measure, by the estimates, the one with the {end} "
-        f"{found.reference}{others}."
+        f"{found.reference}{others}.{tied}"
     )
     by = "The weights and value functions say so: who would pay less, or more, for a step has other weights."
     return tuple(filter(None, (lead_sentence(found), by, better)))
@@ -69,14 +74,31 @@ def lead_sentence(found: ExchangeRates) -> str:
     return "" if found.lead is None else f"Its lead over variant {found.rival} is worth {_worth(found, found.lead)}."
 
 
-def exchange_clause(found: ExchangeRates) -> str:
-    """Rates in one sentence of Markdown without its full stop; empty if no step is worth anything."""
+def exchange_clause(found: ExchangeRates, *, code: str = "") -> str:
+    """Rates in one sentence without its full stop; empty if no step is worth anything.
+
+    Args:
+        found: The rates.
+        code: Mark on both sides of the name of a measure.
+    """
     parts = [
-        f"{step} of `{rate.measure}` {_worth(found, rate.worth)}"
+        f"{step} of {code}{rate.measure}{code} {_worth(found, rate.worth)}"
         for rate, step in ((rate, _step(rate)) for rate in found.rates)
         if rate.gain > 0.0
     ]
     return ", ".join(parts)
+
+
+def worth_sentences(found: ExchangeRates, *, code: str = "") -> str:
+    """Sentences on what the steps and the lead are worth; empty if nothing is.
+
+    Args:
+        found: The rates.
+        code: As for `exchange_clause`.
+    """
+    clause = exchange_clause(found, code=code)
+    worth = f"By the weights and value functions these are worth: {clause}." if clause else ""
+    return " ".join(filter(None, (worth, lead_sentence(found))))
 
 
 def _row(found: ExchangeRates, rate: ExchangeRate) -> ExchangeRow:
@@ -93,7 +115,8 @@ def _row(found: ExchangeRates, rate: ExchangeRate) -> ExchangeRow:
 
 def _better(found: ExchangeRates, rate: ExchangeRate, better: BetterDesign) -> str:
     missed = f", misses {', '.join(better.misses)}" if better.misses else ""
-    return f"{amount(better.quantity, rate.unit)} for {_signed(better.extra, found.unit)}{missed}"
+    tied = ", tied" if better.is_tied else ""
+    return f"{amount(better.quantity, rate.unit)} for {_signed(better.extra, found.unit)}{missed}{tied}"
 
 
 def _step(rate: ExchangeRate) -> str:

@@ -21,7 +21,7 @@ from rgss.reports.decision.conclusion import (
     standing_sentence,
     uncertainty_sentences,
 )
-from rgss.reports.decision.exchange_sentences import exchange_clause, lead_sentence
+from rgss.reports.decision.exchange_sentences import worth_sentences
 from rgss.reports.decision.sensitivity_sentences import tied_by_weights_sentence
 from rgss.reports.decision.words import (
     UNKNOWN,
@@ -217,10 +217,9 @@ def _shares(made: StudyDecision, found: RobustnessFindings) -> Iterator[str]:
 
 
 def _exchange(found: ExchangeRates) -> Iterator[str]:
-    clause, lead = exchange_clause(found), lead_sentence(found)
-    if clause or lead:
-        worth = f"By the weights and value functions these are worth: {clause}." if clause else ""
-        yield f"*What differences are worth to it, in `{found.reference}`.* {' '.join(filter(None, (worth, lead)))}"
+    worth = worth_sentences(found, code="`")
+    if worth:
+        yield f"*What differences are worth to it, in `{found.reference}`.* {worth}"
 
 
 def _costs(found: RobustnessFindings) -> Iterator[str]:

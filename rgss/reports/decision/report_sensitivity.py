@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from rgss.decision.robustness import not_computed_lines
 from rgss.decision.sensitivity import Sensitivity, TornadoBar, TornadoEnd
-from rgss.reports.decision.exchange_sentences import exchange_rows, exchange_sentences, exchange_title
+from rgss.reports.decision.exchange_sentences import (
+    exchange_rows,
+    exchange_sentences,
+    exchange_title,
+    worth_sentences,
+)
 from rgss.reports.decision.meanings import meanings
 from rgss.reports.decision.sensitivity_sentences import (
     agreement_sentences,
@@ -73,7 +78,13 @@ def _exchange(found: Sensitivity) -> Plain | None:
         }
         for row in exchange_rows(exchange)
     ]
-    return {"title": exchange_title(exchange), "rows": rows, "sentences": list(exchange_sentences(exchange))}
+    return {
+        "title": exchange_title(exchange),
+        "rows": rows,
+        "sentences": list(exchange_sentences(exchange)),
+        "reference": exchange.reference,
+        "worth": worth_sentences(exchange),
+    }
 
 
 def _row(bar: TornadoBar) -> Plain:

@@ -34,7 +34,7 @@ FUNCTIONS = (
 )
 
 
-def priced(designs, weights, *, functions=FUNCTIONS, limit=math.inf, reference=None, chosen=None):
+def priced(designs, weights, *, functions=FUNCTIONS, limit=math.inf, reference=None, chosen=None, tied=None):
     """The rates of the design of the highest value whose payload is at most a limit, or of a given one."""
     problem = TradeProblem(
         alternatives=tuple(Alternative(variant=variant, measures=one) for variant, one in designs.items()),
@@ -63,7 +63,7 @@ def priced(designs, weights, *, functions=FUNCTIONS, limit=math.inf, reference=N
     ranked = sorted((one for one in designs if designs[one]["payload"] <= limit), key=lambda one: -values[one])
     chosen, lead = chosen or ranked[0], values[ranked[0]] - values[ranked[1]]
     tornado = Tornado(chosen=chosen, rival=ranked[1], lead=lead, bars=(), without_range=())
-    return exchange_rates_of(standings, tornado)
+    return exchange_rates_of(standings, tornado, tied=tied)
 
 
 def worth_of(quantities, weights):
@@ -181,7 +181,35 @@ def test_words_of_steps_bounds_and_designs():
         ("angle", "1 rad", "at its best", "–", "none"),
     ]
     assert "one that misses requirements is named where no feasible one is better" in exchange_sentences(found)[-1]
-    assert exchange_clause(found).startswith("+0.2 kg of `payload` 5,600 USD, -2 s of `time` ")
+    assert exchange_clause(found, code="`").startswith("+0.2 kg of `payload` 5,600 USD, -2 s of `time` ")
     steep = priced(designs, {"payload": 0.98, "cost": 0.02}, limit=2.0, chosen=2)
     # The whole range of the cost that is left, 9,000 USD, is worth 0.009; the step 0.0392.
     assert exchange_rows(steep)[0].worth == "> 9,000 USD"
+
+
+@pytest.mark.parametrize("scale", [1e-15, 1.0, 1e12])
+def test_the_least_worsening_counts_at_any_magnitude_of_the_reference(scale):
+    """Variant 3 costs a third more of the reference than 2 does, and is worth more by its time."""
+    functions = (
+        PiecewiseValue(measure="payload", worst=0.0, best=4.0),
+        PiecewiseValue(measure="cost", worst=9.0 * scale, best=1.0 * scale),
+        PiecewiseValue(measure="time", worst=30.0, best=5.0),
+    )
+    designs = {
+        1: {"payload": 1.0, "cost": 2.0 * scale, "time": 5.0, "angle": 1.0},
+        2: {"payload": 2.0, "cost": 3.0 * scale, "time": 29.0, "angle": 1.0},
+        3: {"payload": 2.0, "cost": 4.0 * scale, "time": 6.0, "angle": 1.0},
+    }
+    found = priced(designs, {"payload": 0.1, "cost": 0.3, "time": 0.6}, functions=functions, chosen=1)
+    assert found.rates[0].better.variant == 2
+    assert found.rates[0].better.extra == pytest.approx(scale)
+
+
+def test_a_better_design_that_the_evidence_does_not_separate_is_tied():
+    weights = {"time": 0.5, "cost": 0.5}
+    unknown, apart, near = (priced(TWO, weights, chosen=1, tied=tied) for tied in (None, {1}, {1, 2}))
+    assert [one.rates[0].better.is_tied for one in (unknown, apart, near)] == [None, False, True]
+    cells = [exchange_rows(one)[0].cells[-1] for one in (unknown, apart, near)]
+    assert cells == ["2: 9 s for +1,000 USD"] * 2 + ["2: 9 s for +1,000 USD, tied"]
+    assert "does not separate its value" in exchange_sentences(near)[-1]
+    assert "does not separate its value" not in exchange_sentences(apart)[-1]

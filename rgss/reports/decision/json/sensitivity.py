@@ -126,6 +126,7 @@ def _rate(rate: ExchangeRate) -> Plain:
             "extra": better.extra,
             "value_change": None if math.isnan(better.value_change) else better.value_change,
             "misses": list(better.misses),
+            "is_tied": better.is_tied,
         },
     }
 
