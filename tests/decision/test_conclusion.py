@@ -270,9 +270,17 @@ def test_a_difference_that_no_replicate_changes_is_said_to_be_fixed(made):
     row = int(made.robustness.analysis.feasible.argmax())
     rival = Rival(row=row, probability=0.3, within_margin=True, replicates=28, measure="C_total", fixed=True)
     assert list(uncertainty_sentences(with_rivals(made, rival)))[1].endswith(
-        "; they differ most in C_total, which no replicate changes; about 28 replicates would show whose value is "
-        "higher."
+        "; they differ most in C_total, which no replicate changes; about 28 replicates would show whether what varies "
+        "from trial to trial outweighs it."
     )
+    apart = list(uncertainty_sentences(with_rivals(made, dataclasses.replace(rival, separated=True))))[1]
+    assert apart.endswith("most by C_total, which no replicate changes: a smaller margin breaks the tie.")
+
+
+def test_the_gain_of_a_study_that_decides_by_verdicts_says_what_it_leaves_out(made):
+    *_, gain = uncertainty_sentences(made)
+    *_, by_verdicts = uncertainty_sentences(dataclasses.replace(made, shown_feasible=True))
+    assert by_verdicts == f"{gain} More replicates also narrow the intervals that verdicts need, which is not counted."
 
 
 def test_a_tie_by_feasibility_names_no_number_of_replicates(made):

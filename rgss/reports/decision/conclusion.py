@@ -237,9 +237,14 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
         return
     yield from tie_sentences(found, one)
     gains = "; ".join(f"{count} more: {gain:.4f}" for count, gain in one.gains.of_more)
+    left_out = (
+        " More replicates also narrow the intervals that verdicts need, which is not counted."
+        if made.shown_feasible
+        else ""
+    )
     yield (
         f"Expected gain of value by more replicates of every variant: {gains}; "
-        f"by perfect knowledge: {one.gains.perfect:.4f}."
+        f"by perfect knowledge: {one.gains.perfect:.4f}.{left_out}"
     )
 
 

@@ -55,6 +55,11 @@ def _tie(found: RobustnessFindings, members: list[Rival]) -> str:
                 "function, where no difference is worth anything; another worst or best breaks the tie."
             )
         return f"{tied}; no estimate differs, so that only a measure in which they differ breaks the tie."
+    if rival.separated and rival.fixed:
+        return (
+            f"{tied}; they are separated, most by {rival.measure}, which no replicate changes: a smaller margin breaks "
+            "the tie."
+        )
     if rival.separated:
         return (
             f"{tied}; the replicates separate them, most by {rival.measure}: no more of them, but a smaller margin, "
@@ -65,6 +70,6 @@ def _tie(found: RobustnessFindings, members: list[Rival]) -> str:
     if rival.fixed:
         return (
             f"{tied}; they differ most in {rival.measure}, which no replicate changes; about {rival.replicates} "
-            "replicates would show whose value is higher."
+            "replicates would show whether what varies from trial to trial outweighs it."
         )
     return f"{tied}; they differ most in {rival.measure}; about {rival.replicates} replicates would separate them."
