@@ -47,6 +47,7 @@ class Sensitivity:
         keep_margin: Distance from the best within which a design is worth keeping.
         bounded_weights: True if elicitation bounds the weights for which designs are kept.
         agreement: The choices of the stakeholders; None if the study names none.
+        weighed: The measures with a weight for the study or a stakeholder, in the order of the stakeholders' weights.
         accept_within: Distance from a stakeholder's best value up to which a design is accepted.
         flat: The weights that do not separate the designs.
         refused: Reason why the sensitivity to inputs is not analysed; empty if it is.
@@ -63,6 +64,7 @@ class Sensitivity:
     keep_margin: float
     bounded_weights: bool
     agreement: StakeholderAgreement | None
+    weighed: tuple[str, ...]
     accept_within: float
     flat: tuple[FlatWeight, ...]
     refused: str
@@ -125,6 +127,7 @@ def analyse_sensitivity(
         keep_margin=trade_off.practical_margin if margin is None else margin,
         bounded_weights=bounded,
         agreement=agreement,
+        weighed=_weighed(problem, [one.weights for one in trade_off.stakeholders]),
         accept_within=trade_off.accept_within,
         flat=flat_weights(project, measured, decision),
         refused=refused,
@@ -178,7 +181,20 @@ def _agreement(standings: Standings) -> StakeholderAgreement | None:
     trade_off = standings.project.study.trade_off
     if not trade_off.stakeholders:
         return None
+    problem, table = standings.problem, standings.table
+    weighed = _weighed(problem, [one.weights for one in trade_off.stakeholders])
+    values = [problem.value_function(measure).values_at(table.column(measure)) for measure in weighed]
     named = [
-        (one.name, np.array([one.weights[measure] for measure in standings.measures])) for one in trade_off.stakeholders
+        (one.name, np.array([one.weights.get(measure, 0.0) for measure in weighed])) for one in trade_off.stakeholders
     ]
-    return stakeholder_agreement(standings.values, standings.feasible, named, within=trade_off.accept_within)
+    return stakeholder_agreement(np.stack(values, axis=1), standings.feasible, named, within=trade_off.accept_within)
+
+
+def _weighed(problem: TradeProblem, of_stakeholders: Sequence[Mapping[str, float]]) -> tuple[str, ...]:
+    """The measures with a weight for the study or for a stakeholder: a supposed weight of 0 is the study's alone."""
+    weights = problem.weighting.weights
+    return tuple(
+        measure
+        for measure, weight in weights.items()
+        if weight > 0.0 or any(one.get(measure, 0.0) > 0.0 for one in of_stakeholders)
+    )

@@ -350,13 +350,15 @@ def test_a_wrong_range_is_an_error_at_its_place(analysed, entry, message):
     assert finding.message.startswith(message)
 
 
-def test_stakeholders_choose_by_their_own_weights(analysed, measured):
+@pytest.mark.parametrize("supposed", [(), ("weight.C_total=0",), ("weight.S=1",)])
+def test_stakeholders_choose_by_their_own_weights(analysed, measured, supposed):
     project, _, found = analysed(
         "accept_within: 0.1",
         "stakeholders:",
         "  buyer: {weights: {C_total: 0.9, S: 0.1}}",
         "  driver: {points: {t_e_simulated: 30, P_max: 10}, rationale: waits}",
         "  safety: {answers: [{swing_of: S, over: t_e_simulated, ratio: 3}]}",
+        supposed=supposed,
     )
     problem = trade_problem(project, measured)
     for view, stakeholder in zip(found.agreement.views, project.study.trade_off.stakeholders, strict=True):

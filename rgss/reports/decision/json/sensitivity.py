@@ -164,7 +164,7 @@ def _agreement(found: Sensitivity, agreement: StakeholderAgreement) -> Plain:
         "views": [
             {
                 "name": view.name,
-                "weights": _weights(found.measures, view.weights.tolist()),
+                "weights": _weights(found.weighed, view.weights.tolist()),
                 "chooses": ids(view.best),
                 "value": view.best_value,
                 "accepts": ids(view.accepted),
