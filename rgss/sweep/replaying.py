@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, StoredTrial, TrialRecord, record_digest
 from rgss.evidence.records import Numerics, numerics_difference
+from rgss.evidence.store import trial_names
 from rgss.studies import CODE, Project, named_inputs, trial_specs
 from rgss.sweep.agreement import Agreement, beyond_tolerance
 from rgss.sweep.engine_process import compute
@@ -81,7 +82,7 @@ def find_trial(project: Project, store: EvidenceStore, name: str) -> StoredTrial
         if not (variant.isdecimal() and seed.isdecimal()):
             raise EvidenceError(f"{name!r} names no trial", hint="write a variant and a seed, such as 28/1")
         fidelity = project.study.fidelity
-        found = list(store.trials_of(_number(variant), _number(seed), fidelity))
+        found = _of_study(project, store.trials_of(_number(variant), _number(seed), fidelity), name)
         current = [trial for trial in found if dict(trial.provenance.versions) == versions()]
         found = current or found
         if len(found) > 1:
@@ -93,13 +94,32 @@ def find_trial(project: Project, store: EvidenceStore, name: str) -> StoredTrial
             raise EvidenceError(
                 f"{name!r} names no trial", hint=f"give {_SHORTEST_PREFIX} digits of its key or more, or 28/1"
             )
-        found = [trial for trial in store.iterate() if trial.key.startswith(name)]
+        # Only these are read, so that a damaged row elsewhere in the store does not matter.
+        alike = [one.key for one in trial_names(store.database) if one.key.startswith(name)]
+        found = [trial for key in alike if (trial := store.get(key)) is not None]
     if not found:
         raise EvidenceError(f"there is no trial {name!r} in the evidence", hint="run 'rgss sweep' first")
     if len(found) > 1:
         keys = ", ".join(trial.key[:12] for trial in found[:4])
         raise EvidenceError(f"{len(found)} trials go by {name!r}", hint=f"name one by its key: {keys}")
     return found[0]
+
+
+def _of_study(project: Project, found: Sequence[StoredTrial], name: str) -> list[StoredTrial]:
+    """Trials that a study may mean by a variant and a seed: its own, else those that were run for it.
+
+    Raises:
+        EvidenceError: There are only trials of other studies.
+    """
+    own = _own_key(project, found[0].record) if found else ""
+    mine = [trial for trial in found if trial.key == own or trial.provenance.study in ("", project.study.label)]
+    if found and not mine:
+        others = ", ".join(sorted({trial.provenance.study for trial in found}))
+        raise EvidenceError(
+            f"there is no trial {name!r} of {project.study.label} in the evidence, only of {others}",
+            hint="run 'rgss sweep' first",
+        )
+    return mine
 
 
 def replay(project: Project, stored: StoredTrial, *, inputs: Mapping[str, Any] | None = None) -> Replay:

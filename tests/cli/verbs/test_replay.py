@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import shutil
+import sqlite3
 from dataclasses import replace
 
 import pytest
@@ -169,6 +171,35 @@ def test_what_names_no_trial_is_bad_input(capsys, folder):
     assert refused(capsys, folder, "66/2") == "there is no trial '66/2' in the evidence (run 'rgss sweep' first)"
     assert refused(capsys, folder, "abc") == "'abc' names no trial (give 6 digits of its key or more, or 28/1)"
     assert refused(capsys, folder, "a/b") == "'a/b' names no trial (write a variant and a seed, such as 28/1)"
+
+
+def test_a_trial_of_another_study_is_not_compared_with_this_one(capsys, folder, key):
+    """It would differ by the inputs of the two studies, which is no finding."""
+    path = folder / ".rgss" / "evidence.sqlite"
+    with EvidenceStore.open(path) as store:
+        (stored,) = store.all()
+        provenance = replace(stored.provenance, study="studies/pick_place.yaml")
+    path.unlink()
+    with EvidenceStore.open(path) as store:
+        store.put(key, stored.record, provenance)
+    study = (folder / "studies" / "pick_place.yaml").read_text(encoding="utf-8")
+    other = study.replace("study: pick_place", "study: other").replace("clearance: 8 mm", "clearance: 9 mm")
+    (folder / "studies" / "other.yaml").write_text(other, encoding="utf-8")
+    assert refused(capsys, folder, TRIAL, "--study", "other") == (
+        "there is no trial '65/2' of studies/other.yaml in the evidence, only of studies/pick_place.yaml "
+        "(run 'rgss sweep other' first)"
+    )
+
+
+@pytest.mark.engine
+def test_a_damaged_trial_does_not_keep_another_one_from_being_replayed_by_its_key(folder, key):
+    path = folder / ".rgss" / "evidence.sqlite"
+    with EvidenceStore.open(path) as store:
+        (stored,) = store.all()
+        store.put("0" * 64, replace(stored.record, seed=3), stored.provenance)
+    with contextlib.closing(sqlite3.connect(path, isolation_level=None)) as connection:
+        connection.execute("UPDATE trials SET record = x'00' WHERE seed = 3")
+    assert replay(folder, key[:12]) == 0
 
 
 def test_without_evidence_it_says_so(capsys, folder, monkeypatch):
