@@ -1,4 +1,4 @@
-"""``rgss evidence merge``: another store added to the project's."""
+"""``rgss evidence``: another store added to the project's, and studies that cannot be reached."""
 
 from __future__ import annotations
 
@@ -60,3 +60,13 @@ def test_what_is_no_other_store_is_refused(rgss, with_evidence, folder):
     assert rgss("evidence", "merge", folder / "studies" / "pick_place.yaml", "--project", folder).status == 2
     # Nothing was made of it.
     assert not (folder / EVIDENCE).exists()
+
+
+@pytest.mark.parametrize("words", [(), ("gc",)])
+def test_a_study_that_is_a_link_to_itself_is_a_finding(rgss, with_evidence, tmp_path, words):
+    folder = shutil.copytree(with_evidence, tmp_path / "circle")
+    (folder / "studies" / "circle.yaml").symlink_to("circle.yaml")
+    told = rgss("evidence", *words, "--project", folder)
+
+    assert told.status == 2
+    assert "studies/circle.yaml:1:1: error: cannot be read: Too many levels of symbolic links" in told.errors

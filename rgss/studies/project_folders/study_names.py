@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import os
 import re
 import shlex
 from pathlib import Path
@@ -34,7 +35,8 @@ def study_file(project: Path, name: str | None) -> tuple[Path, str]:
             path = Path(name)
         elif _NAME.fullmatch(name) and not path.exists():
             return _by_name(project, name)
-        return path, path.resolve().relative_to(project.resolve()).as_posix()
+        # Unlike `Path.resolve`, it raises no error for a circle of links.
+        return path, Path(os.path.realpath(path)).relative_to(project.resolve()).as_posix()
     except (OSError, ValueError):  # a name that no file can have, a study outside the project
         return path, name
 
