@@ -256,6 +256,7 @@ def _loaded(path: Path) -> Any:
         mesh = trimesh.load_mesh(str(path), process=True)
         if isinstance(mesh, trimesh.Scene):
             mesh = mesh.to_mesh()
+        mesh.apply_scale(trimesh.units.unit_conversion(mesh.units or "meters", "meters"))  # COLLADA has a unit
     except ImportError:
         raise DefinitionError(f"{path.name} needs a reader that is not installed", hint="use STL, OBJ or PLY") from None
     except Exception as error:

@@ -44,6 +44,20 @@ def test_a_box_keeps_its_corners(saved):
         assert np.allclose(np.max(corners, axis=0), (0.1, 0.05, 0.03))
 
 
+@pytest.mark.parametrize(("unit", "size_m"), [("", 200.0), ('<unit name="mm" meter="0.001"/>', 0.2)])
+def test_the_unit_that_a_collada_file_states_is_that_of_its_lengths(saved, unit, size_m):
+    path = saved(trimesh.creation.box((200, 100, 60)), "box.dae")
+    text = path.read_text(encoding="utf-8")
+    assert text.count("<asset>") == 1
+    assert "<unit" not in text
+    path.write_text(text.replace("<asset>", f"<asset>{unit}"), encoding="utf-8")
+
+    (corners,) = shapes(path)
+
+    assert np.ptp(corners, axis=0)[0] == pytest.approx(size_m)
+    assert mesh_summary(path, scale=ONE).extent_m[0] == pytest.approx(size_m)
+
+
 def test_a_scale_is_kept_and_may_mirror(saved):
     mesh = trimesh.creation.box((200, 100, 60))
     mesh.apply_translation((100, 0, 0))
