@@ -361,7 +361,8 @@ def test_axes_of_shares_end_at_one(reader, page):
     reader.open(page)
     reader.script(
         "for (const [id, value] of [['measure-choice', 'S'], ['pareto-y', 'S']]) {"
-        " const select = document.getElementById(id); select.value = value; select.dispatchEvent(new Event('change')); }"
+        " const select = document.getElementById(id);"
+        " select.value = value; select.dispatchEvent(new Event('change')); }"
     )
     for name in ("measures", "pareto", "acceptability"):
         reader.script("document.getElementById(`${arguments[0]}-plot`).scrollIntoView()", name)
