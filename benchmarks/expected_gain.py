@@ -7,7 +7,7 @@ Run it from the repository's folder; nothing is simulated by an engine:
 Each repetition draws the truth of 12 designs and the replicates of a study of them, and states the gain of more. Then
 the further replicates are drawn from the truth, the choice is made again by the estimates, and the difference of the
 true values of both choices is what was gained; an infeasible choice is worth nothing. The exit status is 1 if the means
-differ by more than three standard errors of their difference, and by more than a tenth; not for `OVERSTATED`.
+differ by more than three standard errors of their difference, and by more than a tenth; not for `UNDERSTATED`.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ DESIGNS = 12
 MORE = (1, 10, 30)
 REPETITIONS = 200
 LIMIT = 0.9
-OVERSTATED = "success valued, 0.98 to 1"
-"""All designs nearly always succeed: that no seed separates them leaves half a seed between them possible."""
+UNDERSTATED = "limit on success, n = 4"
+"""Of few trials the choice is too often taken for feasible, so that little seems to be gained over it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,8 +66,10 @@ KINDS: Mapping[str, Kind] = {
     ),
     "skewed times": Kind(count=10, spread=0.2, sigma=0.8, common=0.3, least=1.0, valued=0.0, limited=False),
     "success valued, 0.5 to 1": Kind(count=10, spread=0.1, sigma=0.2, common=0.3, least=0.5, valued=0.2, limited=False),
-    OVERSTATED: Kind(count=10, spread=0.3, sigma=0.2, common=0.0, least=0.98, valued=0.2, limited=False),
-    "limit on success, n = 4": Kind(count=4, spread=0.1, sigma=0.2, common=0.3, least=0.7, valued=0.2, limited=True),
+    "success valued, 0.98 to 1": Kind(
+        count=10, spread=0.3, sigma=0.2, common=0.0, least=0.98, valued=0.2, limited=False
+    ),
+    UNDERSTATED: Kind(count=4, spread=0.1, sigma=0.2, common=0.3, least=0.7, valued=0.2, limited=True),
     "limit on success, n = 10": Kind(count=10, spread=0.1, sigma=0.2, common=0.3, least=0.7, valued=0.2, limited=True),
 }
 
@@ -85,7 +87,7 @@ def main() -> int:
             stated, gained, matched = rows[:, place].T
             error = float((stated - gained).std(ddof=1)) / math.sqrt(repetitions)
             off = abs(float(stated.mean() - gained.mean()))
-            right &= name == OVERSTATED or off <= max(3.0 * error, 0.1 * float(stated.mean()))
+            right &= name == UNDERSTATED or off <= max(3.0 * error, 0.1 * float(stated.mean()))
             figures = (stated.mean(), gained.mean(), error, matched.mean())
             sys.stdout.write(f"| {name} | {label} | {' | '.join(f'{one:.4f}' for one in figures)} |\n")
         sys.stdout.flush()
@@ -103,7 +105,7 @@ def _one(kind: Kind, generator: np.random.Generator) -> list[tuple[float, float,
     now = _choice(problem)
     if now is None:
         return [(0.0, 0.0, 0.0)] * (len(MORE) + 1)
-    found = PosteriorOutcomes.of(problem, tabulated(problem.alternatives), {"S"}, generator=generator, apart=True)
+    found = PosteriorOutcomes.of(problem, tabulated(problem.alternatives), {"S"}, generator=generator)
     stated = replication_gains(found, now, generator=generator, more=MORE)
     worth = np.where(found.outcomes.feasible, np.nan_to_num(found.totals), 0.0)
     rows = []
