@@ -42,10 +42,6 @@ def measured_state(project: Project, junit: Path | None) -> tuple[Sequence[Varia
 def require_store(options: argparse.Namespace, project: Project) -> None:
     """Refuse a project of which no trial was run, with the command that runs those of the options.
 
-    Args:
-        options: The command's options.
-        project: The project with its study.
-
     Raises:
         EvidenceError: There is no evidence store.
     """

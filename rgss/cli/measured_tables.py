@@ -17,12 +17,7 @@ if TYPE_CHECKING:
 
 
 def print_verdict_counts(project: Project, measured: Sequence[VariantMeasures]) -> None:
-    """Print how many variants meet each requirement, which is what a reader looks for first.
-
-    Args:
-        project: The project with its study.
-        measured: The variants.
-    """
+    """Print how many variants meet each requirement, which is what a reader looks for first."""
     from rgss.assessment import requirements_with_criteria
     from rgss.measures import Verdict
 
@@ -42,12 +37,7 @@ def print_verdict_counts(project: Project, measured: Sequence[VariantMeasures]) 
 
 
 def print_measures(measures: Sequence[Measure], measured: Sequence[VariantMeasures]) -> None:
-    """Print the measures and verdicts of every variant; on a terminal, variants that show the same share a row.
-
-    Args:
-        measures: The measures to print.
-        measured: The variants.
-    """
+    """Print the measures and verdicts of every variant; on a terminal, variants that show the same share a row."""
     from rgss.cli.terminal import TerminalPage
     from rgss.reports.decision import ids_text
 

@@ -140,21 +140,12 @@ def sweep_words(options: argparse.Namespace, *names: str) -> list[str]:
 
 
 def sweep_command(options: argparse.Namespace) -> str:
-    """The command that makes the evidence which a command's options select, as it can be typed.
-
-    Args:
-        options: The command's options.
-    """
+    """The command that makes the evidence which a command's options select, as it can be typed."""
     return shlex.join(sweep_words(options, "project", "fidelity", "replicates"))
 
 
 def with_sweep_options(hint: str, options: argparse.Namespace) -> str:
-    """A hint that names ``rgss sweep`` with the options that select the trials of a command.
-
-    Args:
-        hint: The hint.
-        options: The command's options.
-    """
+    """A hint that names ``rgss sweep`` with the options that select the trials of a command."""
     return hint.replace("'rgss sweep'", f"'{shlex.join(sweep_words(options, 'fidelity', 'replicates'))}'")
 
 

@@ -98,12 +98,7 @@ def _followed(path: Path) -> Path:
 
 
 def path_in_project(path: Path, folder: Path) -> str:
-    """A path relative to a project's folder where it lies below it: the same wherever a command runs.
-
-    Args:
-        path: The path.
-        folder: The project's folder.
-    """
+    """A path relative to a project's folder where it lies below it: the same wherever a command runs."""
     try:
         return _followed(path).relative_to(_followed(folder)).as_posix()
     except ValueError:

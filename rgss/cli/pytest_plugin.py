@@ -18,21 +18,12 @@ from _pytest.junitxml import xml_key
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Declare the mark.
-
-    Args:
-        config: The configuration of the run.
-    """
+    """Declare the mark."""
     config.addinivalue_line("markers", "verifies(*ids): the requirements that the test verifies")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Note on each marked test which requirements it verifies.
-
-    Args:
-        config: The configuration of the run.
-        items: The tests.
-    """
+    """Note on each marked test which requirements it verifies."""
     marked = {item: names for item in items if (names := _requirements_of(item))}
     project = _project(config) if marked else None
     if project is None:
@@ -46,11 +37,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 @pytest.hookimpl(trylast=True)
 def pytest_sessionstart(session: pytest.Session) -> None:
-    """Note what is tested, where the result is written to a file: by the process that writes it.
-
-    Args:
-        session: The run.
-    """
+    """Note what is tested, where the result is written to a file: by the process that writes it."""
     report = session.config.stash.get(xml_key, None)
     project = None if report is None else _project(session.config)
     if report is None or project is None:

@@ -69,12 +69,7 @@ def _expressed(character: str, encoding: str) -> str:
 
 
 def typeset(line: str, encoding: str) -> str:
-    """A line of a page for people, with signs of ASCII for the rules and marks that an encoding lacks.
-
-    Args:
-        line: The line.
-        encoding: The encoding of the stream.
-    """
+    """A line of a page for people, with signs of ASCII for the rules and marks that an encoding lacks."""
     try:
         line.encode(encoding)
     except UnicodeEncodeError:

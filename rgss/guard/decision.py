@@ -32,10 +32,6 @@ _TIE = 1e-9
 def measured_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialRecord]]) -> Sequence[VariantMeasures]:
     """Every variant of a run with its estimates and verdicts.
 
-    Args:
-        trials: The run.
-        records: The record of each of its trials, by variant and seed.
-
     Raises:
         EvidenceError: A trial has no record.
     """
@@ -62,10 +58,6 @@ def measured_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialR
 
 def decision_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialRecord]]) -> DecisionState:
     """Decision among the variants of a run by its records.
-
-    Args:
-        trials: The run.
-        records: The record of each of its trials, by variant and seed.
 
     Raises:
         EvidenceError: A trial has no record.
@@ -176,12 +168,6 @@ def explained_by_noise(
     The seeds are resampled with replacement, the same for all variants, and the decision and the
     verdicts are made again. A former choice also counts if it is within the study's practical margin of
     the best.
-
-    Args:
-        trials: The run.
-        records: The record of each of its trials, by variant and seed.
-        before: The former decision.
-        now: The present decision.
 
     Returns:
         Probabilities by ``chosen`` and ``pareto N``, which are absent if the study does not choose by a

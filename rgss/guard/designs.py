@@ -14,10 +14,6 @@ from rgss.studies import Project, WatchedRun
 def watched_designs(project: Project, run: WatchedRun) -> tuple[DesignVariant, ...]:
     """The designs of a run.
 
-    Args:
-        project: The project.
-        run: One of the runs that its study guards.
-
     Raises:
         DefinitionError: It names no design.
     """

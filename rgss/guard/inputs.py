@@ -54,10 +54,6 @@ def origin_of_trials(project: Project, provenances: Sequence[Provenance]) -> Bas
 
     Every field of a provenance counts that is not compared in another way, so that later additions are
     guarded too.
-
-    Args:
-        project: The project.
-        provenances: The provenances of the trials.
     """
     installed = versions()
     engines = {name: version for name, version in installed.items() if not name.startswith(_CODE)}

@@ -66,9 +66,6 @@ class Records:
     def fetch(self, wanted: Sequence[tuple[WatchedTrials, int]]) -> None:
         """Run and read the trials of some runs.
 
-        Args:
-            wanted: Runs, each with the number of seeds.
-
         Raises:
             EvidenceError: The store is damaged.
         """

@@ -27,11 +27,7 @@ def units_of(guard: RegressionGuard) -> dict[str, str]:
 
 
 def record_schema(project: Project) -> dict[str, str]:
-    """Unit and row length of each metric that a record of a project's study may have.
-
-    Args:
-        project: The project with its study.
-    """
+    """Unit and row length of each metric that a record of a project's study may have."""
     planned, joints = len(project.study.task.planned), len(project.scene.robot.joints)
     lengths = {name: kind.length_in_trial(planned=planned, joints=joints) for name, kind in METRICS.items()}
     return {

@@ -14,10 +14,6 @@ def definition_digest(measures: MeasureSet, id: str) -> str:  # noqa: A002 - the
     It depends on the expressions, constants, sources of inputs, units, the estimator, and texts of definitions of the
     measure and its dependencies. It does not depend on names, traces, order in the file, or other measures.
 
-    Args:
-        measures: The measures of a project.
-        id: The measure.
-
     Raises:
         DefinitionError: The measure is unknown.
     """

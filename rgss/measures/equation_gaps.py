@@ -44,12 +44,7 @@ class ModelGap:
 
 
 def model_gaps(measures: MeasureSet, estimates: Mapping[str, Estimate]) -> tuple[ModelGap, ...]:
-    """Differences of a variant, in the order of the measures, without those with an unknown value.
-
-    Args:
-        measures: The measures.
-        estimates: The variant's estimates by measure.
-    """
+    """Differences of a variant, in the order of the measures, without those with an unknown value."""
     found = []
     for measure in measures.measures:
         if measure.simulated_as is None:

@@ -46,9 +46,6 @@ def estimate_ranges(measure_set: MeasureSet) -> dict[str, Range]:
     """Range of every measure's estimates whatever the design, each in the unit of its estimates.
 
     A share of trials is from 0 to 1; any other has the declared bounds, and those that follow from its expression.
-
-    Args:
-        measure_set: The measures, with the ranges of metrics.
     """
     ranges = {constant.id: Range.of_number(constant.value) for constant in measure_set.constants}
     for symbol in measure_set.inputs:

@@ -62,11 +62,6 @@ def with_readings(
 def with_alternative(measures: MeasureSet, measure: str, alternative: str) -> MeasureSet:
     """Measures with an alternative of one of them; dependent measures follow.
 
-    Args:
-        measures: The measures.
-        measure: Id of the measure.
-        alternative: Id of the alternative.
-
     Raises:
         DefinitionError: The measure or alternative is unknown, or measures would depend on each other in a cycle.
     """

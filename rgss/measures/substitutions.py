@@ -46,10 +46,6 @@ def substitutions_in(measures: MeasureSet, measure: str, values: Mapping[str, Va
 def may_substitute(measures: MeasureSet, measure: str) -> bool:
     """Whether a measure, or one on which it depends, has a term that another one may stand for.
 
-    Args:
-        measures: The measures.
-        measure: Id of the measure.
-
     Raises:
         DefinitionError: The measure is unknown.
     """
@@ -58,11 +54,7 @@ def may_substitute(measures: MeasureSet, measure: str) -> bool:
 
 
 def replaceable_symbols(expression: Expression) -> frozenset[str]:
-    """Symbols of an expression that may be unknown, since another term then stands for theirs.
-
-    Args:
-        expression: The expression.
-    """
+    """Symbols of an expression that may be unknown, since another term then stands for theirs."""
     calls = _choices(expression.root)
     return frozenset(name for call in calls for argument in call.arguments[:-1] for name in _names(argument))
 

@@ -58,12 +58,7 @@ class StudyAssumption:
 
 
 def read_assumptions(entries: Sequence[StudyAssumptionEntry], document: Document) -> tuple[StudyAssumption, ...]:
-    """The assumptions that have alternatives, in the order of the file.
-
-    Args:
-        entries: The section.
-        document: The file, for positions.
-    """
+    """The assumptions that have alternatives, in the order of the file."""
     return tuple(
         StudyAssumption(
             about=entry.about,

@@ -57,22 +57,13 @@ def design_findings(
 
 
 def default_values(robot: Robot, planning: PlanningChoice) -> Mapping[str, ParameterValue]:
-    """The values that the robot and the study give where no design does, by quantity.
-
-    Args:
-        robot: The robot.
-        planning: The study's planning.
-    """
+    """The values that the robot and the study give where no design does, by quantity."""
     given = {_TOOL_SPEED: robot.tool_speed_m_s, PLANNER: planning.planner or None, TIME_LIMIT: planning.time_limit_s}
     return {name: value for name, value in given.items() if value is not None}
 
 
 def setters_of(designs: DesignSpace) -> frozenset[str]:
-    """The quantities that parameters or properties of components set.
-
-    Args:
-        designs: The design space.
-    """
+    """The quantities that parameters or properties of components set."""
     of_roles = (quantity for role in designs.catalogue.roles for quantity in role.sets.values())
     return frozenset({*of_roles, *(parameter.sets for parameter in designs.parameters)})
 

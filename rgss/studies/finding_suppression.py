@@ -29,11 +29,7 @@ _CONSEQUENCES: Mapping[str, tuple[str, ...]] = {
 
 
 def without_consequences(findings: Iterable[Finding]) -> tuple[Finding, ...]:
-    """The findings, each once and in order, without those that may only follow from another.
-
-    Args:
-        findings: Findings in all files of a project.
-    """
+    """The findings, each once and in order, without those that may only follow from another."""
     found = sorted(set(findings))
     rules = {finding.rule for finding in found}
     hidden = {rule for cause in rules for rule in _CONSEQUENCES.get(cause, ())}

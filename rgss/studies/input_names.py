@@ -34,11 +34,7 @@ class NamedInputs:
 
 
 def named_inputs(spec: TrialSpec) -> NamedInputs:
-    """The inputs of a trial.
-
-    Args:
-        spec: The trial.
-    """
+    """The inputs of a trial."""
     return _inputs_of(replace(spec, variant=0, seed=0))
 
 

@@ -10,12 +10,7 @@ from rgss.trace import MeasureKind, MeasureTrace
 
 
 def measure_traces(measures: MeasureSet, document: Document) -> tuple[MeasureTrace, ...]:
-    """The measures with their links and their places.
-
-    Args:
-        measures: The measures.
-        document: Their file.
-    """
+    """The measures with their links and their places."""
     traces = []
     for index, measure in enumerate(measures.measures):
         place = document.finding("", "", ("measures", index, "id"), severity=Severity.INFO)

@@ -70,11 +70,7 @@ class Project:
         return self.folder / EVIDENCE
 
     def command(self, verb: str) -> str:
-        """The command of a verb on this study and its chosen trials: ``rgss sweep nominal_world --replicates 4``.
-
-        Args:
-            verb: The verb.
-        """
+        """The command of a verb on this study and its chosen trials: ``rgss sweep nominal_world --replicates 4``."""
         return " ".join([f"rgss {verb}{words_of_study(self.study.label)}", *self.chosen.words])
 
     def check(self) -> tuple[Finding, ...]:

@@ -62,11 +62,7 @@ class SceneCheck:
 
 
 def check_scene(project: Project) -> SceneCheck:
-    """Check the bodies of the scene, and the arm with every gripper shape of the designs, before anything is run.
-
-    Args:
-        project: The project.
-    """
+    """Check the bodies of the scene, and the arm with every gripper shape of the designs, before anything is run."""
     try:
         from rgss.trials import check_step_problems, scene_problems
 

@@ -24,11 +24,7 @@ _NAMED = {"L": "\u2028", "P": "\u2029"}
 
 
 def invisible_findings(project: Path) -> tuple[Finding, ...]:
-    """Characters in the sources of a project that reorder or hide text, in files that are small enough to read.
-
-    Args:
-        project: The project's folder.
-    """
+    """Characters in the sources of a project that reorder or hide text, in files that are small enough to read."""
     findings: list[Finding] = []
     for folder in DATA_FOLDERS:
         for path in sorted(path for path in (project / folder).rglob("*") if path.suffix.lower() in _TEXTS):

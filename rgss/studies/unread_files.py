@@ -60,9 +60,6 @@ def unread_findings(project: Path) -> tuple[Finding, ...]:
     """Files and folders of a project that look like its sources, and that nothing reads.
 
     A document of the right kind in the right folder that no study names is only noted.
-
-    Args:
-        project: The project's folder.
     """
     unreadable = list(_unreadable(project))
     known = {finding.file for finding in unreadable}

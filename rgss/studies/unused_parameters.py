@@ -14,11 +14,7 @@ _ACTUATOR_MASS = "gripper.actuator.mass"
 
 
 def unused_findings(project: Project) -> Iterator[Finding]:
-    """Warn of every design parameter that sets nothing and that nothing else names.
-
-    Args:
-        project: The project with its study.
-    """
+    """Warn of every design parameter that sets nothing and that nothing else names."""
     designs = project.designs
     used = {name.removeprefix(DESIGN_PREFIX) for rule in designs.rules for name in rule.names}
     used |= {symbol.source.removeprefix(DESIGN_PREFIX) for symbol in project.measures.inputs}
@@ -37,11 +33,7 @@ def unused_findings(project: Project) -> Iterator[Finding]:
 
 
 def uncounted_mass_findings(project: Project) -> Iterator[Finding]:
-    """Warn of actuators that have a mass which the simulated gripper does not carry.
-
-    Args:
-        project: The project with its study.
-    """
+    """Warn of actuators that have a mass which the simulated gripper does not carry."""
     catalogue = project.designs.catalogue
     if _ACTUATOR_MASS in setters_of(project.designs):
         return

@@ -121,10 +121,6 @@ def decide(
 def best_alternatives(problem: TradeProblem, count: int) -> tuple[Certificate, ...]:
     """The n best alternatives, each proven to be the best without those before.
 
-    Args:
-        problem: The trade-off.
-        count: Number of alternatives.
-
     Returns:
         A certificate for each; fewer where fewer are feasible. Of tied alternatives the solver
         may give any first.

@@ -31,9 +31,6 @@ def reduced_rows(enumeration: Enumeration) -> NDArray[np.intp]:
     - if nothing is feasible, one alternative of each set of violated demands is kept: the program
       is infeasible with all of them exactly if it is with these.
 
-    Args:
-        enumeration: Every alternative evaluated.
-
     Returns:
         Rows, of all alternatives or of those that are left.
     """

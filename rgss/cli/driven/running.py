@@ -22,10 +22,6 @@ if TYPE_CHECKING:
 def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
     """Rehearse the task of a trial; run it on the simulated robot, or on a real one with ``--go``.
 
-    Args:
-        options: The options of the verb.
-        spec: The trial.
-
     Returns:
         0 if the rehearsal or the run is complete, 130 if it was interrupted, 3 if it ended otherwise.
 

@@ -16,11 +16,6 @@ if TYPE_CHECKING:
 def timed_task(spec: TrialSpec, plan: TaskPlan, timing: TaskTiming) -> TimedTask:
     """The moves of a trial, with waits in which the gripper closes and opens.
 
-    Args:
-        spec: The trial.
-        plan: Its plan.
-        timing: Its timed moves.
-
     Raises:
         MotionError: A move was not planned or timed.
     """

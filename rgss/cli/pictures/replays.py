@@ -50,11 +50,6 @@ def check_replay(options: argparse.Namespace) -> None:
 def other_trial(options: argparse.Namespace, project: Project, *, seed: int) -> TrialSpec | None:
     """The trial that is replayed beside the first; None if there is none.
 
-    Args:
-        options: The options.
-        project: The project with its study.
-        seed: The seed of both.
-
     Raises:
         DefinitionError: There is no such variant.
     """
@@ -67,12 +62,7 @@ def other_trial(options: argparse.Namespace, project: Project, *, seed: int) -> 
 
 
 def packed_trial(replayed: ReplayedTrial, spec: TrialSpec) -> PackedReplay | None:
-    """Trial as embedded in a page; None if nothing moved.
-
-    Args:
-        replayed: The trial.
-        spec: Its inputs.
-    """
+    """Trial as embedded in a page; None if nothing moved."""
     from rgss.reports.replay import packed_replay
 
     if replayed.trace is None or replayed.scene is None:

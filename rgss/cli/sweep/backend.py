@@ -59,9 +59,6 @@ class ExecutionBackend:
 def jobs_of(options: argparse.Namespace) -> int:
     """The number of processes that the options name.
 
-    Args:
-        options: The verb's options.
-
     Raises:
         DefinitionError: It is below 1, or a cluster is named too.
     """

@@ -134,11 +134,7 @@ def dry_run_as_json(found: DryRun, label: str) -> dict[str, Any]:
 
 
 def shown_trials(trials: Sequence[tuple[int, int]]) -> str:
-    """Trials by variants and seeds, such as ``variants 1-12, seeds 1-3``.
-
-    Args:
-        trials: Variant and seed of each.
-    """
+    """Trials by variants and seeds, such as ``variants 1-12, seeds 1-3``."""
     variants, seeds = sorted({variant for variant, _ in trials}), sorted({seed for _, seed in trials})
     if len(variants) * len(seeds) != len(set(trials)):
         first = ", ".join(f"{variant}/{seed}" for variant, seed in sorted(trials)[:_TRIALS_SHOWN])

@@ -67,11 +67,7 @@ class SweepProgress:
             self._progress.update(self._task, completed=tally["run"] + tally["kept"], outcomes=outcomes)
 
     def state(self, state: SweepState) -> None:
-        """Update rate, remaining time and pieces.
-
-        Args:
-            state: State of the sweep.
-        """
+        """Update rate, remaining time and pieces."""
         if self._progress is not None:
             self._progress.update(self._task, course=course_of(state, fresh=self._fresh))
 

@@ -33,11 +33,7 @@ class TrialTally:
     failures: Counter[str] = field(default_factory=Counter)
 
     def add(self, trial: FinishedTrial) -> None:
-        """Count a trial.
-
-        Args:
-            trial: A trial that has its record.
-        """
+        """Count a trial."""
         record = trial.record
         self.counts["run" if trial.fresh else "kept"] += 1
         self.counts["succeeded" if record.success else "failed"] += 1
@@ -84,11 +80,7 @@ class SweepRunner:
         return cls(project=project, store=store, backend=backend, share=not options.no_share)
 
     def run(self, specs: Sequence[TrialSpec]) -> FinishedSweep:
-        """Run the trials that have no evidence yet.
-
-        Args:
-            specs: The trials.
-        """
+        """Run the trials that have no evidence yet."""
         from rgss.sweep import sweep
 
         tally = TrialTally()

@@ -57,11 +57,7 @@ class TerminalPage(SafeStream):
         self.own.flush()
 
     def show_table(self, table: TextTable) -> None:
-        """Write a table in parts that fit.
-
-        Args:
-            table: The table.
-        """
+        """Write a table in parts that fit."""
         from rich.box import SIMPLE_HEAD
         from rich.table import Table
         from rich.text import Text

@@ -23,9 +23,6 @@ def bench_findings(project: Project) -> Iterator[Finding]:
 
     An object too tall for the stated grasp has a finding of the scene. It is a warning where a measure takes the
     payload from the bench, and only noted where none does.
-
-    Args:
-        project: The project with its study.
     """
     if project.study.fidelity is not Fidelity.CONTACT:
         return
@@ -58,11 +55,7 @@ def _is_too_tall(spec: TrialSpec) -> bool:
 
 
 def variants_text(numbers: list[int]) -> str:
-    """The variants of a finding as text.
-
-    Args:
-        numbers: Their ids.
-    """
+    """The variants of a finding as text."""
     if len(numbers) == 1:
         return f"variant {numbers[0]}"
     return f"{len(numbers)} variants, such as {numbers[0]}"

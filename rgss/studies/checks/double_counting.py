@@ -20,9 +20,6 @@ def double_counting_findings(project: Project) -> Iterator[Finding]:
     A measure of effectiveness counts as itself and through every measure that is computed from it. A measure of
     performance may serve several; it counts twice only if it has a weight itself. An assumption about the entry
     of a measure that is computed from another accepts the double count.
-
-    Args:
-        project: The project with its study.
     """
     document = read_document(project.folder / project.study.label, label=project.study.label)
     weights = {anchors.measure: anchors.weight for anchors in project.study.values}

@@ -20,11 +20,7 @@ _OFFSETS: Mapping[JointKind, tuple[str, str]] = MappingProxyType(
 
 
 def draw_findings(project: Project) -> Iterator[Finding]:
-    """Warn of draws with the centre of mass outside the object, or the object beside its support, or of no joint.
-
-    Args:
-        project: The project with its study.
-    """
+    """Warn of draws with the centre of mass outside the object, or the object beside its support, or of no joint."""
     if not project.uncertainty.values:
         return
     yield from _joint_findings(project)

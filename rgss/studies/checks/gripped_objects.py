@@ -12,11 +12,7 @@ from rgss.tasks import HandAction, stages_of
 
 
 def gripped_views(project: Project) -> Iterator[tuple[str, Scene]]:
-    """The name of every object that the task grips, each once, and the scene about it as it stands at the start.
-
-    Args:
-        project: The project.
-    """
+    """The name of every object that the task grips, each once, and the scene about it as it stands at the start."""
     scene = project.scene
     placements, stages = initial_placements(scene), stages_of(project.study.task, scene.workpiece.id)
     for name in dict.fromkeys(stage.object for stage in stages if stage.step.hand is HandAction.CLOSES):

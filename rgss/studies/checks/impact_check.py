@@ -14,11 +14,7 @@ from rgss.studies.project import Project
 
 
 def impact_findings(project: Project) -> Iterator[Finding]:
-    """Warn of designs whose fingers strike for less than the step resolves, where damage depends on it.
-
-    Args:
-        project: The project with its study.
-    """
+    """Warn of designs whose fingers strike for less than the step resolves, where damage depends on it."""
     if project.study.fidelity is not Fidelity.CONTACT:
         return
     from rgss.trials import ClosingImpact, closing_impact

@@ -13,11 +13,7 @@ from rgss.studies.project import Project
 
 
 def light_body_findings(project: Project) -> Iterator[Finding]:
-    """Warn of fingers and objects through which no force passes, however long the solver runs in a step.
-
-    Args:
-        project: The project with its study.
-    """
+    """Warn of fingers and objects through which no force passes, however long the solver runs in a step."""
     if project.study.fidelity is not Fidelity.CONTACT:
         return
     from rgss.physics import light_fingers, light_object

@@ -14,11 +14,7 @@ from rgss.studies.project import Project
 
 
 def object_limit_findings(project: Project) -> Iterator[Finding]:
-    """Warn of objects heavier than the payload of the robot or the friction of the fingers, or damaged by the grip.
-
-    Args:
-        project: The project with its study.
-    """
+    """Warn of objects heavier than the payload of the robot or the friction of the fingers, or damaged by the grip."""
     label = project.study.scene
     document = read_document(project.folder / label, label=label)
     yield from _heavy(project, document)
@@ -62,9 +58,6 @@ def _slippery(project: Project, document: Document) -> Iterator[Finding]:
 def unborne_objects(project: Project) -> dict[str, tuple[Gripper, float]]:
     """Objects whose weight the friction of no design's fingers bears, by Coulomb's law.
 
-    Args:
-        project: The project with its study.
-
     Returns:
         By object the gripper that bears most, and the force of each finger in N that the weight takes.
     """
@@ -85,12 +78,7 @@ def unborne_objects(project: Project) -> dict[str, tuple[Gripper, float]]:
 
 
 def mass_location(document: Document, index: int) -> tuple[str | int, ...]:
-    """Location of the mass or density of an object in its scene's file.
-
-    Args:
-        document: The scene's file.
-        index: Index of the object in the scene.
-    """
+    """Location of the mass or density of an object in its scene's file."""
     data = document.data if isinstance(document.data, dict) else {}
     others = data.get("workpieces")
     entry = data.get("workpiece") if index == 0 or not isinstance(others, list) else others[index - 1]

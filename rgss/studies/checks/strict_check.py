@@ -9,11 +9,7 @@ from rgss.studies.project import Project
 
 
 def strict_findings(project: Project) -> Iterator[Finding]:
-    """Warn of criteria with ``<`` or ``>``, at which `rgss trade` would end after all trials.
-
-    Args:
-        project: The project with its study.
-    """
+    """Warn of criteria with ``<`` or ``>``, at which `rgss trade` would end after all trials."""
     for requirement in project.requirements.system:
         criterion = requirement.criterion
         if criterion is None or not criterion.comparison.is_strict:

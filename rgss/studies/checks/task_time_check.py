@@ -16,9 +16,6 @@ def task_time_findings(project: Project) -> Iterator[Finding]:
     """Warn of measures of the task's time whose greatest value is not kept by the task's time limit.
 
     A trial beyond the bound of a measure is refused, and with it every page that reads it.
-
-    Args:
-        project: The project with its study.
     """
     limit_s = project.study.task.time_limit_s
     times = {symbol.id for symbol in project.measures.inputs if symbol.source == _SOURCE}

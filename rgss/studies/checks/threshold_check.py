@@ -18,9 +18,6 @@ def threshold_findings(project: Project) -> Iterator[Finding]:
     """Report criteria that no value of their measure can meet, alone or together; warn of those that each one meets.
 
     The bounds are those that the measure declares, and those that follow from its definition.
-
-    Args:
-        project: The project with its study.
     """
     ranges = estimate_ranges(project.measures)
     for requirement in project.requirements.system:

@@ -70,12 +70,7 @@ def objects_too_tall(geometry: GripperGeometry, project: Project) -> tuple[TooTa
 
 
 def is_at_the_palm(problem: SceneProblem, name: str) -> bool:
-    """True if a problem is that of palm and object, which has a finding of its own where the object is too tall.
-
-    Args:
-        problem: The problem of the arm with the hand.
-        name: The object.
-    """
+    """True if a problem is that of palm and object, which has a finding of its own where the object is too tall."""
     pair = None if problem.reason is None else problem.reason.pair
     return pair is not None and {*pair} == {GRIPPER_BASE_LINK, name}
 

@@ -20,9 +20,6 @@ def undefined_findings(project: Project) -> Iterator[Finding]:
 
     A measure that follows from the design is needed of every design: every page refuses the study without it. One of
     trials may be undefined for some, such as a property of grippers with three fingers.
-
-    Args:
-        project: The project with its study.
     """
     variants = project.designs.expand()
     lacking: dict[str, list[int]] = {}

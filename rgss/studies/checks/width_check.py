@@ -70,10 +70,5 @@ def narrow_finding(
 
 
 def is_of_fingers(problem: SceneProblem, name: str) -> bool:
-    """True if a problem is that of the hand and an object, which has a finding of its own if it is too wide.
-
-    Args:
-        problem: The problem of the arm with the hand.
-        name: The object.
-    """
+    """True if a problem is that of the hand and an object, which has a finding of its own if it is too wide."""
     return problem.reason is not None and problem.reason.pair is not None and name in problem.reason.pair

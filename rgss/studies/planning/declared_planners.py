@@ -95,12 +95,7 @@ def read_planners(
 
 
 def planner_problem(name: str, declared: Iterable[str] = ()) -> tuple[str, str] | None:
-    """The reason why a planner cannot be used, and a hint; None if it can.
-
-    Args:
-        name: Its name.
-        declared: Names of the planners that the study declares.
-    """
+    """The reason why a planner cannot be used, and a hint; None if it can."""
     known = [*declared, *(planner for planner in available_planners() if planner not in set(declared))]
     if name in known:
         return None

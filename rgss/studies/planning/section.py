@@ -70,11 +70,7 @@ class PlanningChoice:
     moves: tuple[MoveKind, ...] = ()
 
     def planner_settings(self, name: str) -> PlannerSettings:
-        """The planner of a name: one that the file declares, else that of OMPL.
-
-        Args:
-            name: A name that the file declares, or one of OMPL.
-        """
+        """The planner of a name: one that the file declares, else that of OMPL."""
         return self.planners.get(name) or PlannerSettings(algorithm=name)
 
 

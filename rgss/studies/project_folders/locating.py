@@ -34,9 +34,6 @@ def find_project(folder: Path | None) -> Path:
 def project_of_study(study: Path) -> tuple[Path, str]:
     """The project that a study file lies in: the nearest folder above it that looks like one.
 
-    Args:
-        study: The file.
-
     Returns:
         The project's folder, and the file relative to it.
 

@@ -37,11 +37,7 @@ def qualifier_of(folder: str) -> str:
 
 
 def normal_folder(name: str) -> str:
-    """The name of a set as it is compared, without a stroke at its end.
-
-    Args:
-        name: The set, as a study names it.
-    """
+    """The name of a set as it is compared, without a stroke at its end."""
     return PurePosixPath(name).as_posix()
 
 
@@ -110,9 +106,6 @@ def studies_by_set(project: Path) -> dict[str, str]:
     """The first study of each set of requirements that studies verify: the default study, then by name.
 
     A study that cannot be read verifies none; its findings are reported where it is read.
-
-    Args:
-        project: The project's folder.
     """
     found: dict[str, str] = {}
     labels = [path.relative_to(project).as_posix() for path in (project / "studies").rglob("*.yaml")]
@@ -129,9 +122,5 @@ def studies_by_set(project: Path) -> dict[str, str]:
 
 
 def named_sets(project: Path) -> tuple[str, ...]:
-    """Every set of requirements that studies verify, other than the default.
-
-    Args:
-        project: The project's folder.
-    """
+    """Every set of requirements that studies verify, other than the default."""
     return tuple(folder for folder in studies_by_set(project) if folder != REQUIREMENTS)

@@ -44,9 +44,6 @@ def grasp_from_tip_m(geometry: GripperGeometry) -> float | None:
 
     An object is held in the middle of its height, so that its half must have room below the grasp centre, for the ends
     of the pads and of what carries them above the table, and above it, below the links that close on it.
-
-    Args:
-        geometry: The gripper with its grasp centre in the middle of the pads.
     """
     radius_m, half_m = _radius_m(geometry), geometry.finger.size_m[2] / 2
     end_m = at_opening(geometry, radius_m).grasp_depth_m + half_m

@@ -52,11 +52,7 @@ class DescentSearch:
 
 
 def angles_from_vertical_rad(robot: Robot) -> dict[str, float]:
-    """Least angle of each axis of the flange from straight down, over sampled configurations on a level base.
-
-    Args:
-        robot: The arm.
-    """
+    """Least angle of each axis of the flange from straight down, over sampled configurations on a level base."""
     arm = Arm(replace(robot, base=Pose()), Pose())
     rows = np.array([arm.tool_matrix(q)[2, :3] for q in sampled_configurations(robot)])
     lowest = {"": rows.min(axis=0), "-": -rows.max(axis=0)}
@@ -65,11 +61,7 @@ def angles_from_vertical_rad(robot: Robot) -> dict[str, float]:
 
 
 def turns_down(robot: Robot) -> bool:
-    """True if an arm on a level base brings the axis z of its flange straight down in some configuration.
-
-    Args:
-        robot: The arm.
-    """
+    """True if an arm on a level base brings the axis z of its flange straight down in some configuration."""
     from scipy.optimize import minimize
 
     arm = Arm(replace(robot, base=Pose()), Pose())

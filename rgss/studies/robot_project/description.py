@@ -29,11 +29,7 @@ _NOTES = frozenset({"robot.open-mesh", "robot.concave-mesh"})
 
 
 def robot_findings(project: Project) -> tuple[Finding, ...]:
-    """Findings on the description of a project's robot, and on its calibration.
-
-    Args:
-        project: The project.
-    """
+    """Findings on the description of a project's robot, and on its calibration."""
     scene = PurePosixPath(project.study.scene)
     robot = scene.parent / read_document(project.folder / scene, label=str(scene)).data["robot"]["description"]
     data = read_document(project.folder / robot, label=str(robot)).data
@@ -119,11 +115,7 @@ def weak_joint_findings(robot: Robot, urdf: Path, label: str) -> tuple[Finding, 
 
 
 def assumed_subjects(data: Mapping[str, Any]) -> frozenset[str]:
-    """Subjects of a robot file's assumptions.
-
-    Args:
-        data: The file's content.
-    """
+    """Subjects of a robot file's assumptions."""
     return frozenset(str(entry["about"]) for entry in data.get("assumptions", ()))
 
 
@@ -275,12 +267,7 @@ def _meshes(root: ET.Element, urdf: Path) -> Iterator[tuple[str, str, str, str]]
 
 
 def mesh_path(name: str, urdf: Path) -> Path | None:
-    """The file of a mesh that a checked URDF names; None where it is none.
-
-    Args:
-        name: The mesh's name in the URDF.
-        urdf: The URDF.
-    """
+    """The file of a mesh that a checked URDF names; None where it is none."""
     rest = name.removeprefix("package://")
     package, _, below = rest.partition("/")
     candidates = [urdf.parent / rest]

@@ -14,21 +14,13 @@ from rgss.trials.pieces import run_trial
 
 
 def carries_object(project: Project) -> bool:
-    """True if a kinematic trial of the first design with each gripper succeeds.
-
-    Args:
-        project: The project.
-    """
+    """True if a kinematic trial of the first design with each gripper succeeds."""
     firsts = {variant.components[GRIPPER].id: variant for variant in reversed(project.designs.expand())}
     specs = trial_specs(project, variants=list(firsts.values()), seeds=[project.study.seed])
     return all(run_trial(replace(spec, fidelity=Fidelity.KINEMATIC)).success for spec in specs)
 
 
 def has_scene_errors(project: Project) -> bool:
-    """True if `rgss check` finds an error in the scene, or cannot check it.
-
-    Args:
-        project: The project.
-    """
+    """True if `rgss check` finds an error in the scene, or cannot check it."""
     check = check_scene(project)
     return bool(check.skipped) or any(finding.severity is Severity.ERROR for finding in check.findings)

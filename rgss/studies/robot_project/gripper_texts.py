@@ -36,10 +36,6 @@ def with_gripper(texts: Mapping[str, str], gripper: DraftedGripper) -> dict[str,
 
     The gripper has its own masses, speed and drive, so that no design sets them; four designs are two grip forces by
     two tool speeds. Its price is that of all designs, and has no weight.
-
-    Args:
-        texts: The files of the scaffold: name and text.
-        gripper: The gripper.
     """
     changed = {name: text for name, text in texts.items() if not re.fullmatch(r"scenes/grippers/.*\.yaml", name)}
     for name, edits in _edits(gripper).items():

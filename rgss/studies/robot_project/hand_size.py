@@ -98,11 +98,7 @@ def hand_sizes(robot: Robot, cups: Sequence[Cup] = ()) -> Iterator[HandSize]:
 
 
 def moving_mass_kg(robot: Robot) -> float:
-    """Mass of the links that the joints of an arm move.
-
-    Args:
-        robot: The arm.
-    """
+    """Mass of the links that the joints of an arm move."""
     root = ET.fromstring(robot.urdf)  # noqa: S314 - checked on reading
     still = standing_links(root)
     masses = (link.find("inertial/mass") for link in root.findall("link") if link.get("name") not in still)

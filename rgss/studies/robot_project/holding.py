@@ -61,11 +61,7 @@ def payload_kg(robot: Robot) -> float:
 
 
 def weak_joints(robot: Robot) -> tuple[WeakJoint, ...]:
-    """Joints whose effort does not hold the arm itself in a sampled configuration.
-
-    Args:
-        robot: The arm, with its base as it is mounted.
-    """
+    """Joints whose effort does not hold the arm itself in a sampled configuration."""
     own, _ = _weights(robot)
     return tuple(
         WeakJoint(

@@ -96,12 +96,7 @@ _FREE_YAW = "  free_yaw: true # the cup is round: the arm turns the gripper as i
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cup:
-    """The object of a new project.
-
-    Attributes:
-        radius_m: Its radius.
-        height_m: Its height.
-    """
+    """The object of a new project."""
 
     radius_m: float = _CUP_RADIUS_M
     height_m: float = _CUP_HEIGHT_M
@@ -194,11 +189,7 @@ def layouts(reach_m: float, *, scale: float = 1.0, is_yaw_free: bool = False) ->
 
 
 def raised_layout(layout: Layout) -> Layout:
-    """Layout on a higher pedestal, if its tables would be lower than 0.1 m.
-
-    Args:
-        layout: The layout.
-    """
+    """Layout on a higher pedestal, if its tables would be lower than 0.1 m."""
     lift_m = _LEAST_TABLE_M - layout.table_m
     if lift_m <= 0.0:
         return layout

@@ -21,9 +21,6 @@ def arm_reach_m(robot: Robot) -> float:
 
     A prismatic first joint has a direction, but no line: of an arm on one it is the greatest distance from the middle
     of the region of the flange.
-
-    Args:
-        robot: The arm.
     """
     arm = Arm(robot, Pose())
     positions = arm.tool_position(sampled_configurations(robot))
@@ -39,9 +36,6 @@ def middle_height_m(robot: Robot) -> float:
     """Height halfway between the lowest and the highest position of the flange over sampled configurations.
 
     Unlike the origin of the first joint's frame, which may be anywhere on its axis, it depends on the arm alone.
-
-    Args:
-        robot: The arm.
     """
     heights = Arm(robot, Pose()).tool_position(sampled_configurations(robot))[:, 2]
     return float(heights.min() + heights.max()) / 2
@@ -60,11 +54,7 @@ def greatest_travel_m(robot: Robot, tool: Pose) -> float:
 
 
 def sampled_configurations(robot: Robot) -> Array:
-    """Joint positions drawn evenly from the ranges, the same at every call, shape (k, n).
-
-    Args:
-        robot: The arm.
-    """
+    """Joint positions drawn evenly from the ranges, the same at every call, shape (k, n)."""
     lower, upper = (np.array([getattr(joint, end) for joint in robot.joints]) for end in ("lower_rad", "upper_rad"))
     shares = np.random.default_rng(0).random((SAMPLES, len(robot.joints)))
     samples: Array = lower + shares * (upper - lower)

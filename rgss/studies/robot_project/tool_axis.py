@@ -34,11 +34,6 @@ def likely_tool_axes(root: ET.Element, arm: UrdfArm, urdf: Path) -> tuple[str, .
 
     That towards a hand that the URDF has there; z where it is parallel to the last joint's axis, as conventions have
     it; that from the last joint to the flange; the last joint's axis, away from its link; then the others.
-
-    Args:
-        root: The URDF.
-        arm: The arm in it.
-        urdf: Its file.
     """
     return tuple(dict.fromkeys(_likely(root, arm, urdf)))
 

@@ -41,12 +41,7 @@ class AnchoredProgram(ABC):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AnchoredEpsilonConstraint(AnchoredProgram):
-    """The best of one measure under limits on others.
-
-    Attributes:
-        aim: The measure that is optimised.
-        limits: The limits.
-    """
+    """The best of one measure under limits on others."""
 
     aim: Aim
     limits: tuple[BoundChoice, ...]

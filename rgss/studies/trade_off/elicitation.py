@@ -12,11 +12,7 @@ from rgss.tradeoff.elicitation import ElicitedWeights, PairwiseAnswer, contradic
 
 
 class AnswerReader:
-    """Reader of a list of answers, which gives the weights of one group of criteria after the other.
-
-    Attributes:
-        elicited: The weights that were found.
-    """
+    """Reader of a list of answers, which gives the weights of one group of criteria after the other."""
 
     def __init__(self, places: TradeOffPlaces, entries: Sequence[AnswerEntry], at: Place) -> None:
         self.elicited: list[ElicitedWeights] = []
@@ -29,11 +25,7 @@ class AnswerReader:
         return bool(self._answers)
 
     def weights(self, names: Sequence[str]) -> ElicitedWeights | None:
-        """The weights of the members of a group; findings and None if the answers give none.
-
-        Args:
-            names: The members.
-        """
+        """The weights of the members of a group; findings and None if the answers give none."""
         # Needs NumPy, which reading a study with stated weights does not load.
         from rgss.tradeoff.elicitation import weights_from_answers
 
@@ -59,11 +51,7 @@ class AnswerReader:
         return found
 
     def check_used(self, known: Sequence[str]) -> None:
-        """Report answers that weigh no group.
-
-        Args:
-            known: The criteria that there are.
-        """
+        """Report answers that weigh no group."""
         for index, answer in self._answers:
             if answer is None or index in self._used:
                 continue

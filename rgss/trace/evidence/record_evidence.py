@@ -67,9 +67,6 @@ def evidence_of_records(requirements: RequirementSet, project: Path) -> Mapping[
 def content_of_file(path: Path) -> str:
     """SHA-256 of a file's content.
 
-    Args:
-        path: The file.
-
     Raises:
         OSError: It cannot be read, is not a regular file, or is larger than is read.
     """

@@ -165,9 +165,6 @@ def software_digest(project: Path) -> str:
     Code is what lies in the project's folder, in ``src`` or in a package of the folder. Requirements are not included;
     each has its own digest.
 
-    Args:
-        project: The project's folder.
-
     Raises:
         EvidenceError: A file cannot be read.
     """
@@ -195,11 +192,7 @@ def _text_digest(path: Path) -> bytes:
 
 
 def tested_files(project: Path) -> list[Path]:
-    """Files of a project that its tests run with: code, tests and data, on which their results rest.
-
-    Args:
-        project: The project's folder.
-    """
+    """Files of a project that its tests run with: code, tests and data, on which their results rest."""
     found = [project / name for name in TESTED_FILES if (project / name).is_file()]
     # Those of the default set, and those of each set in a folder of its own.
     default = project / "requirements"

@@ -10,11 +10,7 @@ from rgss.trace.rules.rule import EvidenceRule, LoadingRule, MarkRule, Rule, Sen
 
 
 def rule_lines(rule: Rule) -> Iterator[str]:
-    """Lines of text about a rule: requirement and rationale, terms, and configuration.
-
-    Args:
-        rule: The rule.
-    """
+    """Lines of text about a rule: requirement and rationale, terms, and configuration."""
     yield f"{rule.id} ({rule.severity.value})"
     yield f"  {' '.join(rule.explanation.split())}"
     yield f"  Checked {when_checked(rule)}."
@@ -44,11 +40,7 @@ def when_checked(rule: Rule) -> str:
 
 
 def rule_as_json(rule: Rule) -> dict[str, Any]:
-    """A rule as plain data.
-
-    Args:
-        rule: The rule.
-    """
+    """A rule as plain data."""
     return {
         "rule": rule.id,
         "severity": rule.severity.value,

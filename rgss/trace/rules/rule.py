@@ -97,11 +97,7 @@ class LoadingRule(Rule):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ModelRule(Rule):
-    """A rule of the requirements, the architecture, the measures, and the links between them.
-
-    Attributes:
-        check: Finds the violations in a model.
-    """
+    """A rule of the requirements, the architecture, the measures, and the links between them."""
 
     check: Callable[[TraceModel], Iterator[Violation]]
 
@@ -146,22 +142,14 @@ class SentenceRule(Rule):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EvidenceRule(Rule):
-    """A rule of the evidence; it is checked with `rgss check --evidence`.
-
-    Attributes:
-        check: Finds the violations in a model and the state of its evidence.
-    """
+    """A rule of the evidence; it is checked with `rgss check --evidence`."""
 
     check: Callable[[TraceModel, EvidenceState], Iterator[Violation]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MarkRule(Rule):
-    """A rule of the marks on a project's own tests; it is checked where there are tests.
-
-    Attributes:
-        check: Finds the violations in a model and the marked tests.
-    """
+    """A rule of the marks on a project's own tests; it is checked where there are tests."""
 
     check: Callable[[TraceModel, tuple[MarkedTest, ...]], Iterator[Violation]]
 

@@ -54,12 +54,7 @@ class Exempted(NamedTuple):
 def setting_violations(
     requirements: RequirementSet, rules: Mapping[str, Rule]
 ) -> Iterator[tuple[ConfigurationRule, Violation]]:
-    """Violations by the project's settings.
-
-    Args:
-        requirements: The requirements with the settings.
-        rules: Every rule by its id.
-    """
+    """Violations by the project's settings."""
     for name, setting in requirements.settings.items():
         place, rule = requirements.setting_places[name], rules.get(name)
         if rule is None:

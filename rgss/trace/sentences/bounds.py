@@ -97,12 +97,7 @@ def is_in_trailing_condition(sentence: str, place: int, response_start: int) -> 
 
 
 def bound_of(sentence: str, quantity: TextQuantity) -> BoundedQuantity | None:
-    """The bound that a sentence makes of one of its quantities, by the words or signs around it.
-
-    Args:
-        sentence: The sentence.
-        quantity: One of its quantities.
-    """
+    """The bound that a sentence makes of one of its quantities, by the words or signs around it."""
     start = sentence[: quantity.start]
     before = _BEFORE.search(start)
     if before is not None:

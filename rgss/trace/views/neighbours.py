@@ -70,12 +70,7 @@ class Relation(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Neighbour:
-    """The other end of a relation.
-
-    Attributes:
-        id: Its id.
-        relation: Relation of the element to it.
-    """
+    """The other end of a relation."""
 
     id: str
     relation: Relation

@@ -131,12 +131,7 @@ class Consistency:
 
 
 def consistency_of(names: Sequence[str], answers: Sequence[PairwiseAnswer]) -> Consistency | None:
-    """Consistency of the ratio answers; None if there are none.
-
-    Args:
-        names: The criteria.
-        answers: The answers.
-    """
+    """Consistency of the ratio answers; None if there are none."""
     ratios = [answer for answer in answers if answer.is_ratio]
     named = [name for name in names if any(name in (one.swing_of, one.over) for one in ratios)]
     if not ratios:

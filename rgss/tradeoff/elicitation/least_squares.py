@@ -29,12 +29,7 @@ def design_matrix(names: Sequence[str], answers: Sequence[PairwiseAnswer]) -> tu
 
 
 def answer_row(names: Sequence[str], answer: PairwiseAnswer) -> Array:
-    """Coefficients of the logarithm of the ratio of an answer, shape (n,).
-
-    Args:
-        names: The criteria.
-        answer: The answer.
-    """
+    """Coefficients of the logarithm of the ratio of an answer, shape (n,)."""
     row = np.zeros(len(names))
     row[names.index(answer.swing_of)], row[names.index(answer.over)] = 1.0, -1.0
     return row

@@ -17,12 +17,7 @@ MOST_CONFLICTS = 1_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RequirementCount:
-    """Number of alternatives that one requirement excludes.
-
-    Attributes:
-        requirement: Its id.
-        excluded: The number of alternatives that violate it.
-    """
+    """Number of alternatives that one requirement excludes."""
 
     requirement: str
     excluded: int
@@ -30,12 +25,7 @@ class RequirementCount:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NearestAlternative:
-    """The alternative that violates the fewest requirements; of several, the smallest id.
-
-    Attributes:
-        variant: Its id.
-        requirements: Requirements that it violates.
-    """
+    """The alternative that violates the fewest requirements; of several, the smallest id."""
 
     variant: int
     requirements: tuple[str, ...]
@@ -160,9 +150,6 @@ def find_conflicts(enumeration: Enumeration) -> Conflicts | None:
     An alternative is feasible without a set of requirements if it violates no others. A set is a conflict if and only
     if every alternative violates one of its requirements: the minimal conflicts are the minimal hitting sets of the
     alternatives' violations (Reiter, "A theory of diagnosis from first principles", 1987).
-
-    Args:
-        enumeration: Every alternative evaluated.
 
     Returns:
         The conflicts, without repairs and survival; None if some alternative is feasible.

@@ -158,11 +158,7 @@ class EvidenceConstraint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Exclusion:
-    """Something else than an alternative is selected.
-
-    Attributes:
-        alternative: The alternative.
-    """
+    """Something else than an alternative is selected."""
 
     alternative: Alternative
 

@@ -42,10 +42,6 @@ def checked_values(values: Array) -> Array:
 def checked_weights(weights: Array, size: int) -> Array:
     """Weights, after a check.
 
-    Args:
-        weights: The weights.
-        size: Required number.
-
     Raises:
         TradeoffError: Their number is another, one is negative, or they do not sum to 1.
     """

@@ -95,12 +95,7 @@ class ElicitedOrder:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WeightBounds:
-    """Admitted weights: all elicited bounds, in addition to the sum of 1.
-
-    Attributes:
-        intervals: Intervals of weights.
-        orders: Orders of criteria by weight.
-    """
+    """Admitted weights: all elicited bounds, in addition to the sum of 1."""
 
     intervals: tuple[ElicitedInterval, ...] = ()
     orders: tuple[ElicitedOrder, ...] = ()

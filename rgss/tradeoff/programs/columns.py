@@ -24,10 +24,6 @@ Column = NDArray[np.float64]
 def condition_column(condition: Condition, table: EvidenceTable) -> Column:
     """The statistic that a condition compares with its limit, for every alternative.
 
-    Args:
-        condition: The condition.
-        table: The alternatives.
-
     Returns:
         Statistics, shape (n,); NaN where unknown.
     """

@@ -54,9 +54,6 @@ class MinimaxRegret(Program):
     generation; Kouvelis and Yu, "Robust discrete optimization and its applications", 1997). Of levels
     that is done up to `MOST_RIVALS` combinations; beyond, all corners are needed. Over
     replicates, scenario r is the r-th seed, and every replicate must have every weighted measure.
-
-    Attributes:
-        scenarios: Over what.
     """
 
     name: ClassVar[str] = "minimax_regret"

@@ -34,9 +34,6 @@ class Program(ABC):
     """Decision program: the objectives that choose a feasible alternative, stage by stage.
 
     Base of the frozen dataclasses; its defaults for limits and needs are those of a program by weighted values.
-
-    Attributes:
-        name: Its name.
     """
 
     __slots__ = ()
@@ -96,11 +93,7 @@ class Preferences(ABC):
 
     @abstractmethod
     def feasible_alternatives(self, *, at_most: int) -> Sequence[Alternative] | None:
-        """The alternatives that meet every condition; None where more than so many combinations had to be listed.
-
-        Args:
-            at_most: Largest number of combinations that are listed.
-        """
+        """The alternatives that meet every condition; None where more than so many combinations had to be listed."""
 
     @property
     def conditions(self) -> tuple[Condition, ...]:

@@ -79,11 +79,6 @@ def orderings_of(program: Program, preferences: Preferences, table: EvidenceTabl
     """Function that orders alternatives under a program for a mask of the feasible ones.
 
     Computations that do not depend on the mask are made once.
-
-    Args:
-        program: The program.
-        preferences: The preferences.
-        table: The alternatives.
     """
     if isinstance(program, MinimaxRegret):
         return _regret_orderings(program, preferences, table)

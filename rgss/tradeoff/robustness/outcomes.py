@@ -42,11 +42,6 @@ def noisy_outcomes(preferences: Preferences, table: EvidenceTable, resamples: Re
     """Every alternative valued and judged in each resample of the replicates.
 
     Conditions on replicates are judged by those of the resample.
-
-    Args:
-        preferences: Preferences that the alternatives are compared by.
-        table: The evidence.
-        resamples: The resamples.
     """
     values, feasible = [], []
     for drawn in resampled_tables(table, resamples):

@@ -107,11 +107,7 @@ class PosteriorOutcomes:
         return np.asarray(self.outcomes.values @ weights, dtype=np.float64)
 
     def as_required(self, row: int) -> Array:
-        """True where an alternative is feasible in each draw without the tolerances of thresholds, shape (b,).
-
-        Args:
-            row: Its row.
-        """
+        """True where an alternative is feasible in each draw without the tolerances of thresholds, shape (b,)."""
         holds = np.array(self.outcomes.feasible[:, row], dtype=bool)
         for one in self.preferences.conditions:
             if isinstance(one, Threshold) and one.required is not None and one.measure in self.drawn:

@@ -36,11 +36,7 @@ class Observed:
     bounds: NDArray[np.float64] | None = None
 
     def bounds_of(self, row: int) -> tuple[float, float]:
-        """The least and the greatest value that a replicate of one alternative can have; infinite where unknown.
-
-        Args:
-            row: The alternative.
-        """
+        """The least and the greatest value that a replicate of one alternative can have; infinite where unknown."""
         return (
             (-math.inf, math.inf) if self.bounds is None else (float(self.bounds[row, 0]), float(self.bounds[row, 1]))
         )

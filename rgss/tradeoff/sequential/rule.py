@@ -85,10 +85,6 @@ class SequentialRule:
 def check_pilot(rule: SequentialRule, count: int) -> None:
     """Check that the budget has room for the pilot.
 
-    Args:
-        rule: The rule.
-        count: The number of alternatives.
-
     Raises:
         TradeoffError: It has not.
     """

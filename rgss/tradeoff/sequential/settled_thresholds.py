@@ -17,11 +17,6 @@ def settled_thresholds(
 
     As of an interval each side is allowed half of the error rate, so that at 5 % a threshold is settled where the
     intervals of 95 % that hold over all looks decide it.
-
-    Args:
-        evidence: The evidence so far.
-        rule: The rule.
-        progress: Results of earlier looks.
     """
     settled = dict(progress.settled)
     needed = math.log(2.0 / rule.error_rate)

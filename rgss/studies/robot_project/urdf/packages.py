@@ -27,12 +27,7 @@ def package_folders(package: str, urdf: Path) -> Iterator[Path]:
 
 
 def package_folder(package: str, urdf: Path) -> Path | None:
-    """Folder of a package, seen from a URDF; None where it is not there.
-
-    Args:
-        package: The name of the package.
-        urdf: The URDF.
-    """
+    """Folder of a package, seen from a URDF; None where it is not there."""
     urdf = urdf.resolve()
     named = (folder for folder in package_folders(package, urdf) if folder.is_dir())
     beside = (
@@ -45,11 +40,7 @@ def package_folder(package: str, urdf: Path) -> Path | None:
 
 
 def package_name(folder: Path) -> str | None:
-    """Name of the package that a folder states to be; None without one.
-
-    Args:
-        folder: The folder.
-    """
+    """Name of the package that a folder states to be; None without one."""
     try:
         found = re.search(r"<name>\s*([^<\s]+)\s*</name>", (folder / _PACKAGE_FILE).read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError):

@@ -40,11 +40,6 @@ def expanded(urdf: Path, *, name: str, arguments: Mapping[str, str]) -> str:
 
     Packages are found as those of meshes are: folders above the file, and folders in these.
 
-    Args:
-        urdf: The file.
-        name: The robot's name.
-        arguments: Values of its arguments.
-
     Raises:
         DefinitionError: The package xacrodoc is not installed, or the file cannot be expanded.
     """
