@@ -44,11 +44,7 @@ class ConfirmedTrial:
     records: tuple[TrialRecord, ...]
 
     def outcome(self, setting: int) -> str:
-        """Outcome: ``success``, or failure and phase, such as ``object_dropped at lift``.
-
-        Args:
-            setting: Index of the setting.
-        """
+        """Outcome: ``success``, or failure and phase, such as ``object_dropped at lift``."""
         record = self.records[setting]
         if record.failure is None:
             return "success" if record.success else "incomplete"
@@ -61,12 +57,7 @@ class ConfirmedTrial:
         return tuple(index for index in range(1, len(self.records)) if self.outcome(index) != self.outcome(0))
 
     def metric(self, name: str, setting: int) -> float | None:
-        """A metric of the trial; None if it was not observed.
-
-        Args:
-            name: Its name.
-            setting: Index of the setting.
-        """
+        """A metric of the trial; None if it was not observed."""
         value: Metric = self.records[setting].metrics.get(name)
         return float(value) if isinstance(value, (int, float)) else None
 
@@ -217,10 +208,6 @@ class Confirmation:
     def largest_difference(self, metric: str, setting: int) -> float | None:
         """Greatest difference of a metric from the study's setting, over trials whose outcome is the same.
 
-        Args:
-            metric: Its name.
-            setting: Index of the setting.
-
         Returns:
             The difference in magnitude; None if no trial has the metric under both.
         """
@@ -229,12 +216,7 @@ class Confirmation:
         return max(found, default=None)
 
     def extreme(self, metric: str, setting: int) -> tuple[float, float] | None:
-        """Least and greatest value of a metric under a setting; None if no trial has it.
-
-        Args:
-            metric: Its name.
-            setting: Index of the setting.
-        """
+        """Least and greatest value of a metric under a setting; None if no trial has it."""
         found = [value for trial in self.trials if (value := trial.metric(metric, setting)) is not None]
         return (min(found), max(found)) if found else None
 

@@ -17,10 +17,6 @@ def confirmation_trials(projects: Iterable[Project], store: EvidenceStore) -> fr
 
     Trials of another state of the project or of the code are excluded.
 
-    Args:
-        projects: The project with each of its studies.
-        store: The evidence.
-
     Raises:
         EvidenceError: The store is damaged.
         DefinitionError: A variant's parameters or components are incomplete.

@@ -63,11 +63,7 @@ class ConfirmationSetting:
         return f"PyBullet {physics.rate_hz:g} Hz, {physics.solver_iterations} iterations"
 
     def of(self, project: Project) -> Project:
-        """A project with these settings in place of its study's.
-
-        Args:
-            project: The project.
-        """
+        """A project with these settings in place of its study's."""
         return replace(project, study=replace(project.study, physics=self.physics))
 
 

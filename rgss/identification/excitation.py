@@ -40,10 +40,6 @@ class Signal:
 def load_excitation(path: Path, robot: Robot) -> ExcitationDocument:
     """Read an excitation file and check it against a robot.
 
-    Args:
-        path: The file.
-        robot: The robot that is to be excited.
-
     Raises:
         DocumentError: The file is wrong, or exceeds the robot's limits; with every problem in it.
     """

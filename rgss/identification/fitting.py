@@ -105,10 +105,6 @@ def fit_joint(recording: Recording, joint: str) -> ServoFit:
     the deviations of the parameters, from (J^T J)^-1 with Student's t, widened by sqrt((1 + r) / (1 - r)) for
     neighbouring residuals correlated by r > 0 (first-order autoregression).
 
-    Args:
-        recording: The recording.
-        joint: Name of the joint.
-
     Raises:
         DefinitionError: The joint is never excited.
     """

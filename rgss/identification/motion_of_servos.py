@@ -20,12 +20,7 @@ LONGEST_STEP_S = 5.0e-4
 
 
 def steps_per_sample(sampling_s: float, longest_step_s: float = LONGEST_STEP_S) -> int:
-    """Least number of equal steps between two samples, none longer than a bound.
-
-    Args:
-        sampling_s: Time between samples.
-        longest_step_s: The bound.
-    """
+    """Least number of equal steps between two samples, none longer than a bound."""
     return max(1, math.ceil(sampling_s / longest_step_s - 1e-9))
 
 

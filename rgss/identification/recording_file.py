@@ -53,10 +53,6 @@ _COLUMN = re.compile(r"^(?P<joint>\S+) commanded position \[(?P<unit>rad|deg|m)\
 def write_recording(path: Path, recording: Recording) -> None:
     """Write a recording as CSV, in seconds, radians and metres.
 
-    Args:
-        path: The file.
-        recording: The recording.
-
     Raises:
         OSError: The file cannot be written.
     """

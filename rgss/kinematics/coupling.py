@@ -54,12 +54,7 @@ class Coupling:
 
     @staticmethod
     def of(robot: Robot, model: Any) -> Coupling:
-        """Coupling of an arm in its Pinocchio model.
-
-        Args:
-            robot: The arm.
-            model: Its model.
-        """
+        """Coupling of an arm in its Pinocchio model."""
         return Coupling(robot, tuple(model.names)[1:])
 
     def positions(self, q: ArrayLike) -> Vector:

@@ -14,9 +14,6 @@ def build_model(robot: Robot) -> Any:
     Every frame of the model, and gravity, is expressed in the world, so that a tilted base needs no special case. The
     model has the followers as joints of their own; a `Coupling` gives their positions.
 
-    Args:
-        robot: The arm.
-
     Raises:
         DefinitionError: The URDF cannot be read, or its joints or links are not those of the robot.
     """
@@ -55,12 +52,7 @@ def build_model(robot: Robot) -> Any:
 
 
 def link_frame(model: Any, link: str) -> Any:
-    """Frame of a link in a Pinocchio model; a joint may have the same name.
-
-    Args:
-        model: The model.
-        link: Name of the link in the URDF.
-    """
+    """Frame of a link in a Pinocchio model; a joint may have the same name."""
     import pinocchio
 
     return model.frames[model.getFrameId(link, pinocchio.FrameType.BODY)]

@@ -121,10 +121,6 @@ def collision_parts(
 def arm_parts(model: Any, robot: Robot) -> list[Part]:
     """Solids of an arm.
 
-    Args:
-        model: The arm's model in the world.
-        robot: The arm.
-
     Raises:
         DefinitionError: A collision shape of the URDF cannot be read.
     """

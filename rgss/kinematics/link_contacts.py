@@ -30,9 +30,6 @@ def lasting_contacts(robot: Robot) -> frozenset[frozenset[str]]:
 
     Convex hulls of links two joints apart often overlap in every configuration, as do links under a common cover.
     Neighbouring links are never checked.
-
-    Args:
-        robot: The arm.
     """
     pairs = _LinkPairs(robot)
     touching = set(pairs.names)

@@ -44,10 +44,6 @@ class MotionLimits:
 def require_joints(limits: MotionLimits, joints: int) -> None:
     """Require one limit for each joint of a path.
 
-    Args:
-        limits: The limits.
-        joints: Number of joints of the path.
-
     Raises:
         MotionError: The numbers of joints differ.
     """

@@ -56,11 +56,7 @@ def segment_states(start: Vector, end: Vector, resolution_rad: float, *, density
 
 @lru_cache(maxsize=1024)
 def coarse_to_fine(count: int) -> tuple[int, ...]:
-    """Indices 0..count-1 in bisection order, the last first, so that an invalid segment is detected early.
-
-    Args:
-        count: Number of indices.
-    """
+    """Indices 0..count-1 in bisection order, the last first, so that an invalid segment is detected early."""
     order = [count - 1] if count else []
     gaps = [(-1, count - 1)]
     for low, high in gaps:

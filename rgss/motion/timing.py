@@ -77,13 +77,7 @@ def time_move(
 
 
 def time_blended(blended: BlendedPath, tool: ToolKinematics, limits: MotionLimits) -> TimedMove:
-    """Time a blended path; the same blended path can be timed under any limits.
-
-    Args:
-        blended: The path.
-        tool: Kinematics of the tool centre.
-        limits: Limits of the motion.
-    """
+    """Time a blended path; the same blended path can be timed under any limits."""
     trajectory = None
     outcome = TimingOutcome.IN_COLLISION
     if blended.is_valid:
@@ -98,11 +92,6 @@ def fastest_trajectory(path: SmoothPath, tool: ToolKinematics, limits: MotionLim
     The limits are constraints of the optimisation at the ends of each grid cell. Between them they are
     verified: if one is exceeded by more than 2 % the grid is refined, and the remaining excess is removed by slowing
     the motion uniformly, so that the limits hold at every verified point.
-
-    Args:
-        path: The path.
-        tool: Kinematics of the tool centre.
-        limits: Limits of the motion.
 
     Returns:
         The motion; None if the optimisation finds none.

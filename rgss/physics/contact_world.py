@@ -94,11 +94,7 @@ class ContactWorld(Protocol):
         """Transform of the workpiece to the world."""
 
     def object_pose(self, name: str) -> Pose:
-        """Transform of an object of the scene to the world.
-
-        Args:
-            name: The object.
-        """
+        """Transform of an object of the scene to the world."""
 
     def set_workpiece(self, scene: Scene) -> None:
         """Make another object the workpiece, or change the place where it is released.

@@ -29,11 +29,7 @@ def hull_triangles(corners: Sequence[Point]) -> NDArray[np.intp]:
 
 
 def mesh_text(corners: Sequence[Point]) -> str:
-    """Convex shape as the text of a Wavefront OBJ file.
-
-    Args:
-        corners: Its corners.
-    """
+    """Convex shape as the text of a Wavefront OBJ file."""
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in corners]
     lines += ["f " + " ".join(str(corner + 1) for corner in triangle) for triangle in hull_triangles(corners).tolist()]
     return "\n".join(lines) + "\n"

@@ -223,11 +223,7 @@ class World(ClientOwner):
         self._seal = self._seal_on(self._workpiece, scene)
 
     def object_pose(self, name: str) -> Pose:
-        """Transform of an object's shape to the world.
-
-        Args:
-            name: The object.
-        """
+        """Transform of an object's shape to the world."""
         if self._objects[name] == self._workpiece:
             return self.workpiece_pose()
         position, turned = self._engine.getBasePositionAndOrientation(self._objects[name], self._client)

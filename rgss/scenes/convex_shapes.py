@@ -35,21 +35,13 @@ class ConvexPart:
 
 
 def convex_element(vertices_m: tuple[Point, ...]) -> ET.Element:
-    """Element of a convex shape.
-
-    Args:
-        vertices_m: Its corners.
-    """
+    """Element of a convex shape."""
     numbers = (f"{value:.{_DECIMALS}f}" for point in vertices_m for value in point)
     return ET.Element(CONVEX, {"vertices": " ".join(numbers)})
 
 
 def vertices_of(element: ET.Element) -> tuple[Point, ...]:
-    """Corners of a convex shape.
-
-    Args:
-        element: Its element.
-    """
+    """Corners of a convex shape."""
     numbers = [float(word) for word in element.get("vertices", "").split()]
     return tuple(zip(numbers[::3], numbers[1::3], numbers[2::3], strict=True))
 

@@ -78,12 +78,7 @@ class GripperGeometry:
         return Pose(position_m=(0.0, 0.0, self.base.height_m / 2))
 
     def finger_pose(self, finger: int, opening_m: float) -> Pose:
-        """Transform of a finger's shape to the flange at a pad distance from the axis.
-
-        Args:
-            finger: Index of the finger.
-            opening_m: Distance of its pad from the axis.
-        """
+        """Transform of a finger's shape to the flange at a pad distance from the axis."""
         azimuth = self.azimuths_rad[finger]
         radius = opening_m + self.finger.size_m[0] / 2
         height = self.base.height_m + self.finger.size_m[2] / 2
@@ -202,9 +197,6 @@ class Gripper:
 
         For fingers it is the coefficient of friction; for a cup the lesser of 1, along its axis, and the ratio of its
         greatest tangential to its greatest normal force.
-
-        Args:
-            object_friction: Coefficient of the object.
         """
         if self.suction is None:
             return self.friction * object_friction
@@ -233,11 +225,7 @@ class Gripper:
 
 
 def boss_height_m(linkage: Linkage) -> float:
-    """Distance along z from the flange to the end of what protrudes before the faces of the pads in m; else 0.
-
-    Args:
-        linkage: The mechanism.
-    """
+    """Distance along z from the flange to the end of what protrudes before the faces of the pads in m; else 0."""
     poses = linkage.link_poses(linkage.opened)
     hulls = ((pad, hull) for pad in linkage.pads for hull in linkage.links[pad.link].hulls_m)
     corners = ((pad, Pose(position_m=corner)) for pad, hull in hulls for corner in hull)

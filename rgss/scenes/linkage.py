@@ -132,12 +132,7 @@ class Linkage:
         return max((pose.position_m[2] + pose.rotate(corner)[2] for pose, corner in corners), default=0.0)
 
     def joint_position(self, link: int, driven: float) -> float:
-        """Position of the joint of a link, in rad or m.
-
-        Args:
-            link: Index of the link.
-            driven: Position of the driven joint.
-        """
+        """Position of the joint of a link, in rad or m."""
         one = self.links[link]
         return one.multiplier * driven + one.offset
 
@@ -263,11 +258,7 @@ class LinkageMotion:
         return self._driven[index] + share * self._step
 
     def transmission(self, driven: float) -> float:
-        """Travel of each pad per travel of the driven joint towards closed, in m/rad or 1: the pads' Jacobian.
-
-        Args:
-            driven: Position of the driven joint.
-        """
+        """Travel of each pad per travel of the driven joint towards closed, in m/rad or 1: the pads' Jacobian."""
         return self._slope(self._sample(driven)[0])
 
     def axial_slope(self, driven: float) -> float:
@@ -292,9 +283,5 @@ class LinkageMotion:
 
 @lru_cache(maxsize=16)
 def motion_of(linkage: Linkage) -> LinkageMotion:
-    """Tabulated motion of a linkage, cached in the process.
-
-    Args:
-        linkage: The mechanism.
-    """
+    """Tabulated motion of a linkage, cached in the process."""
     return LinkageMotion(linkage)

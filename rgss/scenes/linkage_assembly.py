@@ -35,12 +35,7 @@ def linkage_link_names(linkage: Linkage, palm: str, fingers: Sequence[str]) -> t
 
 
 def linkage_masses_kg(gripper: Gripper, linkage: Linkage) -> tuple[float, ...]:
-    """Mass of each link: that of the URDF, scaled to the design's masses of palm and fingers.
-
-    Args:
-        gripper: The gripper of the design.
-        linkage: Its mechanism.
-    """
+    """Mass of each link: that of the URDF, scaled to the design's masses of palm and fingers."""
     palm = set(linkage.palm_links)
     moved = gripper.geometry.fingers * gripper.finger_mass_kg / linkage.moved_mass_kg
     still = gripper.base_mass_kg / linkage.palm_mass_kg

@@ -22,11 +22,7 @@ _FAR_LIGHTER = 0.5
 
 
 def reflected_inertias(linkage: Linkage) -> Mapping[int, float]:
-    """Inertia of what each joint carries, reflected to the driven joint, in kg·m² or kg, in the middle of the stroke.
-
-    Args:
-        linkage: The mechanism.
-    """
+    """Inertia of what each joint carries, reflected to the driven joint in mid-stroke, in kg·m² or kg."""
     poses = linkage.link_poses((linkage.opened + linkage.closed) / 2)
     return {
         index: link.multiplier**2
@@ -45,9 +41,6 @@ def leading_joint(linkage: Linkage) -> int:
     That is the driven joint, unless what it carries is far lighter than what another one carries. Many grippers have a
     driven joint that stands for the command alone. What passes through so light a link arrives only after as many
     iterations as the others are heavier.
-
-    Args:
-        linkage: The mechanism.
     """
     inertias = reflected_inertias(linkage)
     heaviest = max(inertias, key=lambda index: (inertias[index], -index))
@@ -60,9 +53,6 @@ def pad_mass_kg(linkage: Linkage) -> float:
 
     It is the greatest inertia that a joint of the finger reflects to the driven joint, divided by the square of the
     greatest travel of a pad per travel of that joint.
-
-    Args:
-        linkage: The mechanism.
     """
     inertias = reflected_inertias(linkage)
     fingers = []

@@ -72,9 +72,6 @@ def principal_frame(workpiece: _Massive) -> tuple[Pose, tuple[float, float, floa
     """Transform of the principal frame at the centre of mass to the shape's frame, and the principal moments in kg m².
 
     The axes equal those of the shape's frame if the inertia is diagonal there.
-
-    Args:
-        workpiece: The object.
     """
     inertia, at = inertia_kg_m2(workpiece), centre_of_mass(workpiece)
     off = inertia - np.diag(np.diag(inertia))

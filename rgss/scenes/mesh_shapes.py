@@ -112,11 +112,7 @@ def mesh_summary(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1
 
 
 def shapes_volume_m3(shapes: Sequence[Vertices]) -> float:
-    """Sum of the volumes of convex shapes.
-
-    Args:
-        shapes: Their corners.
-    """
+    """Sum of the volumes of convex shapes."""
     from scipy.spatial import ConvexHull
 
     return math.fsum(float(ConvexHull(np.array(corners)).volume) for corners in shapes)
@@ -230,9 +226,6 @@ def read_mesh(path: Path, scale: tuple[float, float, float]) -> Any:
 
 def is_empty_mesh(path: Path) -> bool:
     """True if a mesh file has no corners, as exporters write it for a frame.
-
-    Args:
-        path: The file.
 
     Raises:
         DefinitionError: The file is not a mesh.

@@ -245,11 +245,7 @@ class Scene:
         return {one.workpiece.id: one.grasp for one in self.objects if one.grasp is not None}
 
     def with_grasps(self, grasps: Mapping[str, ChosenGrasp]) -> Scene:
-        """Scene with chosen grasps of some objects; the others keep theirs.
-
-        Args:
-            grasps: The grasps by object.
-        """
+        """Scene with chosen grasps of some objects; the others keep theirs."""
         own = grasps.get(self.workpiece.id)
         others = tuple(
             one if one.workpiece.id not in grasps else replace(one, grasp=grasps[one.workpiece.id])

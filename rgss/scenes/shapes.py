@@ -26,12 +26,7 @@ class Box:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cylinder:
-    """A cylinder centred in its frame, its axis along z.
-
-    Attributes:
-        radius_m: Radius.
-        height_m: Full height.
-    """
+    """A cylinder centred in its frame, its axis along z."""
 
     radius_m: float
     height_m: float
@@ -44,12 +39,7 @@ class Cylinder:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LyingCylinder:
-    """A cylinder centred in its frame, its axis along x: the resting pose of a lying cylinder, with z up.
-
-    Attributes:
-        radius_m: Radius.
-        length_m: Full length.
-    """
+    """A cylinder centred in its frame, its axis along x: the resting pose of a lying cylinder, with z up."""
 
     radius_m: float
     length_m: float

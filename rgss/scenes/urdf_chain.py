@@ -53,12 +53,7 @@ class UrdfChain:
 
 
 def chain_to(root: ET.Element, flange: str) -> UrdfChain:
-    """Find the chain of joints from the base to a link.
-
-    Args:
-        root: The URDF.
-        flange: The link's name.
-    """
+    """Find the chain of joints from the base to a link."""
     above = {end_of(joint, "child"): joint for joint in root.findall("joint")}
     found: list[ET.Element] = []
     links: list[str] = []
@@ -71,21 +66,12 @@ def chain_to(root: ET.Element, flange: str) -> UrdfChain:
 
 
 def kind_of(joint: ET.Element) -> JointKind | None:
-    """Kind of a joint of an arm; None for unsupported joints, such as planar ones.
-
-    Args:
-        joint: The joint's element.
-    """
+    """Kind of a joint of an arm; None for unsupported joints, such as planar ones."""
     return _KINDS.get(joint.get("type", ""))
 
 
 def chain_problems(root: ET.Element, entry: RobotDocument) -> Iterable[Problem]:
-    """Problems of a URDF as the arm of a robot file: message, location in the robot file, hint.
-
-    Args:
-        root: The URDF.
-        entry: The robot file's content.
-    """
+    """Problems of a URDF as the arm of a robot file: message, location in the robot file, hint."""
     links = {link.get("name", "") for link in root.findall("link")}
     joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
     chain = chain_to(root, entry.flange)
@@ -174,11 +160,7 @@ def settle(root: ET.Element, entry: RobotDocument, followers: Sequence[Follower]
 
 
 def loads_without_inertia(root: ET.Element) -> tuple[str, ...]:
-    """Moving links without a mass or an inertia; pure frames need none.
-
-    Args:
-        root: The URDF.
-    """
+    """Moving links without a mass or an inertia; pure frames need none."""
     return tuple(
         link.get("name", "")
         for link in root.findall("link")

@@ -206,11 +206,7 @@ def _problems(root: ET.Element, entry: RobotDocument) -> Iterable[tuple[str, Loc
 
 
 def number_problems(root: ET.Element) -> Iterable[tuple[str, Location, str]]:
-    """Attributes that are not the required numbers: message, location in the referring file, hint.
-
-    Args:
-        root: The URDF.
-    """
+    """Attributes that are not the required numbers: message, location in the referring file, hint."""
     for part in (*root.findall("link"), *root.findall("joint")):
         axis = part.find("axis")
         if part.get("type") in _TURNING and axis is not None and _is_null(axis.get("xyz", "")):

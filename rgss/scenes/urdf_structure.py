@@ -59,12 +59,7 @@ def normalise_axis(joint: ET.Element) -> bool:
 
 
 def carried_by(root: ET.Element, names: Iterable[str]) -> set[str]:
-    """Links with all their descendants.
-
-    Args:
-        root: The URDF.
-        names: The links' names.
-    """
+    """Links with all their descendants."""
     found = set(names)
     joints = root.findall("joint")
     while more := {end_of(joint, "child") for joint in joints if end_of(joint, "parent") in found} - found:
@@ -73,11 +68,7 @@ def carried_by(root: ET.Element, names: Iterable[str]) -> set[str]:
 
 
 def standing_links(root: ET.Element) -> set[str]:
-    """Links of a URDF that do not move: the base and all links fixed to it.
-
-    Args:
-        root: The URDF.
-    """
+    """Links of a URDF that do not move: the base and all links fixed to it."""
     joints = root.findall("joint")
     carried = {end_of(joint, "child") for joint in joints}
     standing = {link.get("name", "") for link in root.findall("link")} - carried
@@ -88,21 +79,13 @@ def standing_links(root: ET.Element) -> set[str]:
 
 
 def has_inertia(link: ET.Element) -> bool:
-    """True if a link states a mass above zero and an inertia.
-
-    Args:
-        link: The link.
-    """
+    """True if a link states a mass above zero and an inertia."""
     mass = link.find("inertial/mass")
     return mass is not None and not _is_zero(mass.get("value", "0")) and link.find("inertial/inertia") is not None
 
 
 def has_moments(link: ET.Element) -> bool:
-    """True if a link states a moment of inertia that is not zero.
-
-    Args:
-        link: The link.
-    """
+    """True if a link states a moment of inertia that is not zero."""
     inertia = link.find("inertial/inertia")
     return inertia is not None and not all(_is_zero(inertia.get(name, "0")) for name in MOMENTS)
 

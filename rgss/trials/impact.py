@@ -44,11 +44,7 @@ class ClosingImpact:
 
 
 def closing_impact(spec: TrialSpec) -> ClosingImpact:
-    """Impact of the fingers of a trial.
-
-    Args:
-        spec: The trial.
-    """
+    """Impact of the fingers of a trial."""
     gripper, workpiece, physics = spec.gripper, spec.scene.workpiece, spec.settings.physics
     force_n, mass_kg, speed_m_s = gripper.finger_force_n, gripper.driven_mass_kg, gripper.finger_velocity_m_s
     stiffness_n_m, window_s = physics.pad_stiffness_n_m, workpiece.force_window_s

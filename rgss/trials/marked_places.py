@@ -9,12 +9,7 @@ _PLACE = "place"
 
 
 def marked_places(scene: Scene, task: TaskProgram) -> dict[str, PlaceRegion]:
-    """Regions on fixed bodies at which a task releases its objects, by name, in the order of the task.
-
-    Args:
-        scene: The scene.
-        task: The task.
-    """
+    """Regions on fixed bodies at which a task releases its objects, by name, in the order of the task."""
     named = {one.id: one.region for one in scene.places}
     own = {one.workpiece.id: one.place for one in scene.objects}
     found: dict[str, PlaceRegion] = {}

@@ -15,13 +15,7 @@ Violation = tuple[Failure, str]
 
 
 def check_displacement(world: ContactWorld, largest_m: float, *, touched: bool) -> tuple[float, Violation | None]:
-    """Displacement in m of an object before its grasp, and the violation if it exceeds a limit.
-
-    Args:
-        world: The world.
-        largest_m: The limit.
-        touched: Whether the robot has touched the object.
-    """
+    """Displacement in m of an object before its grasp, and the violation if it exceeds a limit."""
     pose, start = world.workpiece_pose(), world.scene.workpiece.pose
     moved_m = math.dist(pose.position_m, start.position_m)
     if moved_m <= largest_m:
@@ -56,11 +50,7 @@ def moved_by_itself(
 
 
 def check_place(world: ContactWorld) -> tuple[dict[str, Metric], Violation | None]:
-    """Position error, tilt and turn of the placed object, and the violation if one of them exceeds its limit.
-
-    Args:
-        world: The world.
-    """
+    """Position error, tilt and turn of the placed object, and the violation if one of them exceeds its limit."""
     scene, pose = world.scene, world.workpiece_pose()
     x, y, z = pose.position_m
     centre = scene.place.centre_m

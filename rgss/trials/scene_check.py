@@ -90,11 +90,7 @@ class SceneProblem:
 
 
 def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
-    """Problems of the bodies of a scene, independent of the gripper.
-
-    Args:
-        scene: The scene.
-    """
+    """Problems of the bodies of a scene, independent of the gripper."""
     return (*_furniture(scene), *_objects(scene))
 
 

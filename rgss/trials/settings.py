@@ -44,11 +44,7 @@ class PlanningSettings:
     moves: tuple[MoveKind, ...] = ()
 
     def kinds(self, planned: Sequence[str]) -> dict[str, MoveKind]:
-        """Kind of each planned move.
-
-        Args:
-            planned: Names of those moves.
-        """
+        """Kind of each planned move."""
         return dict(zip(planned, self.moves or (MoveKind.PLANNED,) * len(planned), strict=True))
 
     @property

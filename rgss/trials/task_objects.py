@@ -20,12 +20,7 @@ class TaskObjects:
     """
 
     def __init__(self, world: ContactWorld, task: TaskProgram) -> None:
-        """Start with the present poses of all objects.
-
-        Args:
-            world: The world.
-            task: The task.
-        """
+        """Start with the present poses of all objects."""
         self._world = world
         self._scene = world.scene
         self.first = self._scene.workpiece.id
@@ -37,19 +32,11 @@ class TaskObjects:
         self._around: dict[str, Pose] = {}
 
     def stage(self, phase: str) -> Stage:
-        """Stage of a phase.
-
-        Args:
-            phase: Its name.
-        """
+        """Stage of a phase."""
         return self._stages[phase]
 
     def enter(self, stage: Stage) -> bool:
-        """Begin a stage; returns True if object, place or grip differ from the previous stage.
-
-        Args:
-            stage: The stage.
-        """
+        """Begin a stage; returns True if object, place or grip differ from the previous stage."""
         about = stage.object, stage.turn, stage.place
         is_new = about != self._about
         if is_new:
@@ -86,11 +73,7 @@ class TaskObjects:
         return with_object_named(detail, self._world.scene)
 
     def resting_on(self, stage: Stage) -> str:
-        """Body that the object of a stage may touch; empty for none.
-
-        Args:
-            stage: The stage.
-        """
+        """Body that the object of a stage may touch; empty for none."""
         is_brought = stage.step.hand is HandAction.OPENS and not stage.is_standing
         if is_brought or stage.is_placed:
             return self._world.scene.place_support
@@ -99,11 +82,7 @@ class TaskObjects:
         return ""
 
     def note_release(self, stage: Stage) -> None:
-        """Register a release.
-
-        Args:
-            stage: Its stage.
-        """
+        """Register a release."""
         self._supports[stage.object] = self._world.scene.place_support
 
     def _view(self, name: str, place: str) -> Scene:

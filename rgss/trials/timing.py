@@ -130,12 +130,7 @@ def _no_line(cell: Workcell, step: MoveStep) -> tuple[Failure, str]:
 
 
 def timing_of(spec: TrialSpec, plan: TaskPlan) -> TaskTiming:
-    """Timing of a trial.
-
-    Args:
-        spec: The trial.
-        plan: Its plan.
-    """
+    """Timing of a trial."""
     speed_m_s = conditions_of(spec).tool_speed_m_s
     settings = spec.settings
     return time_task(cell_of(spec), plan, tool_speed_m_s=speed_m_s, settings=settings.planning, timing=settings.timing)

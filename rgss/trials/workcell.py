@@ -56,11 +56,7 @@ class Workcell:
         self.legs: tuple[Leg, ...] = tuple(takewhile(lambda leg: self.without_grasp(leg) is None, self.route.legs))
 
     def without_grasp(self, leg: Leg) -> NoGrasp | None:
-        """Object of a move without a grasp for which the move could be planned; None if it has one.
-
-        Args:
-            leg: The move.
-        """
+        """Object of a move without a grasp for which the move could be planned; None if it has one."""
         names = (leg.scene.workpiece.id, self.route.stops[leg.goal].object)
         return next((one for one in map(self.ungrasped.get, names) if one is not None and not one.has_best), None)
 
@@ -118,11 +114,7 @@ def workcell_of(
 
 
 def cell_of(spec: TrialSpec) -> Workcell:
-    """Workcell of a trial, as perceived by the robot.
-
-    Args:
-        spec: The trial.
-    """
+    """Workcell of a trial, as perceived by the robot."""
     clearance_m = spec.settings.planning.clearance_m
     perceived = with_stated_suction(conditions_of(spec).perceived_scene, spec.gripper.geometry)
     ungrasped: tuple[NoGrasp, ...] = ()

@@ -50,12 +50,7 @@ def quality_1(points: Sequence[ContactPoint], workpiece: Workpiece) -> float:
 
 
 def com_distance_m(points: Sequence[ContactPoint], centre: Vector3) -> float:
-    """Distance in m of the centre of mass from the line between two fingers' contacts, or the centre of more contacts.
-
-    Args:
-        points: The contacts.
-        centre: The centre of mass.
-    """
+    """Distance in m of the centre of mass from the line between two fingers' contacts, or the centre of more."""
     fingers = sorted({point.finger for point in points if point.finger is not None})
     middles = [np.mean([point.position_m for point in points if point.finger == finger], axis=0) for finger in fingers]
     if len(middles) != 2:

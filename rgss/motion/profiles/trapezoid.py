@@ -71,11 +71,6 @@ def trapezoidal_trajectory(path: SmoothPath, tool: ToolKinematics, limits: Motio
     speed allow. If the acceleration of the tool, or of the joints on a curve, would exceed its limit, the run is slowed
     uniformly, which keeps the profile a trapezoid.
 
-    Args:
-        path: The path.
-        tool: Kinematics of the tool centre.
-        limits: Limits of the motion.
-
     Raises:
         MotionError: The limits are not for the joints of the path.
     """

@@ -14,20 +14,12 @@ def passing_mass_kg(gripper: Gripper) -> float:
     A linkage passes it through gears, which takes six times the iterations of sliding fingers. Measured on two cranks,
     a Robotiq 2F-85 and a 2F-140: with fewer, held objects slip by up to five times as much as with four times the rate,
     and with a third of them light fingers press with half of their force.
-
-    Args:
-        gripper: The gripper.
     """
     return gripper.driven_mass_kg / _iteration_share(gripper)
 
 
 def light_fingers(gripper: Gripper, physics: PhysicsSettings) -> tuple[str, str] | None:
-    """Problem and remedy of fingers that do not press with their force, whatever the iterations; None for others.
-
-    Args:
-        gripper: The gripper.
-        physics: The settings of the physics.
-    """
+    """Problem and remedy of fingers that do not press with their force, whatever the iterations; None for others."""
     if gripper.suction is not None:
         return None
     least_kg = _least_kg(gripper, physics)
@@ -43,13 +35,7 @@ def light_fingers(gripper: Gripper, physics: PhysicsSettings) -> tuple[str, str]
 
 
 def light_object(mass_kg: float, gripper: Gripper, physics: PhysicsSettings) -> tuple[str, str] | None:
-    """Problem and remedy of an object that creeps out of the fingers, whatever the iterations; None for others.
-
-    Args:
-        mass_kg: Mass of the object.
-        gripper: The gripper.
-        physics: The settings of the physics.
-    """
+    """Problem and remedy of an object that creeps out of the fingers, whatever the iterations; None for others."""
     least_kg = _least_kg(gripper, physics)
     if gripper.suction is not None or mass_kg >= least_kg:
         return None

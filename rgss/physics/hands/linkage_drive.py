@@ -25,9 +25,6 @@ def least_iterations(linkage: Linkage) -> int:
 
     Each joint that follows the driven one is a gear more. With too few iterations the gears of a hand of eight joints
     yield under 20 N, and the object slips by millimetres.
-
-    Args:
-        linkage: The mechanism.
     """
     return max(_LEAST_ITERATIONS, _ITERATIONS_A_FOLLOWER * _follower_count(linkage))
 

@@ -71,11 +71,7 @@ class MujocoContactReader:
         self.select(next(iter(model.object_bodies)))
 
     def select(self, name: str) -> None:
-        """Make an object the workpiece; the others count as bodies of the scene.
-
-        Args:
-            name: The object.
-        """
+        """Make an object the workpiece; the others count as bodies of the scene."""
         self._workpiece = frozenset(shape for shape, one in self._object_of.items() if one == name)
         others = {shape: one for shape, one in self._object_of.items() if one != name}
         self._body_of = {**self._scene_body_of, **others}

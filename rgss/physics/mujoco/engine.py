@@ -27,9 +27,6 @@ def engine_version() -> str:
 def compiled(description: str) -> Any:
     """Compiled model of an MJCF description.
 
-    Args:
-        description: The model as MJCF.
-
     Raises:
         SimulationError: The engine rejected it.
     """

@@ -61,12 +61,7 @@ class MujocoFingerDrive:
         self._effort = self._speed_before = np.zeros(len(self._motors))
 
     def drive(self, velocity_m_s: float, force_n: float) -> None:
-        """Move every finger at a velocity (positive closes) with at most a force, from now on.
-
-        Args:
-            velocity_m_s: The velocity.
-            force_n: The force.
-        """
+        """Move every finger at a velocity (positive closes) with at most a force, from now on."""
         self._command = velocity_m_s, force_n
         self._model.actuator_forcerange[self._motors] = (-force_n, force_n)
         if self._is_servo:

@@ -193,10 +193,6 @@ def add_linkage_drive(
 
 
 def finger_of_linkage_link(linkage: Linkage) -> dict[str, int]:
-    """Index of the finger by the name of a link that is fixed relative to its pad.
-
-    Args:
-        linkage: The mechanism.
-    """
+    """Index of the finger by the name of a link that is fixed relative to its pad."""
     names = link_names_of(linkage)
     return {names[part]: finger for finger, parts in enumerate(linkage.finger_parts) for part in parts}

@@ -70,12 +70,7 @@ def add_geom(parent: ET.Element, name: str, shape: Solid | Corners, pose: Pose, 
 
 
 def cylinder_inertia(shape: Cylinder, mass_kg: float) -> NDArray[np.float64]:
-    """Inertia in kg·m², (3, 3), of a homogeneous cylinder along z.
-
-    Args:
-        shape: The cylinder.
-        mass_kg: Its mass.
-    """
+    """Inertia in kg·m², (3, 3), of a homogeneous cylinder along z."""
     across = mass_kg * (3 * shape.radius_m**2 + shape.height_m**2) / 12
     return np.diag([across, across, mass_kg * shape.radius_m**2 / 2])
 
@@ -86,18 +81,10 @@ def _placed(pose: Pose) -> dict[str, str]:
 
 
 def numbers(values: Sequence[float]) -> str:
-    """Values as MJCF writes them.
-
-    Args:
-        values: The values.
-    """
+    """Values as MJCF writes them."""
     return " ".join(number(value) for value in values)
 
 
 def number(value: float) -> str:
-    """Value as MJCF writes it, without rounding.
-
-    Args:
-        value: The value.
-    """
+    """Value as MJCF writes it, without rounding."""
     return repr(float(value))

@@ -68,9 +68,6 @@ class RobotLink:
 def read_links(urdf: str) -> tuple[RobotLink, ...]:
     """Links of a URDF that has been validated.
 
-    Args:
-        urdf: The robot's URDF.
-
     Raises:
         SimulationError: A collision shape is not a box, cylinder, sphere, capsule or convex mesh.
     """

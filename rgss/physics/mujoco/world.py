@@ -219,11 +219,7 @@ class MujocoWorld:
         return self._pose_of(self._workpiece)
 
     def object_pose(self, name: str) -> Pose:
-        """Transform of an object's shape to the world.
-
-        Args:
-            name: The object.
-        """
+        """Transform of an object's shape to the world."""
         return self._pose_of(self._objects[name])
 
     def set_workpiece(self, scene: Scene) -> None:

@@ -125,11 +125,7 @@ class Camera:
         self._stage.close()
 
     def fit(self, postures: Iterable[Posture]) -> None:
-        """Fit the camera's position to the moving bodies in these postures and the fixed ones near them; see `View`.
-
-        Args:
-            postures: Postures of the trial.
-        """
+        """Fit the camera's position to the moving bodies in these postures and the fixed ones near them; see `View`."""
         if not self._view.is_fitted:
             return
         moving: list[Vector] = []

@@ -36,11 +36,7 @@ class Framing:
 
 
 def corners_of(solid: SeenSolid) -> Array:
-    """Corners in the world of the box about a fixed solid along the axes of its frame, shape (8, 3).
-
-    Args:
-        solid: The solid.
-    """
+    """Corners in the world of the box about a fixed solid along the axes of its frame, shape (8, 3)."""
     vertices = np.array(solid.surface.vertices_m, dtype=float)
     box = product(*zip(vertices.min(axis=0).tolist(), vertices.max(axis=0).tolist(), strict=True))
     return np.array([(solid.pose @ Pose(position_m=corner)).position_m for corner in box])

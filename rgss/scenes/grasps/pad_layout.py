@@ -56,12 +56,7 @@ class PadLayout:
 
 
 def ribbed_layout(ribs: PadRibs, finger: Box) -> PadLayout:
-    """Layout of a pad of two ribs across the finger.
-
-    Args:
-        ribs: The ribs.
-        finger: The finger.
-    """
+    """Layout of a pad of two ribs across the finger."""
     length_m = finger.size_m[1] - 2 * ribs.radius_m
     return PadLayout(
         radius_m=ribs.radius_m,

@@ -39,12 +39,7 @@ class PadRibs:
 
 
 def pad_ribs(gripper: GripperGeometry, workpiece: Cylinder) -> PadRibs:
-    """Ribs of a gripper that holds a workpiece at its centre with parallel axes.
-
-    Args:
-        gripper: The gripper.
-        workpiece: The grasped workpiece.
-    """
+    """Ribs of a gripper that holds a workpiece at its centre with parallel axes."""
     base_m, (thickness_m, width_m, length_m) = gripper.base.height_m, gripper.finger.size_m
     start = max(base_m, gripper.grasp_depth_m - workpiece.half_height_m)
     end = min(base_m + length_m, gripper.grasp_depth_m + workpiece.half_height_m)

@@ -46,24 +46,14 @@ def body_findings(
 
 
 def drive_of(finger: FingerEntry, firm_grasp: FirmGraspEntry | None) -> GripperDrive:
-    """Drive of the fingers from a file.
-
-    Args:
-        finger: A finger.
-        firm_grasp: The condition of a firm grasp.
-    """
+    """Drive of the fingers from a file."""
     return GripperDrive(
         inertia_kg=finger.drive_inertia or 0.0, firm_force_n=None if firm_grasp is None else firm_grasp.finger_force
     )
 
 
 def settings_of(base: BaseEntry, finger: FingerEntry) -> dict[str, float | str]:
-    """Values in SI, by quantity, that apply if no design sets them.
-
-    Args:
-        base: The base.
-        finger: A finger.
-    """
+    """Values in SI, by quantity, that apply if no design sets them."""
     given = _given(base, finger)
     return {".".join(("gripper", *map(str, location))): value for location, value in given.items()}
 

@@ -71,11 +71,7 @@ def unsealed(geometry: GripperGeometry, scene: Scene) -> str:
 
 
 def suction_point_of(scene: Scene) -> SuctionPoint:
-    """Position of a suction cup on the object: that of the chosen candidate, or the middle of its top.
-
-    Args:
-        scene: The scene, with the object as its workpiece.
-    """
+    """Position of a suction cup on the object: that of the chosen candidate, or the middle of its top."""
     taken, shape = scene.task.grasp, scene.workpiece.shape
     if taken is not None and taken.suction is not None:
         return taken.suction
@@ -84,11 +80,7 @@ def suction_point_of(scene: Scene) -> SuctionPoint:
 
 
 def flat_top_radius_m(shape: ObjectShape) -> float:
-    """Radius in m of the largest flat circle about the middle of an object's top; 0 if the top is not flat.
-
-    Args:
-        shape: The object.
-    """
+    """Radius in m of the largest flat circle about the middle of an object's top; 0 if the top is not flat."""
     if isinstance(shape, Cylinder):
         return shape.radius_m
     return min(shape.size_m[:2]) / 2 if isinstance(shape, Box) else 0.0

@@ -26,9 +26,6 @@ GRIPPER_KINDS: Mapping[str, GripperKind | LinkageGripper] = MappingProxyType(
 def kind_of_gripper(document: Document) -> GripperKind | LinkageGripper:
     """Kind of a gripper file; prismatic fingers by default.
 
-    Args:
-        document: The file.
-
     Raises:
         DocumentError: The file names an unknown kind.
     """

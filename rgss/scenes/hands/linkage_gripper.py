@@ -92,9 +92,6 @@ def pad_limits(motion: LinkageMotion) -> tuple[float, float]:
 
     By virtual work the effort τ of the driven joint balances the force F of both pads, with the pad travel J per travel
     of the joint: τ = 2 J F. The force is least where J is greatest, the speed where J is least.
-
-    Args:
-        motion: The mechanism over its stroke.
     """
     linkage = motion.linkage
     values = linkage.effort / (2 * motion.greatest_transmission), linkage.speed * motion.least_transmission

@@ -23,12 +23,7 @@ _MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
 
 def palm_of(root: ET.Element, entry: LinkageGripperDocument) -> str:
-    """Link at the flange: the named one, else the base of the URDF.
-
-    Args:
-        root: The URDF.
-        entry: The gripper file.
-    """
+    """Link at the flange: the named one, else the base of the URDF."""
     if entry.palm is not None:
         return entry.palm
     carried = {_end(joint, "child") for joint in root.findall("joint")}

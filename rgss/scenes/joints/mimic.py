@@ -38,12 +38,7 @@ def driver_of(name: str, joints: Mapping[str, ET.Element]) -> str:
 
 
 def mimic_problems(names: Iterable[str], joints: Mapping[str, ET.Element]) -> Iterable[Problem]:
-    """Problems of joints that follow another one: message, location in the referring file, hint.
-
-    Args:
-        names: The joints to check.
-        joints: All joints by name.
-    """
+    """Problems of joints that follow another one: message, location in the referring file, hint."""
     for name in names:
         mimic = joints[name].find("mimic")
         if mimic is None:

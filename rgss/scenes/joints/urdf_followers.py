@@ -28,11 +28,7 @@ class DriverLimits:
     speed: float = math.inf
 
     def joint(self, joint: Joint) -> Joint:
-        """The driven joint within these limits; its range may be empty.
-
-        Args:
-            joint: The joint with its own limits.
-        """
+        """The driven joint within these limits; its range may be empty."""
         lower, upper = max(joint.lower_rad, self.lower), min(joint.upper_rad, self.upper)
         return replace(joint, lower_rad=lower, upper_rad=upper, speed_rad_s=min(joint.speed_rad_s, self.speed))
 

@@ -74,11 +74,7 @@ def looks_of(root: ET.Element, paths: Mapping[str, Path]) -> tuple[LinkLook, ...
 
 
 def drawn_mesh(look: LinkLook) -> DrawnMesh | None:
-    """Triangles of a visual mesh, fewer than the file's if it has many; None if it cannot be read.
-
-    Args:
-        look: The visual mesh.
-    """
+    """Triangles of a visual mesh, fewer than the file's if it has many; None if it cannot be read."""
     try:
         return _drawn(look.mesh, look.scale, look.mesh.stat().st_mtime_ns)
     except (DefinitionError, OSError):

@@ -50,9 +50,6 @@ def foot_of(workpiece: Workpiece) -> Foot:
     """Foot of an object, in its orientation at rest on a level support.
 
     Rolling resistance, a torque over the normal force, moves the resultant of the support by as much beyond the foot.
-
-    Args:
-        workpiece: The object.
     """
     corners = _convex(_lowest(workpiece.shape))
     kind = _kind(corners)

@@ -38,13 +38,7 @@ def other_solids(
 
 
 def other_objects(entry: SceneDocument, solids: Sequence[ObjectSolid], supports: Supports) -> tuple[SceneObject, ...]:
-    """The further objects of a scene.
-
-    Args:
-        entry: The scene file.
-        solids: The solid of each.
-        supports: Their supports.
-    """
+    """The further objects of a scene."""
     return tuple(
         SceneObject(
             workpiece=workpiece_of(one, solid, pose=supports.poses[one.id], colour=object_colour(one.colour, number)),
@@ -57,12 +51,7 @@ def other_objects(entry: SceneDocument, solids: Sequence[ObjectSolid], supports:
 
 
 def named_places(entry: SceneDocument, supports: Supports) -> tuple[NamedPlace, ...]:
-    """The places without an object.
-
-    Args:
-        entry: The scene file.
-        supports: Their supports.
-    """
+    """The places without an object."""
     return tuple(NamedPlace(id=one.id, region=supports.region(one), support=one.stands_on) for one in entry.places)
 
 
@@ -89,11 +78,7 @@ def name_findings(entry: SceneDocument, document: Document) -> Iterator[Finding]
 
 
 def positive_values(entry: SceneDocument) -> Iterator[tuple[Location, float]]:
-    """Values of these entries that must be greater than zero, with their locations.
-
-    Args:
-        entry: The scene file.
-    """
+    """Values of these entries that must be greater than zero, with their locations."""
     for index, one in enumerate(entry.workpieces):
         yield from object_lengths(one, at=("workpieces", index))
         for key in ("friction", "force_limit", "force_window", "landing_limit"):
@@ -104,12 +89,7 @@ def positive_values(entry: SceneDocument) -> Iterator[tuple[Location, float]]:
 
 
 def place_limits(place: PlaceRegionEntry, *, at: Location) -> Iterator[tuple[Location, float]]:
-    """Limits of a place region that must be greater than zero, with their locations.
-
-    Args:
-        place: The region.
-        at: Its location.
-    """
+    """Limits of a place region that must be greater than zero, with their locations."""
     for key in ("radius", "largest_tilt", "largest_drag", "largest_turn"):
         limit = getattr(place, key)
         if limit is not None:
@@ -127,11 +107,7 @@ def object_colour(text: str | None, number: int) -> ColourRgba:
 
 
 def colour_of(text: str | None) -> ColourRgba:
-    """Colour from its text ``#rrggbb``; grey if there is none.
-
-    Args:
-        text: The text.
-    """
+    """Colour from its text ``#rrggbb``; grey if there is none."""
     text = text or _GREY
     red, green, blue = (int(text[start : start + 2], 16) / 255 for start in (1, 3, 5))
     return (red, green, blue, 1.0)

@@ -17,11 +17,7 @@ _SHAPES = ("box", "cylinder", "mesh")
 
 
 def candidates_of(rule: GraspRule | GraspCandidatesEntry) -> GraspCandidates | None:
-    """Grasp candidates; None for the stated grasp.
-
-    Args:
-        rule: The rule of the task.
-    """
+    """Grasp candidates; None for the stated grasp."""
     if isinstance(rule, GraspRule):
         return None if rule is GraspRule.AS_STATED else GraspCandidates()
     stated = rule.candidates
@@ -31,12 +27,7 @@ def candidates_of(rule: GraspRule | GraspCandidatesEntry) -> GraspCandidates | N
 
 
 def object_lengths(entry: WorkpieceEntry, *, at: Location = OWN) -> Iterator[tuple[Location, float]]:
-    """Locations and values of the lengths, which must be above zero.
-
-    Args:
-        entry: The object.
-        at: Location of the entry.
-    """
+    """Locations and values of the lengths, which must be above zero."""
     values: dict[Location, float | None] = {
         (*at, "radius"): entry.radius,
         (*at, "height"): entry.height,

@@ -97,14 +97,7 @@ def object_solid(
 
 
 def workpiece_of(entry: WorkpieceEntry, solid: ObjectSolid, *, pose: Pose, colour: ColourRgba) -> Workpiece:
-    """Object at its start pose.
-
-    Args:
-        entry: The object's entry.
-        solid: Its solid.
-        pose: That pose.
-        colour: Its colour.
-    """
+    """Object at its start pose."""
     x, y, z = solid.centre_m
     return Workpiece(
         id=entry.id,

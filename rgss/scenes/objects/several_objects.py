@@ -23,11 +23,7 @@ class ObjectPlacement:
 
 
 def initial_placements(scene: Scene) -> dict[str, ObjectPlacement]:
-    """Pose and support of each object of a scene at the start.
-
-    Args:
-        scene: The scene.
-    """
+    """Pose and support of each object of a scene at the start."""
     return {one.workpiece.id: ObjectPlacement(pose=one.workpiece.pose, support=one.support) for one in scene.objects}
 
 

@@ -28,11 +28,7 @@ class Supports:
     half_heights_m: Mapping[str, float]
 
     def region(self, entry: PlaceRegionEntry) -> PlaceRegion:
-        """Place region of an entry; on an object where that stands at the start.
-
-        Args:
-            entry: The entry.
-        """
+        """Place region of an entry; on an object where that stands at the start."""
         beneath = self.poses.get(entry.stands_on)
         region = PlaceRegion(
             centre_m=(*entry.at, self.tops_m.get(entry.stands_on, 0.0)),

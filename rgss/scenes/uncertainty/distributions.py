@@ -137,11 +137,7 @@ class Discrete:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Constant:
-    """A known value in place of that of the files.
-
-    Attributes:
-        value: The value.
-    """
+    """A known value in place of that of the files."""
 
     value: float
 

@@ -68,11 +68,7 @@ class UncertainQuantity:
         return tuple(f"{self.name}.{index}" for index in range(1, MOST_JOINTS + 1))
 
     def draw_names_for(self, joints: int) -> tuple[str, ...]:
-        """Names of its draws for an arm.
-
-        Args:
-            joints: Number of the arm's joints.
-        """
+        """Names of its draws for an arm."""
         return self.draw_names if self.joint_kind is None else self.draw_names[:joints]
 
     def is_possible(self, value: float) -> bool:

@@ -33,9 +33,6 @@ _UNIT_ENDINGS: Mapping[str, str] = MappingProxyType(
 def quantity_of(name: str) -> UncertainQuantity:
     """Quantity of a name or of a draw, such as ``robot.joint_offset.3`` or ``workpieces.lid.mass``.
 
-    Args:
-        name: The name.
-
     Raises:
         KeyError: The name is unknown.
     """
@@ -61,11 +58,7 @@ def object_quantity_name(first: str, known: str) -> str:
 
 
 def name_of_first(quantity: UncertainQuantity) -> str:
-    """Name of the corresponding quantity of the first object.
-
-    Args:
-        quantity: A quantity.
-    """
+    """Name of the corresponding quantity of the first object."""
     prefix, last = quantity.name.partition(".")[0], quantity.name.rpartition(".")[2]
     return _OWN[prefix, last].name if quantity.object else quantity.name
 
@@ -81,11 +74,7 @@ def in_order(names: Iterable[str]) -> tuple[UncertainQuantity, ...]:
 
 
 def similar_name(text: str) -> str | None:
-    """Nearest known name; None if none is near.
-
-    Args:
-        text: The name in a file.
-    """
+    """Nearest known name; None if none is near."""
     known = text.partition(".")[2].rpartition(".")[0]
     of_object = [f"{prefix}.{known}.{last}" for prefix, last in _OWN] if known else []
     near = difflib.get_close_matches(text, [*of_object, *QUANTITIES], n=1)

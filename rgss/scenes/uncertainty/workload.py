@@ -45,9 +45,6 @@ class Workload:
         Each block of seeds, as long as the cases have replicates in total, contains each case as often as its
         replicates. Independent of the design and of a study's number of replicates.
 
-        Args:
-            seed: The trial's seed.
-
         Returns:
             The case; None without a workload.
         """

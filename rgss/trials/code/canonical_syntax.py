@@ -33,11 +33,7 @@ def canonical_form(tree: ast.Module, *, leave_out: frozenset[ast.stmt] = frozens
 
 
 def is_for_type_checkers(test: ast.expr) -> bool:
-    """True if a condition holds only for type checkers.
-
-    Args:
-        test: The condition.
-    """
+    """True if a condition holds only for type checkers."""
     return (isinstance(test, ast.Name) and test.id == "TYPE_CHECKING") or (
         isinstance(test, ast.Attribute) and test.attr == "TYPE_CHECKING"
     )

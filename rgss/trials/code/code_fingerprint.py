@@ -51,9 +51,6 @@ def own_sources() -> SourceTree:
 def source_digest(module: str) -> str:
     """Digest of the code of a module of this package and of its imports.
 
-    Args:
-        module: Its name.
-
     Raises:
         ModuleNotFoundError: The module does not exist.
     """
@@ -134,9 +131,6 @@ class SourceTree:
 
     def module_digest(self, module: str) -> str:
         """SHA-256 of the canonical form of a module, without its imports from this package.
-
-        Args:
-            module: Its name.
 
         Raises:
             ModuleNotFoundError: The module does not exist.

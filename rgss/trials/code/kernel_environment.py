@@ -61,11 +61,7 @@ def problem_here() -> str:
 
 
 def problem_in(environment: Mapping[str, str]) -> str:
-    """Deviation of a process's start environment from the numeric environment; empty if there is none.
-
-    Args:
-        environment: The environment variables at the start of the process.
-    """
+    """Deviation of a process's start environment from the numeric environment; empty if there is none."""
     wanted: dict[str, str] = dict(ONE_THREAD)
     if _is_x86_64():
         wanted[_CORE] = KERNEL

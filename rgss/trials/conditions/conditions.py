@@ -109,11 +109,7 @@ class Conditions:
         return self.design_gripper if gripper == self.design_gripper else gripper
 
     def is_grip_known(self, name: str) -> bool:
-        """True if the sensed finger forces and the assumed mass and friction of an object equal the true values.
-
-        Args:
-            name: The object.
-        """
+        """True if the sensed finger forces and the assumed mass and friction of an object equal the true values."""
         assumed = self.assumed(name)
         true: Conditions | ObjectConditions = next((one for one in self.others if one.id == name), self)
         if name != self.scene.workpiece.id and true is self:
@@ -126,11 +122,7 @@ class Conditions:
         )
 
     def assumed(self, name: str) -> Workpiece:
-        """Object with the properties that the robot assumes.
-
-        Args:
-            name: The object.
-        """
+        """Object with the properties that the robot assumes."""
         return next(one.workpiece for one in self.scene.objects if one.workpiece.id == name)
 
     def _with_objects(self, changed: Callable[[Workpiece, Conditions | ObjectConditions], Workpiece]) -> Scene:
@@ -150,30 +142,18 @@ class Conditions:
 
 
 def conditions_of(spec: TrialSpec) -> Conditions:
-    """Conditions of a trial from its seed.
-
-    Args:
-        spec: The trial.
-    """
+    """Conditions of a trial from its seed."""
     return conditions_from(condition_inputs(spec))
 
 
 def nominal_conditions(spec: TrialSpec) -> Conditions:
-    """Nominal conditions of a trial, from the files and its case, without draws.
-
-    Args:
-        spec: The trial.
-    """
+    """Nominal conditions of a trial, from the files and its case, without draws."""
     return _nominal(condition_inputs(spec))
 
 
 @lru_cache(maxsize=_KEPT)
 def conditions_from(inputs: ConditionInputs) -> Conditions:
-    """Conditions from what they depend on.
-
-    Args:
-        inputs: The inputs of the conditions.
-    """
+    """Conditions from what they depend on."""
     nominal = _nominal(inputs)
     draws = _draws(inputs) if inputs.uncertainty.values else _NO_DRAWS
     quantities = in_order(inputs.uncertainty.names)

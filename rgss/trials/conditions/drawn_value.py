@@ -28,11 +28,7 @@ class DrawnValue:
 
 
 def drawn_values(spec: TrialSpec) -> tuple[DrawnValue, ...]:
-    """Draws of a trial with the nominal values, in the order of the registry.
-
-    Args:
-        spec: The trial.
-    """
+    """Draws of a trial with the nominal values, in the order of the registry."""
     conditions, nominal = conditions_of(spec), nominal_conditions(spec)
     drawn = {one.id: one for one in conditions.others}
     found = []

@@ -35,11 +35,7 @@ class ConditionInputs:
 
 
 def condition_inputs(spec: TrialSpec) -> ConditionInputs:
-    """Inputs of the conditions of a trial.
-
-    Args:
-        spec: The trial.
-    """
+    """Inputs of the conditions of a trial."""
     return ConditionInputs(
         seed=spec.seed,
         tool_speed_m_s=spec.tool_speed_m_s,

@@ -91,11 +91,7 @@ class ObjectConditions:
 
 
 def nominal_object(workpiece: Workpiece) -> ObjectConditions:
-    """Nominal conditions of an object, from the files.
-
-    Args:
-        workpiece: The object.
-    """
+    """Nominal conditions of an object, from the files."""
     return ObjectConditions(
         id=workpiece.id,
         mass_kg=workpiece.mass_kg,

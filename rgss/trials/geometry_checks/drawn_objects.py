@@ -35,12 +35,7 @@ class DrawProblem:
 
 
 def draw_problems(scene: Scene, uncertainty: Uncertainty) -> Iterator[DrawProblem]:
-    """Quantities with draws outside the geometry, each compared at evenly spaced quantiles.
-
-    Args:
-        scene: The scene.
-        uncertainty: The distributions of its quantities.
-    """
+    """Quantities with draws outside the geometry, each compared at evenly spaced quantiles."""
     for one in uncertainty.values:
         quantity = quantity_of(one.quantity)
         name = quantity.object or scene.workpiece.id

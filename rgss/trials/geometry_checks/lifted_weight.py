@@ -82,9 +82,6 @@ def held_loads(spec: TrialSpec) -> Iterator[HeldLoad]:
 
     Objects without a grasp, beside which a finger closes without contact, or on which the cup does not seal, are left
     out.
-
-    Args:
-        spec: The trial.
     """
     cell = cell_of(spec)
     scene = with_grasp_of(spec.scene, cell)

@@ -12,13 +12,7 @@ from rgss.trials.phase_result import PhaseResult
 
 
 def with_chosen_grasp(results: Iterable[PhaseResult], scene: Scene, task: TaskProgram) -> tuple[PhaseResult, ...]:
-    """Phases with the chosen grasp among the metrics of each grasp phase; a stated grasp leaves them unchanged.
-
-    Args:
-        results: The phases.
-        scene: The scene with the chosen grasps.
-        task: The task.
-    """
+    """Phases with the chosen grasp among the metrics of each grasp phase; a stated grasp leaves them unchanged."""
     taken = scene.grasps if scene.task.candidates is not None else {}
     of_phase = {
         stage.step.name: _metrics(taken[stage.object])

@@ -32,11 +32,7 @@ class FingerHand:
         return self.travel_s(scene) + firm_s
 
     def travel_s(self, scene: Scene) -> float:
-        """Time in s of the travel from open to the object at the finger velocity.
-
-        Args:
-            scene: The scene, with the object as its workpiece.
-        """
+        """Time in s of the travel from open to the object at the finger velocity."""
         geometry = self._gripper.geometry
         travel_m = min(geometry.stroke_m, geometry.largest_opening_m - grasp_opening_m(scene, geometry))
         return travel_m / self._gripper.finger_velocity_m_s

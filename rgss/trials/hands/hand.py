@@ -15,11 +15,7 @@ class Hand(Protocol):
     """True if it senses its force and can increase it while the object is carried."""
 
     def misfit(self, scene: Scene) -> str:
-        """Reason why an object does not fit the hand by size or shape; empty if it fits.
-
-        Args:
-            scene: The scene, with the object as its workpiece.
-        """
+        """Reason why an object does not fit the hand by size or shape; empty if it fits."""
 
     def closing_s(self, scene: Scene, firm_s: float) -> float:
         """Time in s from the command to close to a firm grasp.

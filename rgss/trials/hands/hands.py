@@ -11,11 +11,7 @@ from rgss.trials.hands.suction_hand import SuctionHand
 
 
 def hand_of(gripper: Gripper) -> Hand:
-    """Hand of a gripper, by its kind.
-
-    Args:
-        gripper: The gripper.
-    """
+    """Hand of a gripper, by its kind."""
     if gripper.suction is not None:
         return SuctionHand(gripper, gripper.suction)
     if gripper.drive.command_s is not None:

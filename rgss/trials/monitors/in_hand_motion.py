@@ -52,11 +52,7 @@ class InHandMotionTracker:
     """Tracker of the motion in the hand."""
 
     def __init__(self, world: ContactWorld) -> None:
-        """Take the first sample.
-
-        Args:
-            world: The world.
-        """
+        """Take the first sample."""
         self._world = world
         self._at = 0
         self._view = world.hand_view()

@@ -28,11 +28,7 @@ class LandingMonitor:
     """
 
     def __init__(self, world: ContactWorld) -> None:
-        """Start while the hand still holds the object.
-
-        Args:
-            world: The world.
-        """
+        """Start while the hand still holds the object."""
         scene = world.scene
         self._world = world
         self._place = scene.place
@@ -98,11 +94,7 @@ class PlacedObjectMonitor:
     """
 
     def __init__(self, world: ContactWorld) -> None:
-        """Start when the object is at rest and the hand is open.
-
-        Args:
-            world: The world.
-        """
+        """Start when the object is at rest and the hand is open."""
         self._world = world
         self._largest_m = world.scene.place.largest_drag_m
         self._half_height_m = world.scene.workpiece.shape.half_height_m

@@ -49,10 +49,6 @@ def run_bench(spec: BenchSpec, *, probe_mass: Callable[[BenchSpec, float], Probe
     smaller one with more iterations follows; then the bracket is bisected geometrically. Theory is not used. The search
     assumes that a gripper that holds a mass also holds any smaller one.
 
-    Args:
-        spec: The bench.
-        probe_mass: Function that probes one mass.
-
     Raises:
         DefinitionError: The specification is invalid, or outside the validated range.
         SimulationError: The physics engine cannot build the rig.

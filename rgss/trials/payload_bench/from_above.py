@@ -27,10 +27,6 @@ _FROM_ABOVE = GraspCandidates(approaches=(Approach.ABOVE,), heights=1)
 def suction_from_above(scene: Scene, gripper: Gripper) -> tuple[SuctionPoint | None, Pose | None]:
     """Place of a cup on the object: the stated one, or the best from above if the task chooses among candidates.
 
-    Args:
-        scene: The scene with the object as its workpiece.
-        gripper: A gripper with a cup.
-
     Returns:
         The place, and the transform of the grasp-centre frame to the object's frame; None if there is no place.
     """

@@ -13,9 +13,6 @@ def bench_of(spec: TrialSpec) -> BenchSpec | None:
     """Payload bench of a trial's gripper; None if there is none.
 
     There is none below contact physics, for an object that does not fit the gripper, and outside the validated range.
-
-    Args:
-        spec: The trial.
     """
     if spec.fidelity is not Fidelity.CONTACT:
         return None
@@ -26,11 +23,7 @@ def bench_of(spec: TrialSpec) -> BenchSpec | None:
 
 
 def payload_bench(spec: TrialSpec) -> BenchSpec:
-    """Payload bench of a trial's gripper, object and physics, without a check of the validated range.
-
-    Args:
-        spec: The trial.
-    """
+    """Payload bench of a trial's gripper, object and physics, without a check of the validated range."""
     robot = spec.scene.robot
     return bench_spec(
         spec.scene,

@@ -146,20 +146,12 @@ VALIDATED_CUP: tuple[ValidatedQuantity, ...] = (
 
 
 def validated(spec: BenchSpec) -> tuple[ValidatedQuantity, ...]:
-    """The validated ranges that apply to a bench.
-
-    Args:
-        spec: The bench.
-    """
+    """The validated ranges that apply to a bench."""
     return VALIDATED if spec.gripper.suction is None else VALIDATED_CUP
 
 
 def outside(spec: BenchSpec) -> tuple[str, ...]:
-    """Quantities of a bench outside the validated range, and what makes it impossible, one phrase each.
-
-    Args:
-        spec: The bench.
-    """
+    """Quantities of a bench outside the validated range, and what makes it impossible, one phrase each."""
     found = []
     # A trial can choose another grasp than the bench: a bench that cannot be built has no result, and the trial runs.
     try:

@@ -62,10 +62,6 @@ class Probe:
 def probe(spec: BenchSpec, mass_kg: float) -> Probe:
     """Grasp an object and lift it at the bench's acceleration.
 
-    Args:
-        spec: The bench.
-        mass_kg: The object's mass.
-
     Raises:
         SimulationError: The physics engine cannot build the rig.
     """
@@ -102,10 +98,6 @@ class PayloadRig:
 
     def __init__(self, spec: BenchSpec, mass_kg: float) -> None:
         """Build the rig with the open hand around the object.
-
-        Args:
-            spec: The bench.
-            mass_kg: The object's mass.
 
         Raises:
             SimulationError: The physics engine cannot build it.
@@ -175,9 +167,6 @@ class PayloadRig:
 
         A cup is bonded to the object rigidly. A jump of the acceleration while the post still bears the object would
         strain the bond by more than the load, as no compliant cup is strained.
-
-        Args:
-            acceleration_m_s2: The acceleration at the end.
         """
         steps = round(_ONSET_S / self._spec.physics.step_s)
         for number in range(steps):

@@ -33,12 +33,7 @@ _BLACK = (0.0, 0.0, 0.0, 1.0)
 
 
 def rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
-    """Scene with the object on top of a post, the origin at its foot below the grasp centre, and the rail above.
-
-    Args:
-        spec: The bench.
-        mass_kg: The object's mass.
-    """
+    """Scene with the object on top of a post, the origin at its foot below the grasp centre, and the rail above."""
     half_m = spec.shape.half_height_m
     radius_m = min(half_extents_m(spec.shape)[:2])
     stands, tool_m, taken = Pose(position_m=(0.0, 0.0, half_m)), half_m, None

@@ -139,11 +139,7 @@ class BenchSpec:
         return max(self.settings.lift_s, math.sqrt(2 * least_rise_m / self.acceleration_m_s2))
 
     def physics_for(self, mass_kg: float) -> PhysicsSettings:
-        """Step length and solver with enough iterations to transmit the finger force through object and fingers.
-
-        Args:
-            mass_kg: The object's mass.
-        """
+        """Step length and solver with enough iterations to transmit the finger force through object and fingers."""
         return self.physics.passing(
             force_n=self.gripper.finger_force_n,
             speed_m_s=self.gripper.finger_velocity_m_s,

@@ -10,19 +10,12 @@ from rgss.trials.pieces.plain_values import to_plain
 
 
 def bench_to_json(result: PayloadResult) -> str:
-    """Result of a bench as canonical JSON.
-
-    Args:
-        result: The result.
-    """
+    """Result of a bench as canonical JSON."""
     return canonical_json(to_plain(result))
 
 
 def bench_from_json(text: str) -> PayloadResult:
     """Result of a bench from the output of `bench_to_json`.
-
-    Args:
-        text: The text.
 
     Raises:
         EvidenceError: The text is not valid.

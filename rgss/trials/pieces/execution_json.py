@@ -30,9 +30,6 @@ def execution_to_json(execution: tuple[PhaseResult, ...]) -> str:
 def execution_from_json(text: str) -> tuple[PhaseResult, ...]:
     """Execution from the output of `execution_to_json`.
 
-    Args:
-        text: The text.
-
     Raises:
         EvidenceError: The text is not valid.
     """

@@ -49,12 +49,7 @@ class PieceTask:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrialTask:
-    """Task to run a whole trial without shared pieces.
-
-    Attributes:
-        digest: The trial's key.
-        spec: The trial.
-    """
+    """Task to run a whole trial without shared pieces."""
 
     digest: str
     spec: TrialSpec
@@ -70,12 +65,7 @@ Task = PieceTask | TrialTask
 
 
 def tasks_of(spec: TrialSpec, digests: TrialDigests) -> tuple[PieceTask, ...]:
-    """Piece tasks of a trial in topological order.
-
-    Args:
-        spec: The trial.
-        digests: Its digests.
-    """
+    """Piece tasks of a trial in topological order."""
     tasks = [
         PieceTask(digest=digests.plan, kind=PieceKind.PLAN, spec=spec),
         PieceTask(digest=digests.timing, kind=PieceKind.TIMING, spec=spec, needs=(digests.plan,)),
@@ -89,9 +79,6 @@ def tasks_of(spec: TrialSpec, digests: TrialDigests) -> tuple[PieceTask, ...]:
 def make_plan(spec: TrialSpec) -> str:
     """Compute the plan of a trial, as text.
 
-    Args:
-        spec: The trial.
-
     Raises:
         MotionError: The planner is not available.
     """
@@ -100,10 +87,6 @@ def make_plan(spec: TrialSpec) -> str:
 
 def make_timing(spec: TrialSpec, plan: str) -> str:
     """Compute the timing of a trial, as text.
-
-    Args:
-        spec: The trial.
-        plan: The text of its plan.
 
     Raises:
         EvidenceError: The plan is damaged.
@@ -182,10 +165,6 @@ def make_piece(
 
 def record_of(spec: TrialSpec, pieces: Mapping[PieceKind, Piece]) -> TrialRecord:
     """Assemble the record of a trial from its pieces.
-
-    Args:
-        spec: The trial.
-        pieces: Its pieces by kind.
 
     Raises:
         EvidenceError: A piece is damaged.

@@ -28,10 +28,5 @@ def to_plain(value: Any) -> Any:
 
 
 def without(values: dict[str, Any], names: tuple[str, ...]) -> dict[str, Any]:
-    """Plain values without some names.
-
-    Args:
-        values: The values by name.
-        names: The names to omit.
-    """
+    """Plain values without some names."""
     return {name: value for name, value in values.items() if name not in names}

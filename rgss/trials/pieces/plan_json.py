@@ -45,11 +45,7 @@ class _Plan:
 
 
 def plan_to_json(plan: TaskPlan) -> str:
-    """Plan as canonical JSON.
-
-    Args:
-        plan: The plan.
-    """
+    """Plan as canonical JSON."""
     moves = tuple(
         _Move(
             phase=move.phase,
@@ -76,9 +72,6 @@ def plan_to_json(plan: TaskPlan) -> str:
 
 def plan_from_json(text: str) -> TaskPlan:
     """Plan from the output of `plan_to_json`.
-
-    Args:
-        text: The text.
 
     Raises:
         EvidenceError: The text is not valid.

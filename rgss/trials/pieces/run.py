@@ -45,9 +45,6 @@ def run_trial(spec: TrialSpec, *, observer: StepObserver | None = None) -> Trial
 def require_search(spec: TrialSpec) -> None:
     """Require that the search of a trial covers its planning limit.
 
-    Args:
-        spec: The trial.
-
     Raises:
         DefinitionError: The limit is longer than the search.
     """

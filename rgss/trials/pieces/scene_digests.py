@@ -66,11 +66,7 @@ def geometry_digest(scene: Scene, *, frames: frozenset[str] = frozenset(), has_i
 
 
 def choice_digest(conditions: Conditions) -> tuple[str, ...]:
-    """Digests of the non-geometric inputs of the choice of the grasps; empty for stated grasps.
-
-    Args:
-        conditions: The conditions of the trial.
-    """
+    """Digests of the non-geometric inputs of the choice of the grasps; empty for stated grasps."""
     scene, gripper = conditions.perceived_scene, conditions.design_gripper
     if scene.task.candidates is None:
         return ()
@@ -98,11 +94,7 @@ def gripper_geometry_digest(geometry: GripperGeometry) -> str:
 
 @lru_cache(maxsize=16)
 def description_digest(robot: Robot) -> str:
-    """Digest of the robot's description with the inertias of its links and the content of its meshes.
-
-    Args:
-        robot: The robot.
-    """
+    """Digest of the robot's description with the inertias of its links and the content of its meshes."""
     return digest([robot.urdf, to_plain(robot.files)])
 
 
@@ -149,11 +141,7 @@ def physics_digest(scene: Scene) -> str:
 
 
 def true_values_digest(conditions: Conditions) -> str:
-    """Digest of the true values that planning does not use, and of the properties that the robot assumes.
-
-    Args:
-        conditions: The conditions of the trial.
-    """
+    """Digest of the true values that planning does not use, and of the properties that the robot assumes."""
     true, assumed = conditions.true_scene.objects, conditions.scene.objects
     return digest(
         {

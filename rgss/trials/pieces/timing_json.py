@@ -44,11 +44,7 @@ class _Timing:
 
 
 def timing_to_json(timing: TaskTiming) -> str:
-    """Timing as canonical JSON: the smooth paths and the knots of their motions.
-
-    Args:
-        timing: The timing.
-    """
+    """Timing as canonical JSON: the smooth paths and the knots of their motions."""
     motions = tuple(
         _Motion(
             phase=phase,
@@ -74,9 +70,6 @@ def timing_to_json(timing: TaskTiming) -> str:
 
 def timing_from_json(text: str) -> TaskTiming:
     """Timing from the output of `timing_to_json`.
-
-    Args:
-        text: The text.
 
     Raises:
         EvidenceError: The text is not valid.

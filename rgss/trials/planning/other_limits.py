@@ -73,12 +73,7 @@ def _timed(
 
 
 def with_limits_of(settings: PlanningSettings, other: PlanningSettings) -> PlanningSettings:
-    """Settings with the clock, the search limit and the simplification limit of others.
-
-    Args:
-        settings: The settings.
-        other: The settings with the clock and limits to use.
-    """
+    """Settings with the clock, the search limit and the simplification limit of others."""
     return replace(
         settings,
         clock=other.clock,

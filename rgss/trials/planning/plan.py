@@ -104,9 +104,6 @@ def plan_task(
 def plan_of(spec: TrialSpec) -> TaskPlan:
     """Plan of a trial.
 
-    Args:
-        spec: The trial.
-
     Raises:
         MotionError: The planner is not available.
     """

@@ -13,9 +13,6 @@ def searches_of(spec: TrialSpec) -> TaskPlan:
 
     All planners have the same problems, so that they are compared move by move.
 
-    Args:
-        spec: The trial.
-
     Raises:
         MotionError: The planner is not available.
     """

@@ -76,11 +76,7 @@ class ArmObservations:
         self._tool = metrics
 
     def tracking_failure(self, error_m: float) -> str:
-        """Detail of a tracking failure, with the joints that reached their limit.
-
-        Args:
-            error_m: Tracking error of the tool.
-        """
+        """Detail of a tracking failure, with the joints that reached their limit."""
         return f"the tool was {error_m * 1e3:.2f} mm from its target{self.saturated_joints()}"
 
     def saturated_joints(self) -> str:

@@ -28,26 +28,14 @@ class GripSequence:
         self._geometry = geometry
 
     def view_of(self, step: Step) -> Scene:
-        """Scene with the object of a step as its workpiece.
-
-        Args:
-            step: The step.
-        """
+        """Scene with the object of a step as its workpiece."""
         return self._views[step.name]
 
     def is_lifted(self, step: Step) -> bool:
-        """True if the hand alone holds the object during a step.
-
-        Args:
-            step: The step.
-        """
+        """True if the hand alone holds the object during a step."""
         return step.name in self._lifted
 
     def travel_m(self, step: Step) -> float:
-        """Travel in m of a finger from open to contact with the object of a step.
-
-        Args:
-            step: The step.
-        """
+        """Travel in m of a finger from open to contact with the object of a step."""
         geometry = self._geometry
         return min(geometry.stroke_m, geometry.largest_opening_m - grasp_opening_m(self.view_of(step), geometry))

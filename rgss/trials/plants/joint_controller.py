@@ -98,12 +98,7 @@ class JointController:
 
 
 def stated_in_step(controller: JointController, stated: StepControl) -> JointController:
-    """Controller of a step, with the settings that it states; stated gains apply to all joints.
-
-    Args:
-        controller: The controller of the study.
-        stated: The settings of the step.
-    """
+    """Controller of a step, with the settings that it states; stated gains apply to all joints."""
     gains: dict[str, Any] = {
         name: value
         for name in ("natural_frequency_rad_s", "damping_ratio", "position_gain_1_s", "velocity_gain_1_s")
@@ -164,12 +159,7 @@ def control_law(
 
 
 def servo_gains(controller: JointController, joints: Sequence[str]) -> tuple[Array, Array]:
-    """Gains k_p in 1/s² and k_d in 1/s of the error's equation ë + k_d ė + k_p e = …, of each joint.
-
-    Args:
-        controller: Mode and gains.
-        joints: Names of the joints.
-    """
+    """Gains k_p in 1/s² and k_d in 1/s of the error's equation ë + k_d ė + k_p e = …, of each joint."""
     if controller.mode in (ControlMode.VELOCITY, ControlMode.TOOL_TRACKING):
         gain = _gains(controller, joints, "velocity_gain_1_s")
         return gain * _gains(controller, joints, "position_gain_1_s"), gain
@@ -182,10 +172,6 @@ def least_stable_rate_hz(controller: JointController, joints: Sequence[str]) -> 
 
     With k_p and k_d of `servo_gains`, a step h gives z² - (2 - k_d h - k_p h²) z + 1 - k_d h, as the speed of a step is
     added to the position; its roots are within the unit circle if 2 k_d h + k_p h² < 4 (Jury's criterion).
-
-    Args:
-        controller: Mode and gains.
-        joints: Names of the joints.
     """
     stiffness, damping = servo_gains(controller, joints)
     return float(np.max((damping + np.sqrt(damping**2 + 4.0 * stiffness)) / 4.0))

@@ -24,9 +24,6 @@ def planned_lines(spec: TrialSpec) -> tuple[Line, ...]:
 
     A move without a solution has a graph but no path.
 
-    Args:
-        spec: The trial.
-
     Raises:
         MotionError: The planner is not available.
     """

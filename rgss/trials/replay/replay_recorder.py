@@ -74,11 +74,7 @@ class ReplayRecorder:
         self._contacts.append(tuple(_resultant(pressed, finger, pose) for finger in range(self.pressing)))
 
     def count_until(self, end_s: float) -> int:
-        """Number of samples up to a time.
-
-        Args:
-            end_s: The time.
-        """
+        """Number of samples up to a time."""
         return int(np.searchsorted(np.array(self._times_s), end_s + 1e-9, side="right"))
 
     def times_s(self, count: int) -> NDArray[np.float64]:
@@ -94,12 +90,7 @@ class ReplayRecorder:
         return np.array(self._travel_m[:count]).reshape(count, -1)
 
     def poses_of(self, name: str, count: int) -> list[Pose]:
-        """Poses of an object in the first samples.
-
-        Args:
-            name: The object.
-            count: Number of samples.
-        """
+        """Poses of an object in the first samples."""
         place = self._objects.index(name)
         return [poses[place] for poses in self._poses[:count]]
 
@@ -116,11 +107,7 @@ class ReplayRecorder:
         return np.array([rows[finger] for rows in self._contacts[:count]]).reshape(count, 6)
 
     def touches(self, end_s: float) -> tuple[Touch, ...]:
-        """Contacts of the robot that are no grip and began up to a time.
-
-        Args:
-            end_s: The time.
-        """
+        """Contacts of the robot that are no grip and began up to a time."""
         return self._touches.touches(end_s)
 
     def _pose(self, world: ContactWorld, name: str) -> Pose:

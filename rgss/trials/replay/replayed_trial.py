@@ -49,9 +49,6 @@ class ReplayedTrial:
 def run_replayed_trial(spec: TrialSpec) -> ReplayedTrial:
     """Run one trial of contact fidelity and record its replay.
 
-    Args:
-        spec: The trial.
-
     Raises:
         DefinitionError: The fidelity is not available.
         SimulationError: The physics engine cannot build the world.

@@ -49,10 +49,6 @@ class TouchLog:
                 self._last[pair] = replace(last, end_s=time_s)
 
     def touches(self, end_s: float) -> tuple[Touch, ...]:
-        """Contacts that began up to a time, by start, then by names.
-
-        Args:
-            end_s: The time.
-        """
+        """Contacts that began up to a time, by start, then by names."""
         found = [one for one in (*self._ended, *self._last.values()) if one.start_s <= end_s + 1e-9]
         return tuple(sorted(found, key=lambda one: (one.start_s, one.link, one.body)))
