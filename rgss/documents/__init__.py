@@ -34,6 +34,7 @@ if TYPE_CHECKING:
         Seconds,
         Text,
         UnitText,
+        number_as_text,
     )
     from rgss.documents.model import STRICT, DocumentModel
     from rgss.documents.output_files import (

@@ -105,6 +105,11 @@ def _check_unit(text: str) -> str:
     return text
 
 
+def number_as_text(value: Any) -> Any:
+    """A number as a text, since a quantity without a unit may be a plain number; anything else as it is."""
+    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+
+
 Metres = Annotated[float, BeforeValidator(_reader_of("m")), _schema("m")]
 Kilograms = Annotated[float, BeforeValidator(_reader_of("kg")), _schema("kg")]
 KilogramsPerCubicMetre = Annotated[float, BeforeValidator(_reader_of("kg/m**3")), _schema("kg/m**3")]

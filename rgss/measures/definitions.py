@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from rgss.documents import DocumentModel, Identifier, QuantityText, Text, UnitText
+from rgss.documents import DocumentModel, Identifier, QuantityText, Text, UnitText, number_as_text
 from rgss.errors import DefinitionError
 from rgss.measures.estimators import Estimator, Population, Summary
 from rgss.measures.expressions import Expression
@@ -96,14 +96,9 @@ class Equation(DocumentModel):
     note: Text | None = None
 
 
-def _as_text(value: Any) -> Any:
-    """Accept an unquoted number; its unit is validated later."""
-    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
-
-
 NumberOrQuantityText = Annotated[
     QuantityText,
-    BeforeValidator(_as_text),
+    BeforeValidator(number_as_text),
     WithJsonSchema(
         {"type": ["string", "number"], "minLength": 1, "maxLength": 60, "description": "A quantity, or a pure number."}
     ),

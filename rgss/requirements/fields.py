@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, TypeVar
 
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
-from rgss.documents import QuantityText
+from rgss.documents import QuantityText, number_as_text
 from rgss.errors import QuantityError
 from rgss.findings import shown
 from rgss.quantities import check_scale, parse_quantity, written_unit
@@ -34,11 +34,6 @@ def split_quantity(text: str) -> tuple[float, str]:
     return number, unit
 
 
-def as_text(value: Any) -> Any:
-    """A number as a text, for a quantity without a unit may be a plain number; anything else as it is."""
-    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
-
-
 def _check_quantity(text: str) -> str:
     split_quantity(text)
     return text
@@ -56,7 +51,7 @@ Entries = Annotated[tuple[_Entry, ...], AfterValidator(_not_empty), Field(json_s
 
 ThresholdText = Annotated[
     QuantityText,
-    BeforeValidator(as_text),
+    BeforeValidator(number_as_text),
     AfterValidator(_check_quantity),
     WithJsonSchema(
         {

@@ -9,10 +9,9 @@ from typing import Annotated
 from pydantic import AfterValidator, BeforeValidator, WithJsonSchema, model_validator
 from pydantic.dataclasses import dataclass
 
-from rgss.documents import STRICT, Identifier, QuantityText, Text, UnitText
+from rgss.documents import STRICT, Identifier, QuantityText, Text, UnitText, number_as_text
 from rgss.errors import QuantityError
 from rgss.quantities import parse_quantity
-from rgss.requirements.fields import as_text
 
 _MULTIPLICITY = r"^(\d{1,6}|\d{1,6}\.\.(\d{1,6}|\*)|\*)$"
 
@@ -28,7 +27,7 @@ def _check_multiplicity(text: str) -> str:
 
 Multiplicity = Annotated[
     str,
-    BeforeValidator(as_text),
+    BeforeValidator(number_as_text),
     AfterValidator(_check_multiplicity),
     WithJsonSchema({"anyOf": [{"type": "string", "pattern": _MULTIPLICITY}, {"type": "integer", "minimum": 0}]}),
 ]
@@ -36,7 +35,7 @@ Multiplicity = Annotated[
 
 ValueText = Annotated[
     QuantityText,
-    BeforeValidator(as_text),
+    BeforeValidator(number_as_text),
     WithJsonSchema({"type": ["string", "number"], "minLength": 1, "maxLength": 60}),
 ]
 """A quantity in a unit of the value's dimension; a pure number may be bare."""

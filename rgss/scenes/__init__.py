@@ -118,7 +118,7 @@ if TYPE_CHECKING:
     )
     from rgss.scenes.urdf_chain import chain_to, kind_of, loads_without_inertia
     from rgss.scenes.urdf_file import number_problems
-    from rgss.scenes.urdf_structure import carried_by, standing_links
+    from rgss.scenes.urdf_structure import carried_by, end_of, standing_links
     from rgss.scenes.waypoints import Waypoint, waypoint_poses
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

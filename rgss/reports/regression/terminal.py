@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from rgss.findings import printable
 from rgss.regression import Outcome, RegressionReport
 from rgss.reports.regression.words import (
     behaviour_of,
@@ -25,31 +26,27 @@ def report_lines(report: RegressionReport, *, everything: bool = False) -> Itera
         report: The report.
         everything: True to show metrics that are the same, and the power of those that have enough.
     """
-    yield _safe(f"{report.study} against {report.baseline}: {report.verdict}")
+    yield printable(f"{report.study} against {report.baseline}: {report.verdict}")
     for failing in report.failing:
-        yield _safe(f"  FAILED        {failing.trouble.value}: {failing.text}")
+        yield printable(f"  FAILED        {failing.trouble.value}: {failing.text}")
     for reason in reasons_of(report):
         word = "ACCEPTED" if report.accepted else "CHANGED"
-        yield _safe(f"  {word:<13} {reason}")
+        yield printable(f"  {word:<13} {reason}")
     for comparison in listed(report):
         if everything or comparison.outcome is not Outcome.SAME:
             word = comparison.outcome.value.upper()
-            yield _safe(f"  {word:<13} {title_of(comparison)}: {detail_of(comparison)}")
+            yield printable(f"  {word:<13} {title_of(comparison)}: {detail_of(comparison)}")
     for change in report.undecided:
-        yield _safe(f"  {Outcome.INCONCLUSIVE.value.upper():<13} {change}")
-    yield _safe(counts_of(report))
+        yield printable(f"  {Outcome.INCONCLUSIVE.value.upper():<13} {change}")
+    yield printable(counts_of(report))
     if not report.behaviour.is_changed:
-        yield _safe(behaviour_of(report))
+        yield printable(behaviour_of(report))
     for line in inputs_of(report):
-        yield _safe(line)
+        yield printable(line)
     for note in report.notes:
-        yield _safe(f"note: {note}")
+        yield printable(f"note: {note}")
     for line in power_lines(report, everything=everything):
-        yield _safe(line)
+        yield printable(line)
     remedy = remedy_of(report)
     if remedy:
-        yield _safe(remedy)
-
-
-def _safe(text: str) -> str:
-    return "".join(character if character.isprintable() else "�" for character in text)
+        yield printable(remedy)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from rgss.findings import printable
 from rgss.reports.plain_text import aligned_table
 from rgss.reports.tables import Cell, Table, cell_text, chosen_table
 from rgss.reports.trace.report import MatrixPart, TraceReport
@@ -96,9 +97,9 @@ def table_lines(tables: Sequence[Table]) -> list[str]:
         if lines:
             lines.append("")
         lines.append(table.title)
-        lines += [_safe(" ".join(table.note.split()))]
+        lines += [printable(" ".join(table.note.split()))]
         if table.rows:
-            cells = [[_safe(cell_text(cell)) for cell in row] for row in (table.heads, *table.rows)]
+            cells = [[printable(cell_text(cell)) for cell in row] for row in (table.heads, *table.rows)]
             lines += aligned_table(cells[0], cells[1:])
     return lines
 
@@ -106,8 +107,8 @@ def table_lines(tables: Sequence[Table]) -> list[str]:
 def chain_lines(chain: Chain) -> list[str]:
     """Chain as indented lines: the id, the elements above it, the elements below it."""
     note = f" [{chain.note}]" if chain.note else ""
-    lines = [_safe(f"{chain.id} ({chain.kind.value}){note}")]
-    lines += [f"  {_safe(' '.join(chain.text.split()))}"] if chain.text.strip() else []
+    lines = [printable(f"{chain.id} ({chain.kind.value}){note}")]
+    lines += [f"  {printable(' '.join(chain.text.split()))}"] if chain.text.strip() else []
     for title, steps in (("Up, towards the need", chain.up), ("Down, towards the evidence", chain.down)):
         lines += ["", f"{title}:"]
         lines += [line for step in steps for line in _step_lines(step)] or ["  nothing"]
@@ -131,11 +132,11 @@ def impact_lines(impact: Impact) -> list[str]:
         ("Verification records to renew", impact.records),
         ("Reviews to renew", impact.reviews),
     )
-    lines = [_safe(f"Impact of a change to {impact.id} ({impact.kind.value})")]
+    lines = [printable(f"Impact of a change to {impact.id} ({impact.kind.value})")]
     for title, names in groups:
         lines += ["", f"{title} ({len(names)})"]
         separator = "\n" if title.startswith("Tests") else ", "
-        lines += [f"  {_safe(' '.join(part.split()))}" for part in separator.join(names).splitlines()]
+        lines += [f"  {printable(' '.join(part.split()))}" for part in separator.join(names).splitlines()]
     return lines
 
 
@@ -145,7 +146,7 @@ def _step_lines(step: ChainStep) -> list[str]:
     name = step.id[:KEY_DIGITS] if step.kind is ThingKind.TRIAL else step.id
     again = " (its links are listed above)" if step.repeated else ""
     text = f": {_short(step.text)}" if step.text else ""
-    return [_safe(f"{indent}{step.relation.value} {name}{text}{note}{again}")]
+    return [printable(f"{indent}{step.relation.value} {name}{text}{note}{again}")]
 
 
 def _matrix(part: MatrixPart) -> Table:
@@ -181,8 +182,3 @@ def _named(names: Sequence[str]) -> str:
 def _short(text: str) -> str:
     line = " ".join(text.split())
     return line if len(line) <= _LONGEST else f"{line[: _LONGEST - 1].rstrip()}…"
-
-
-def _safe(text: str) -> str:
-    """Text of a file with terminal control characters escaped."""
-    return "".join(character if character.isprintable() else "�" for character in text)

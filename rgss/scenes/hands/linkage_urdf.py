@@ -13,7 +13,7 @@ from rgss.scenes.joints import follows, is_number, mimic_problems
 from rgss.scenes.linkage import LinkageLink, Triple
 from rgss.scenes.pose import Pose
 from rgss.scenes.urdf_chain import kind_of
-from rgss.scenes.urdf_structure import axis_of
+from rgss.scenes.urdf_structure import axis_of, end_of
 
 Problem = tuple[str, Location, str]
 
@@ -26,7 +26,7 @@ def palm_of(root: ET.Element, entry: LinkageGripperDocument) -> str:
     """Link at the flange: the named one, else the base of the URDF."""
     if entry.palm is not None:
         return entry.palm
-    carried = {_end(joint, "child") for joint in root.findall("joint")}
+    carried = {end_of(joint, "child") for joint in root.findall("joint")}
     return next((link.get("name", "") for link in root.findall("link") if link.get("name") not in carried), "")
 
 
@@ -40,12 +40,12 @@ def prune(root: ET.Element, palm: str) -> None:
     kept = {palm}
     joints = root.findall("joint")
     while True:
-        more = {_end(joint, "child") for joint in joints if _end(joint, "parent") in kept} - kept
+        more = {end_of(joint, "child") for joint in joints if end_of(joint, "parent") in kept} - kept
         if not more:
             break
         kept |= more
     for joint in joints:
-        if _end(joint, "parent") not in kept:
+        if end_of(joint, "parent") not in kept:
             root.remove(joint)
     for link in root.findall("link"):
         if link.get("name") not in kept:
@@ -81,7 +81,7 @@ def mechanism_problems(root: ET.Element, entry: LinkageGripperDocument) -> Itera
         yield f"has the link {entry.pads[0]!r} for both pads", ("pads",), "name the links of two fingers"
     carried = {palm_of(root, entry)}
     for joint in root.findall("joint"):
-        child = _end(joint, "child")
+        child = end_of(joint, "child")
         if child not in links:
             problem = f"lets the joint {joint.get('name')!r} carry {child!r}, which is not one of its links"
             yield problem, ("description",), ""
@@ -123,8 +123,8 @@ def links_of(root: ET.Element, palm: str, mount: Pose) -> tuple[LinkageLink, ...
     names = [palm]
     for at, name in enumerate(names):
         for joint in joints:
-            if _end(joint, "parent") == name:
-                child = _end(joint, "child")
+            if end_of(joint, "parent") == name:
+                child = end_of(joint, "child")
                 names.append(child)
                 found.append(_link(elements[child], joint, at, origin_of(joint), by_name))
     return tuple(found)
@@ -136,7 +136,7 @@ def _mass_problems(links: Mapping[str, ET.Element], joints: Mapping[str, ET.Elem
     A moving part without a shape that carries nothing stands for the command alone, and needs none.
     """
     fixed_to = {
-        _end(joint, "child"): _end(joint, "parent") for joint in joints.values() if joint.get("type") == "fixed"
+        end_of(joint, "child"): end_of(joint, "parent") for joint in joints.values() if joint.get("type") == "fixed"
     }
     parts: dict[str, list[ET.Element]] = {}
     for name, link in links.items():
@@ -145,7 +145,7 @@ def _mass_problems(links: Mapping[str, ET.Element], joints: Mapping[str, ET.Elem
             first = fixed_to[first]
             seen.add(first)
         parts.setdefault(first, []).append(link)
-    carriers = {_end(joint, "parent") for joint in joints.values() if joint.get("type") != "fixed"}
+    carriers = {end_of(joint, "parent") for joint in joints.values() if joint.get("type") != "fixed"}
     for first, part in parts.items():
         acts = first == palm or any(link.find("collision") is not None or link.get("name") in carriers for link in part)
         if acts and not any(_has_inertia(link) for link in part):
@@ -238,8 +238,3 @@ def _has_inertia(link: ET.Element) -> bool:
     mass = link.find("inertial/mass")
     text = "" if mass is None else mass.get("value", "")
     return is_number(text) and float(text) > 0.0 and link.find("inertial/inertia") is not None
-
-
-def _end(joint: ET.Element, end: str) -> str:
-    found = joint.find(end)
-    return "" if found is None else found.get("link", "")

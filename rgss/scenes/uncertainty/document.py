@@ -17,6 +17,7 @@ from rgss.documents import (
     Metres,
     QuantityText,
     Text,
+    number_as_text,
 )
 from rgss.findings import shown
 from rgss.scenes.uncertainty.quantities import QUANTITIES
@@ -28,11 +29,6 @@ _PATTERNS = tuple(
     rf"^{first}\.{IDENTIFIER_PATTERN.strip('^$')}\.({'|'.join(endings)})$"
     for first, endings in further_object_endings().items()
 )
-
-
-def _as_text(value: Any) -> Any:
-    """Accept an unquoted number; its unit is validated later."""
-    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
 
 def _is_name(value: Any) -> bool:
@@ -56,7 +52,7 @@ def _read_name(value: Any) -> str:
 
 ValueText = Annotated[
     QuantityText,
-    BeforeValidator(_as_text),
+    BeforeValidator(number_as_text),
     WithJsonSchema(
         {
             "type": ["string", "number"],

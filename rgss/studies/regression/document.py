@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from rgss.documents import Dimensionless, DocumentModel, Identifier, Text
+from rgss.documents import Dimensionless, DocumentModel, Identifier, Text, number_as_text
 from rgss.regression import MOST_SEEDS
 from rgss.trials import METRICS, PHASE_METRICS
 
-
-def _margin_text(value: Any) -> Any:
-    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
-
-
 MarginText = Annotated[
     str,
-    BeforeValidator(_margin_text),
+    BeforeValidator(number_as_text),
     Field(min_length=1, max_length=60),
     WithJsonSchema({"type": ["string", "number"], "minLength": 1, "description": "A quantity, such as 0.2 s."}),
 ]

@@ -15,6 +15,7 @@ from rgss.scenes import (
     chain_to,
     driven_of,
     driver_limits,
+    end_of,
     follower_problems,
     kind_of,
 )
@@ -87,7 +88,7 @@ def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
     _check_tree(root, links)
     below: dict[str, list[ET.Element]] = {}
     for joint in root.findall("joint"):
-        below.setdefault(_end(joint, "parent"), []).append(joint)
+        below.setdefault(end_of(joint, "parent"), []).append(joint)
     if flange is not None and flange not in links:
         raise DefinitionError(f"the URDF has no link {flange}", hint=f"its links are {', '.join(links)}")
     found = flange if flange is not None else _last_link(root, below)
@@ -108,7 +109,7 @@ def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
     followers = [joint.get("name", "") for joint in chained if joint not in moving]
     for problem, _, hint in follower_problems(chained, by_name, [joint.get("name", "") for joint in moving], ()):
         raise DefinitionError(f"the URDF {problem}", hint=hint)
-    hands = [_end(joint, "child") for joint in _ways(found, below)]
+    hands = [end_of(joint, "child") for joint in _ways(found, below)]
     return UrdfArm(
         name=root.get("name", "") or "arm",
         flange=found,
@@ -124,13 +125,13 @@ def _notes_of_division(flange: str, below: Mapping[str, list[ET.Element]]) -> It
     """Branches of different lengths at the end of the arm may be a hand, or the rest of the arm and a camera."""
     link = flange
     while len(ways := _ways(link, below)) == 1:
-        link = _end(ways[0], "child")
+        link = end_of(ways[0], "child")
     lengths = sorted((_joints_in_a_row(joint, below) for joint in ways), reverse=True)
     if not ways or lengths[0] < _NO_FINGER or lengths[0] == lengths[1]:
         return
-    last = _end(max(ways, key=lambda joint: _joints_in_a_row(joint, below)), "child")
+    last = end_of(max(ways, key=lambda joint: _joints_in_a_row(joint, below)), "child")
     while below.get(last):
-        last = _end(max(below[last], key=lambda joint: _joints_in_a_row(joint, below)), "child")
+        last = end_of(max(below[last], key=lambda joint: _joints_in_a_row(joint, below)), "child")
     rationale = (
         f"The URDF divides at {link}, into branches of {' and '.join(map(str, lengths))} joints in a row, which count"
         f" as a hand: the arm ends before them. With --flange {last} it goes on along the longest."
@@ -147,7 +148,7 @@ def _notes_of_jaw(moving: Sequence[ET.Element]) -> Iterator[Note]:
     if any(word in name.casefold() for word in _GRIPPING):
         rationale = (
             f"The joint {name} counts as the arm's last, although by its name it may drive a jaw: with "
-            f"--flange {_end(last, 'parent')} the arm ends before it."
+            f"--flange {end_of(last, 'parent')} the arm ends before it."
         )
         yield Note(about="flange", rationale=rationale)
 
@@ -157,20 +158,20 @@ def _check_tree(root: ET.Element, links: list[str]) -> None:
     joints = root.findall("joint")
     for joint in joints:
         for end in ("parent", "child"):
-            if _end(joint, end) not in links:
+            if end_of(joint, end) not in links:
                 raise DefinitionError(
-                    f"the joint {joint.get('name')} has the {end} link {_end(joint, end)!r}, which the URDF has not",
+                    f"the joint {joint.get('name')} has the {end} link {end_of(joint, end)!r}, which the URDF has not",
                     hint="is the URDF a part of another one? Name one with all links",
                 )
     for kind, names in (("joints", [joint.get("name", "") for joint in joints]), ("links", links)):
         twice = next((name for name, count in Counter(names).items() if count > 1), None)
         if twice is not None:
             raise DefinitionError(f"the URDF has two {kind} of the name {twice!r}", hint="give each a name of its own")
-    carried = Counter(_end(joint, "child") for joint in joints)
+    carried = Counter(end_of(joint, "child") for joint in joints)
     bases = [name for name in links if name not in carried]
     link, parents = max(carried.items(), key=lambda item: item[1], default=("", 0))
     if parents > 1:
-        carrying = ", ".join(joint.get("name", "") for joint in joints if _end(joint, "child") == link)
+        carrying = ", ".join(joint.get("name", "") for joint in joints if end_of(joint, "child") == link)
         raise DefinitionError(
             f"the URDF has a link that {parents} joints carry: {link}, by {carrying}",
             hint="arms are serial: each link has one joint. A parallelogram is described by one of its chains, with "
@@ -182,7 +183,7 @@ def _check_tree(root: ET.Element, links: list[str]) -> None:
 
 
 def _last_link(root: ET.Element, below: Mapping[str, list[ET.Element]]) -> str:
-    carried = {_end(joint, "child") for joint in root.findall("joint")}
+    carried = {end_of(joint, "child") for joint in root.findall("joint")}
     link = next(link.get("name", "") for link in root.findall("link") if link.get("name") not in carried)
     rigid = [link]
     moved = False
@@ -190,12 +191,12 @@ def _last_link(root: ET.Element, below: Mapping[str, list[ET.Element]]) -> str:
         ways = _ways(link, below)
         way = ways[0] if len(ways) == 1 else _longest(ways, below) if moved else None
         if way is not None:
-            link = _end(way, "child")
+            link = end_of(way, "child")
             moved = moved or way.get("type") != "fixed"
             rigid = [*rigid, link] if way.get("type") == "fixed" else [link]
             continue
         if ways and not moved:
-            names = ", ".join(_end(joint, "child") for joint in ways)
+            names = ", ".join(end_of(joint, "child") for joint in ways)
             raise DefinitionError(
                 f"the URDF divides at {link} into {names}, before any joint moves",
                 hint="name the link that carries the gripper with --flange",
@@ -206,7 +207,8 @@ def _last_link(root: ET.Element, below: Mapping[str, list[ET.Element]]) -> str:
         shaped = {one.get("name", "") for one in root.findall("link") if one.find("collision") is not None}
         return next((name for name in reversed(rigid) if name not in shaped), rigid[0])
     while True:
-        frames = [_end(joint, "child") for joint in below.get(link, ()) if not _has_shape(root, _end(joint, "child"))]
+        children = [end_of(joint, "child") for joint in below.get(link, ())]
+        frames = [child for child in children if not _has_shape(root, child)]
         if not frames:
             return link
         link = frames[0]
@@ -217,7 +219,7 @@ def _ways(link: str, below: Mapping[str, list[ET.Element]]) -> list[ET.Element]:
     return [
         joint
         for joint in below.get(link, ())
-        if joint.get("type") != "fixed" or _leads_to_movable(_end(joint, "child"), below)
+        if joint.get("type") != "fixed" or _leads_to_movable(end_of(joint, "child"), below)
     ]
 
 
@@ -231,12 +233,13 @@ def _longest(ways: list[ET.Element], below: Mapping[str, list[ET.Element]]) -> E
 def _joints_in_a_row(joint: ET.Element, below: Mapping[str, list[ET.Element]]) -> int:
     """Most movable joints that follow each other from a joint on, itself among them; followers do not count."""
     moves = joint.get("type") != "fixed" and joint.find("mimic") is None
-    return moves + max((_joints_in_a_row(one, below) for one in below.get(_end(joint, "child"), ())), default=0)
+    return moves + max((_joints_in_a_row(one, below) for one in below.get(end_of(joint, "child"), ())), default=0)
 
 
 def _leads_to_movable(link: str, below: Mapping[str, list[ET.Element]]) -> bool:
     return any(
-        joint.get("type") != "fixed" or _leads_to_movable(_end(joint, "child"), below) for joint in below.get(link, ())
+        joint.get("type") != "fixed" or _leads_to_movable(end_of(joint, "child"), below)
+        for joint in below.get(link, ())
     )
 
 
@@ -278,8 +281,3 @@ def _within(joint: UrdfJoint, limits: DriverLimits) -> UrdfJoint:
         )
     speed = min(joint.speed, limits.speed) if joint.speed > 0.0 else joint.speed
     return replace(joint, lower=lower, upper=upper, speed=speed)
-
-
-def _end(joint: ET.Element, end: str) -> str:
-    found = joint.find(end)
-    return "" if found is None else found.get("link", "")

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Discriminator, StringConstraints, Tag, WithJsonSchema
 
-from rgss.documents import Dimensionless, DocumentModel, Identifier
+from rgss.documents import Dimensionless, DocumentModel, Identifier, number_as_text
 
 
 class RequirementAnchor(DocumentModel):
@@ -20,18 +20,13 @@ Anchor = float | RequirementAnchor
 """A quantity in the measure's unit, or one that a requirement gives."""
 
 
-def _as_text(value: Any) -> Any:
-    # A pure number may be written bare.
-    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
-
-
 def _kind_of_anchor(value: Any) -> str:
     return "anchor" if isinstance(value, (dict, RequirementAnchor)) else "quantity"
 
 
 QuantityField = Annotated[
     str,
-    BeforeValidator(_as_text),
+    BeforeValidator(number_as_text),
     StringConstraints(min_length=1, max_length=60),
     WithJsonSchema(
         {
