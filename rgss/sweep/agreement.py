@@ -33,11 +33,7 @@ class Agreement(str, Enum):
 
 
 def deviation(change: Change) -> float | None:
-    """Relative deviation of a number; None for other values.
-
-    Args:
-        change: The difference.
-    """
+    """Relative deviation of a number; None for other values."""
     try:
         then, now = float(change.then), float(change.now)
     except ValueError:

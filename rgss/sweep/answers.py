@@ -31,12 +31,7 @@ _READERS: Mapping[PieceKind, Callable[[str], object]] = {
 
 
 def checked(ended: Ended, task: Task) -> Ended:
-    """The end of a task; one whose result does not fit the task has failed by a wrong answer.
-
-    Args:
-        ended: End of the task, from any worker.
-        task: The task.
-    """
+    """The end of a task; one whose result does not fit the task has failed by a wrong answer."""
     if ended.failure is not None:
         return ended
     problem = answer_problem(task, ended.result)
@@ -49,23 +44,13 @@ def checked(ended: Ended, task: Task) -> Ended:
 
 
 def wrong_answer(key: str, problem: str) -> Ended:
-    """The end of a task that was answered wrongly, which another worker may do better.
-
-    Args:
-        key: The task's name.
-        problem: Problem with the answer.
-    """
+    """The end of a task that was answered wrongly, which another worker may do better."""
     failure = TaskError(kind=RunFailureKind.WRONG_ANSWER, detail=problem, may_pass=True)
     return Ended(key=key, result=None, failure=failure, took_s=0.0)
 
 
 def answer_problem(task: Task, result: object) -> str:
-    """Problem of the result of a task; empty if it can be kept.
-
-    Args:
-        task: The task.
-        result: Result of the worker.
-    """
+    """Problem of the result of a task; empty if it can be kept."""
     try:
         return _piece_problem(task, result) if isinstance(task, PieceTask) else record_problem(task.spec, result)
     # Its parts may be of any kind, and break on anything.
@@ -77,10 +62,6 @@ def answer_problem(task: Task, result: object) -> str:
 
 def record_problem(spec: TrialSpec, record: object) -> str:
     """Problem of the record of a trial; empty if it is valid.
-
-    Args:
-        spec: The trial.
-        record: Its record.
 
     Raises:
         EvidenceError: A part of the record has a wrong type, or is not finite.

@@ -27,11 +27,7 @@ class Durations:
         self._sums: dict[TaskClass, tuple[float, float]] = {}
 
     def class_of(self, task: Task) -> TaskClass:
-        """Features of a task that decide its duration.
-
-        Args:
-            task: The task.
-        """
+        """Features of a task that decide its duration."""
         spec = task.spec
         if isinstance(task, TrialTask):
             return "trial", spec.planner, spec.tool_speed_m_s
@@ -42,11 +38,7 @@ class Durations:
         return task.kind.value, "", spec.tool_speed_m_s
 
     def expected_s(self, tasks: TaskClass) -> float:
-        """The time that a task of a class is expected to take.
-
-        Args:
-            tasks: The class.
-        """
+        """The time that a task of a class is expected to take."""
         sum_s, weight = self._sums.get(tasks, (_WEIGHT_OF_GUESS * _guess_s(tasks), _WEIGHT_OF_GUESS))
         return sum_s / weight
 

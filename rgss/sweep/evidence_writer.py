@@ -84,21 +84,12 @@ class TrialWriter:
         self._since: float | None = None
 
     def keep_piece(self, piece: Piece) -> None:
-        """Keep a piece.
-
-        Args:
-            piece: The piece.
-        """
+        """Keep a piece."""
         self._pieces.append(piece)
         self._begin()
 
     def keep_trial(self, trial: Trial, record: TrialRecord) -> None:
-        """Keep the record of a trial.
-
-        Args:
-            trial: The trial.
-            record: Its record.
-        """
+        """Keep the record of a trial."""
         inputs = named_inputs(trial.spec)
         if inputs.digest not in self._inputs_there:
             self._inputs[inputs.digest] = inputs.values

@@ -46,9 +46,6 @@ class KeptSearches:
     def plan(self, spec: TrialSpec) -> TaskPlan:
         """Searches for every planned move of a trial's task.
 
-        Args:
-            spec: The trial.
-
         Raises:
             MotionError: The planner is not available.
         """

@@ -112,11 +112,7 @@ def compared_planners(
 
 
 def has_searches(project: Project) -> bool:
-    """True if a planner searches for some move of the task.
-
-    Args:
-        project: The project with its study.
-    """
+    """True if a planner searches for some move of the task."""
     return bool(project.study.task.planned) and any(
         spec.searched for spec in trial_specs(project, seeds=[project.study.seed])
     )

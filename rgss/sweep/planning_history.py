@@ -17,10 +17,6 @@ def planning_runs(project: Project, store: EvidenceStore) -> tuple[PlanningRun, 
     longest limit saw it. A move that was not planned, because one before it failed or the study makes it another
     way, has no run.
 
-    Args:
-        project: The project with its study.
-        store: The evidence.
-
     Raises:
         EvidenceError: The store is damaged.
     """

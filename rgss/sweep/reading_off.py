@@ -61,9 +61,6 @@ class StoredSearches:
 
         A derived record equals that of running the trial.
 
-        Args:
-            specs: The trials.
-
         Raises:
             EvidenceError: The store is damaged.
             DefinitionError: A planning limit is longer than the search.

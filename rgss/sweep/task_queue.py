@@ -16,13 +16,7 @@ _LAST = 3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trial:
-    """A trial of a study.
-
-    Attributes:
-        key: Its key in the store.
-        spec: The trial.
-        digests: The digests of its pieces.
-    """
+    """A trial of a study."""
 
     key: str
     spec: TrialSpec
@@ -91,11 +85,7 @@ class TaskQueue:
         return self._tasks[self._ready[best].popleft()]
 
     def give_back(self, task: Task) -> None:
-        """Return a task to the queue.
-
-        Args:
-            task: The task.
-        """
+        """Return a task to the queue."""
         self._ready.setdefault(self.durations.class_of(task), deque()).append(task.digest)
 
     def done(self, digest: str, *, took_s: float) -> None:
@@ -121,9 +111,6 @@ class TaskQueue:
     def give_up(self, digest: str) -> tuple[Trial, ...]:
         """Mark a task and its dependents as failed.
 
-        Args:
-            digest: The task's digest.
-
         Returns:
             The trials without a record as a consequence.
         """
@@ -145,21 +132,13 @@ class TaskQueue:
         return tuple(lost.values())
 
     def release(self, digest: str) -> None:
-        """Record one use of a piece.
-
-        Args:
-            digest: The piece's digest.
-        """
+        """Record one use of a piece."""
         self._uses[digest] -= 1
         if self._uses[digest] <= 0:
             del self._uses[digest]
 
     def is_used(self, digest: str) -> bool:
-        """True if something that is left needs a piece.
-
-        Args:
-            digest: The piece's digest.
-        """
+        """True if something that is left needs a piece."""
         return digest in self._uses
 
     def complete(self) -> Iterable[Trial]:

@@ -16,20 +16,13 @@ def key_of(spec: TrialSpec) -> str:
 
 
 def keys_of(specs: Sequence[TrialSpec]) -> tuple[str, ...]:
-    """Keys of trials in the store; the versions, which take longer to find than a key, are found once.
-
-    Args:
-        specs: The trials.
-    """
+    """Keys of trials in the store; the versions, which take longer to find than a key, are found once."""
     found = versions() if specs else {}
     return tuple(_trial(spec, found).key for spec in specs)
 
 
 def trials_of(specs: Sequence[TrialSpec]) -> tuple[Trial, ...]:
     """The trials with their keys and digests, each once.
-
-    Args:
-        specs: The trials.
 
     Raises:
         DefinitionError: A planning limit is longer than the search.

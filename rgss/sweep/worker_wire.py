@@ -28,11 +28,7 @@ class WireError(Exception):
 
 
 def frame(content: bytes) -> bytes:
-    """A message as it is sent: mark, length, SHA-256, content.
-
-    Args:
-        content: Its content.
-    """
+    """A message as it is sent: mark, length, SHA-256, content."""
     return _HEAD.pack(_MARK, len(content), hashlib.sha256(content).digest()) + content
 
 
@@ -50,9 +46,6 @@ class FrameReader:
 
     def feed(self, data: bytes) -> list[bytes]:
         """Add received bytes; returns the messages that are complete with them.
-
-        Args:
-            data: Received bytes.
 
         Raises:
             WireError: It is not a message.
@@ -105,11 +98,7 @@ class Channel:
         return bool(self._unsent)
 
     def send(self, content: bytes) -> None:
-        """Send a message, as far as the other end takes it; the rest goes with `flush`.
-
-        Args:
-            content: Its content.
-        """
+        """Send a message, as far as the other end takes it; the rest goes with `flush`."""
         self._unsent += frame(content)
         self.flush()
 
@@ -149,20 +138,13 @@ class BlockingChannel:
     """The worker's end of the connection, which waits for its tasks."""
 
     def __init__(self, end: connection.Connection) -> None:
-        """Use one end of a pipe.
-
-        Args:
-            end: The end.
-        """
+        """Use one end of a pipe."""
         self._end = end
         self._reader = FrameReader()
         self._arrived: list[bytes] = []
 
     def send(self, content: bytes) -> None:
         """Send a message.
-
-        Args:
-            content: Its content.
 
         Raises:
             OSError: The other end was closed.

@@ -139,9 +139,6 @@ class WorkerPool:
     def wait(self, timeout_s: float) -> list[Ended]:
         """Wait until tasks end, workers become free, or the time is over; returns what has ended.
 
-        Args:
-            timeout_s: The longest time to wait.
-
         Raises:
             SimulationError: Workers could not be started, one after another.
         """

@@ -15,20 +15,12 @@ Numerics = Mapping[str, str]
 
 
 def results_of(numerics: Numerics) -> dict[str, str]:
-    """Digest of each part's results, the compared values.
-
-    Args:
-        numerics: The numerics.
-    """
+    """Digest of each part's results, the compared values."""
     return {part: text.rpartition(" ")[2] for part, text in numerics.items()}
 
 
 def numerics_text(numerics: Numerics) -> str:
-    """Numerics in one line; "not recorded" if unknown.
-
-    Args:
-        numerics: The numerics.
-    """
+    """Numerics in one line; "not recorded" if unknown."""
     return "; ".join(f"{part}: {text}" for part, text in sorted(numerics.items())) or "not recorded"
 
 

@@ -86,9 +86,6 @@ def detail_line(text: str) -> str:
     """Text of a process, an engine or a file for messages: one line of bounded length, without control characters.
 
     Characters that are not printable, such as escapes and bidirectional controls, are replaced.
-
-    Args:
-        text: The text.
     """
     # Text far beyond the bound is not processed.
     line = printable(" ".join(text[: 20 * LONGEST_DETAIL].split()))

@@ -14,9 +14,6 @@ def numerics_census(database: Database) -> tuple[tuple[Numerics, int], ...]:
 
     Trials without recorded numerics are counted under empty numerics. Damaged rows are skipped; `verify` reports them.
 
-    Args:
-        database: The store's file.
-
     Raises:
         EvidenceError: The file cannot be read.
     """

@@ -57,21 +57,11 @@ class LedgerChanges:
         self._changes: dict[str, Total] = {}
 
     def added(self, table: Table[Any], row: Row) -> None:
-        """Add an inserted row.
-
-        Args:
-            table: Its table.
-            row: The whole row.
-        """
+        """Add an inserted row."""
         self._enter(table, _of_row(table, row))
 
     def removed(self, table: Table[Any], row: Row) -> None:
-        """Add a deleted row.
-
-        Args:
-            table: Its table.
-            row: The whole row.
-        """
+        """Add a deleted row."""
         self._enter(table, Total() - _of_row(table, row))
 
     def write(self, database: Database) -> None:

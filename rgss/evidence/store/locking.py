@@ -16,9 +16,6 @@ def folder_lock(folder: Path) -> Iterator[None]:
 
     It has no effect where the file system supports no locks.
 
-    Args:
-        folder: The folder.
-
     Raises:
         OSError: The folder cannot be opened.
     """

@@ -35,11 +35,7 @@ class StoreState:
 
 
 def state_of(path: Path) -> StoreState:
-    """Present state of a store's files, without opening them.
-
-    Args:
-        path: The file.
-    """
+    """Present state of a store's files, without opening them."""
     place = Path(os.path.realpath(path))
     return StoreState(tuple(_looked_up(place.with_name(f"{place.name}{ending}")) for ending in _FILES))
 

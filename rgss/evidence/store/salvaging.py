@@ -18,10 +18,6 @@ from rgss.evidence.store.tables import Table
 def copy_rows(rows: Iterable[tuple[Table[Any], Row]], to: Path) -> int:
     """Insert rows into a new store, without duplicate keys.
 
-    Args:
-        rows: Each row with its table.
-        to: The new file.
-
     Returns:
         The number of copied rows.
 
@@ -42,12 +38,7 @@ def copy_rows(rows: Iterable[tuple[Table[Any], Row]], to: Path) -> int:
 
 
 def readable_rows(connection: sqlite3.Connection, table: Table[Any]) -> Iterator[tuple[int, Row]]:
-    """Valid rows of a table, each with its row number.
-
-    Args:
-        connection: The damaged store.
-        table: The table.
-    """
+    """Valid rows of a table, each with its row number."""
     for number in row_numbers(connection, table)[0]:
         try:
             row = numbered_row(connection, table, number)
@@ -62,10 +53,6 @@ def row_numbers(connection: sqlite3.Connection, table: Table[Any]) -> tuple[list
 
     They are stored both in the table and in the index of its keys, so that if pages of one are damaged the other still
     lists the rows on the valid pages.
-
-    Args:
-        connection: The store.
-        table: The table.
     """
     statement = table.present.replace("SELECT 1", "SELECT rowid", 1)
     found: set[int] = set()
@@ -81,11 +68,6 @@ def row_numbers(connection: sqlite3.Connection, table: Table[Any]) -> tuple[list
 
 def numbered_row(connection: sqlite3.Connection, table: Table[Any], number: int) -> Row:
     """Row by number.
-
-    Args:
-        connection: The store.
-        table: The table.
-        number: The row's number.
 
     Raises:
         EvidenceError: The row cannot be found.

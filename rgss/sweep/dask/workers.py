@@ -101,9 +101,6 @@ class DaskWorkers:
     def wait(self, timeout_s: float) -> list[Ended]:
         """Wait until tasks end or the timeout; returns the ended tasks.
 
-        Args:
-            timeout_s: The timeout.
-
         Raises:
             SimulationError: The scheduler or all workers are lost, or a worker is not equivalent to this process.
         """
