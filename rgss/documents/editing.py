@@ -34,12 +34,7 @@ class SetKey:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RemoveKey:
-    """Edit: remove a key with its value from a mapping.
-
-    Attributes:
-        location: The mapping.
-        key: The key.
-    """
+    """Edit: remove a key with its value from a mapping."""
 
     location: Location
     key: str
@@ -47,12 +42,7 @@ class RemoveKey:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AppendEntry:
-    """Edit: append an entry to a new or existing list of the file's top mapping.
-
-    Attributes:
-        key: The key of the list.
-        entry: The entry.
-    """
+    """Edit: append an entry to a new or existing list of the file's top mapping."""
 
     key: str
     entry: Any
@@ -60,12 +50,7 @@ class AppendEntry:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RemoveEntry:
-    """Edit: remove an entry from a list.
-
-    Attributes:
-        location: The list.
-        index: The entry.
-    """
+    """Edit: remove an entry from a list."""
 
     location: Location
     index: int

@@ -157,11 +157,7 @@ def is_standard_output(path: Path) -> bool:
 
 
 def remove_abandoned_parts(folder: Path) -> None:
-    """Remove the temporary files of processes that were killed while they wrote into a folder.
-
-    Args:
-        folder: The folder.
-    """
+    """Remove the temporary files of processes that were killed while they wrote into a folder."""
     with suppress(OSError):
         for part in sorted(folder.glob(_PART.format(process="*", number="*"))):
             process = part.name.split("-")[1]

@@ -30,12 +30,7 @@ def position_of(mark: Mark) -> Position:
 
 @dataclass(frozen=True, slots=True)
 class ListPlaces:
-    """Positions of a list and its entries.
-
-    Attributes:
-        mark: Position of its start.
-        inner: Positions of its entries.
-    """
+    """Positions of a list and its entries."""
 
     mark: Mark
     inner: list[Places]
@@ -43,13 +38,7 @@ class ListPlaces:
 
 @dataclass(frozen=True, slots=True)
 class MappingPlaces:
-    """Positions of a mapping, its keys and their values.
-
-    Attributes:
-        mark: Position of its start.
-        keys: Position of each key.
-        inner: Position of the value of each key.
-    """
+    """Positions of a mapping, its keys and their values."""
 
     mark: Mark
     keys: dict[str, Mark]
@@ -64,12 +53,7 @@ class _Positions(Mapping[Location, Position]):
     """Positions of the parts of a file by their locations."""
 
     def __init__(self, places: Places, end: Callable[[], Position]) -> None:
-        """Positions of a whole file.
-
-        Args:
-            places: The positions.
-            end: End of the file.
-        """
+        """Positions of a whole file."""
         self._places = places
         self._end = end
 

@@ -19,11 +19,6 @@ def first_problems(document: Document, model: type[BaseModel], error: Validation
 
     Listing millions of problems takes gigabytes, counting them does not. With so many only the beginning of the file is
     validated.
-
-    Args:
-        document: The file.
-        model: Its type.
-        error: The validation error of the whole file.
     """
     counted = error if error.error_count() <= _MOST_LISTED else _with_fewer(document.data, model, error)
     problems: list[Any] = list(counted.errors(include_url=False))

@@ -41,10 +41,6 @@ def place_of(path: Path, project: Path) -> FilePlace:
 def content_digest(path: Path, *, largest_bytes: int) -> str | None:
     """SHA-256 of a file's content, read in chunks; None if the file is larger than a limit.
 
-    Args:
-        path: The file.
-        largest_bytes: The limit in bytes.
-
     Raises:
         OSError: The file cannot be read.
     """

@@ -49,11 +49,7 @@ def new_project_source(path: Path) -> str:
 
 
 def source_with_another_name(status: os.stat_result) -> str:
-    """The source of the project around the working folder that is this file too, by a hard link; empty if none is.
-
-    Args:
-        status: Status of the file.
-    """
+    """The source of the project around the working folder that is this file too, by a hard link; empty if none is."""
     if status.st_nlink < 2:
         return ""
     for folder in (Path.cwd(), *Path.cwd().parents):

@@ -17,9 +17,6 @@ _AT_ONCE = 1024 * 1024
 def open_regular(path: Path) -> Iterator[BinaryIO]:
     """Open a regular file for reading.
 
-    Args:
-        path: The file.
-
     Raises:
         OSError: The file cannot be opened, or is not a regular file.
         ValueError: The path has a null character.

@@ -7,11 +7,7 @@ import sys
 
 
 def is_running(process: int) -> bool:
-    """True if a process exists, or if that cannot be known.
-
-    Args:
-        process: Its number.
-    """
+    """True if a process exists, or if that cannot be known."""
     if sys.platform == "win32":
         return True
     try:

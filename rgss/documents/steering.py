@@ -19,29 +19,17 @@ _STEERING = re.compile(
 
 
 def has_control_characters(text: str) -> bool:
-    """True if a text has a character that controls a terminal or the order of the displayed text.
-
-    Args:
-        text: The text.
-    """
+    """True if a text has a character that controls a terminal or the order of the displayed text."""
     return _STEERING.search(text) is not None
 
 
 def escaped_for_json(text: str) -> str:
-    r"""A JSON document, or a text for a terminal, with such characters as ``\uXXXX``.
-
-    Args:
-        text: The document.
-    """
+    r"""A JSON document, or a text for a terminal, with such characters as ``\uXXXX``."""
     return _escaped(text, _as_json)
 
 
 def escaped_for_xml(text: str) -> str:
-    """An XML document with such characters as references, as far as XML may have them.
-
-    Args:
-        text: The document.
-    """
+    """An XML document with such characters as references, as far as XML may have them."""
     return _escaped(text, lambda sign: f"&#x{ord(sign):x};")
 
 

@@ -132,10 +132,6 @@ def written(folder: Path, files: Sequence[FileChange]) -> None:
 
     What is written when the process is killed is undone by `undone`.
 
-    Args:
-        folder: The project.
-        files: The changes.
-
     Raises:
         DefinitionError: A file cannot be written, or has changed in the meantime.
     """

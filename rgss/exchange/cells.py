@@ -21,21 +21,12 @@ class CellError(ValueError):
 
 
 def cells_of(part: Part, entry: Mapping[str, Any]) -> dict[str, str]:
-    """Every attribute of an entry as one text.
-
-    Args:
-        part: Part of the entry.
-        entry: The entry of a YAML file.
-    """
+    """Every attribute of an entry as one text."""
     return {attribute.name: _cell(attribute, _at(entry, attribute.path)) for attribute in ATTRIBUTES[part]}
 
 
 def entry_of(part: Part, cells: Cells) -> dict[str, Any]:
     """Entry from the texts of its attributes; empty ones are omitted.
-
-    Args:
-        part: Part of the entry.
-        cells: Its attributes as texts.
 
     Raises:
         CellError: A text does not have the form of its attribute.

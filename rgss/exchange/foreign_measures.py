@@ -14,10 +14,6 @@ def with_measures_compared(foreign: Content, definitions: Mapping[str, str]) -> 
     """Content of a file with a loss for each of its measures that the project defines otherwise, or not at all.
 
     A measure is an expression with units and an estimate, which a file of requirements does not have.
-
-    Args:
-        foreign: The file.
-        definitions: The definition of each measure of the project by id.
     """
     losses = []
     for name, text in foreign.measures:

@@ -220,12 +220,7 @@ def likely_attribute(long: str, names: Iterable[str] = ATTRIBUTE_NAMES) -> str:
 
 
 def with_values_mapped(foreign: Content, names: ForeignNames) -> Content:
-    """Content of a file with the values of rgss in place of the mapped ones.
-
-    Args:
-        foreign: The file.
-        names: The mapped names.
-    """
+    """Content of a file with the values of rgss in place of the mapped ones."""
     if not names.values:
         return foreign
     return replace(foreign, rows=tuple(_mapped(row, names) for row in foreign.rows))

@@ -25,9 +25,6 @@ def importing(folder: Path) -> Iterator[None]:
     The folder of the requirements is locked, from before they are read until they are written; the lock ends with the
     process.
 
-    Args:
-        folder: The project.
-
     Raises:
         DefinitionError: Another import is under way.
     """
@@ -80,11 +77,7 @@ def journal_of(folder: Path, files: Mapping[str, tuple[bytes, bytes | None]]) ->
 
 
 def contents_of(folder: Path) -> dict[str, bytes]:
-    """The content of each file of requirements by its name, relative to the project.
-
-    Args:
-        folder: The project.
-    """
+    """The content of each file of requirements by its name, relative to the project."""
     found = {}
     for path in sorted((folder / "requirements").rglob("*.y*ml")):
         # What cannot be read is reported by whoever reads the project.
@@ -112,9 +105,6 @@ def was_interrupted(folder: Path) -> bool:
 
 def undone(folder: Path) -> tuple[str, ...]:
     """Undo an import that was killed while it wrote; to be called within `importing`.
-
-    Args:
-        folder: The project.
 
     Returns:
         The names of the files that have their old content again; a file that was changed since keeps its content.

@@ -86,9 +86,6 @@ class NamesAndDefaults:
 def read_mapping(path: Path) -> NamesAndDefaults:
     """Read a mapping file.
 
-    Args:
-        path: The file.
-
     Raises:
         DocumentError: It cannot be read, or names an attribute that rgss does not have.
     """

@@ -37,11 +37,7 @@ _STATED = ("verification_result", "verified_by", "verified_on")
 
 
 def record_cells(records: Mapping[str, RecordEvidence]) -> Mapping[str, Mapping[str, str]]:
-    """The attributes that verification records give to requirements, as texts.
-
-    Args:
-        records: The records by id of the requirement.
-    """
+    """The attributes that verification records give to requirements, as texts."""
     return {
         name: {
             "verification_result": found.record.result.value,
@@ -55,11 +51,7 @@ def record_cells(records: Mapping[str, RecordEvidence]) -> Mapping[str, Mapping[
 
 
 def evidence_lines(found: RecordEvidence) -> Iterator[str]:
-    """What a verification record rests on, line by line: its note, its files, and what has changed since.
-
-    Args:
-        found: The record.
-    """
+    """What a verification record rests on, line by line: its note, its files, and what has changed since."""
     if found.record.note:
         yield found.record.note
     for file, digest in sorted(found.record.files.items()):

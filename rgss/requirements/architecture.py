@@ -60,12 +60,7 @@ class Block:
 
 
 def inherited_blocks(block: Block, blocks: Mapping[str, Block]) -> Iterator[Block]:
-    """A block, then those that it is a kind of, whose parts, values and ports it has too.
-
-    Args:
-        block: The block.
-        blocks: Every block by its id.
-    """
+    """A block, then those that it is a kind of, whose parts, values and ports it has too."""
     seen: set[str] = set()
     step: Block | None = block
     while step is not None and step.id not in seen:

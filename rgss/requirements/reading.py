@@ -42,12 +42,7 @@ class FolderReader:
         self._findings = findings
 
     def part(self, name: str, model: type[_Model]) -> LoadedPart[_Model]:
-        """Read a part: the file ``name.yaml``, or every ``.yaml`` file below the folder ``name``.
-
-        Args:
-            name: The part.
-            model: Type of each of its files.
-        """
+        """Read a part: the file ``name.yaml``, or every ``.yaml`` file below the folder ``name``."""
         inner, file = self._folder / name, f"{name}.yaml"
         if not inner.is_dir():
             found = self._load(file, model)

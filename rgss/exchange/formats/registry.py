@@ -16,9 +16,6 @@ EXPORT_FORMATS: tuple[ExportFormat, ...] = (REQIF, SYSML, CSV, EXCEL, OMPL)
 def export_format(name: str) -> ExportFormat:
     """The format with a name.
 
-    Args:
-        name: Its name.
-
     Raises:
         DefinitionError: The name is unknown.
     """

@@ -28,12 +28,7 @@ def is_archive(content: bytes) -> bool:
 
 
 def archive_of(text: str, name: str) -> bytes:
-    """An archive with one ReqIF file; the same text gives the same bytes.
-
-    Args:
-        text: The ReqIF file.
-        name: Its name within the archive.
-    """
+    """An archive with one ReqIF file; the same text gives the same bytes."""
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w") as archive:
         entry = zipfile.ZipInfo(name, date_time=_EPOCH)

@@ -97,9 +97,6 @@ class ObjectReader:
     def read(self, objects: Sequence[Any]) -> dict[str, ForeignObject]:
         """The objects that have an id, by their identifiers in the file.
 
-        Args:
-            objects: The objects as read by the library.
-
         Raises:
             UnsoundObjectError: Two objects have one identifier, or one is of no type.
         """

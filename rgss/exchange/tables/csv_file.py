@@ -48,9 +48,6 @@ def csv_text(content: Content) -> str:
     """Write requirements as CSV, one row each.
 
     A text that a spreadsheet might evaluate as a formula gets a leading apostrophe, which `read_csv` removes.
-
-    Args:
-        content: The project.
     """
     heads = columns_of_both()
     out = io.StringIO(newline="")

@@ -43,9 +43,6 @@ def excel_bytes(content: Content) -> bytes:
 
     Texts are text cells, also if they look like formulas; the same content gives the same bytes.
 
-    Args:
-        content: The project.
-
     Raises:
         DefinitionError: The package openpyxl is not installed, or a text is longer than a cell holds.
     """

@@ -37,11 +37,7 @@ class ForeignRows:
     """Reader of rows, with a list of those that are not imported."""
 
     def __init__(self, table: ForeignTable) -> None:
-        """Create a reader.
-
-        Args:
-            table: What is known of the table.
-        """
+        """Create a reader."""
         self._table = table
         self._lacking: Counter[str] = Counter()
         self._of_no_part: Counter[str] = Counter()
