@@ -104,12 +104,7 @@ def component_set_findings(document: Document, components: Sequence[Component]) 
 
 
 def design_value_findings(designs: DesignSpace, document: Document) -> Iterator[Finding]:
-    """Findings about values of parameters out of the range of their quantity.
-
-    Args:
-        designs: The design space.
-        document: Its file.
-    """
+    """Findings about values of parameters out of the range of their quantity."""
     settings = {one.id: settable_quantity(one.sets) for one in designs.parameters}
     for place, name, value in written_values(designs):
         setting = settings[name]
@@ -118,11 +113,7 @@ def design_value_findings(designs: DesignSpace, document: Document) -> Iterator[
 
 
 def written_values(designs: DesignSpace) -> Iterator[tuple[_Location, str, ParameterValue]]:
-    """All values of parameters in the file, with their locations.
-
-    Args:
-        designs: The design space.
-    """
+    """All values of parameters in the file, with their locations."""
     for name, value in designs.constants.items():
         yield ("constants", name), name, value
     for number, factor in enumerate(designs.factors):

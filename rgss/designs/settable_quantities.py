@@ -161,11 +161,7 @@ SETTABLE_QUANTITIES: Mapping[str, SettableQuantity] = MappingProxyType({one.name
 
 
 def settable_quantity(name: str) -> SettableQuantity | None:
-    """Settable quantity by name, including parameters of planners; None if unknown.
-
-    Args:
-        name: Its name in files.
-    """
+    """Settable quantity by name, including parameters of planners; None if unknown."""
     return SETTABLE_QUANTITIES.get(name) or PLANNER_QUANTITIES.get(name)
 
 

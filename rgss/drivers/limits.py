@@ -123,12 +123,7 @@ class Guard:
         return self._limits
 
     def begin(self, measured_rad: Sequence[float], start_rad: Sequence[float]) -> str:
-        """Admit the start of a task at rest; the reason against it, or an empty text.
-
-        Args:
-            measured_rad: Where the robot is.
-            start_rad: Where the task begins.
-        """
+        """Admit the start of a task at rest; the reason against it, or an empty text."""
         names = self._limits.names
         if len(measured_rad) != len(names):
             return f"the robot reports {counted(len(measured_rad), 'joint')}, the task moves {len(names)}"
@@ -150,11 +145,7 @@ class Guard:
         return ""
 
     def check(self, positions_rad: Sequence[float]) -> str:
-        """The reason against a set point, or an empty text. Nothing is remembered.
-
-        Args:
-            positions_rad: Joint positions of the set point.
-        """
+        """The reason against a set point, or an empty text. Nothing is remembered."""
         if self._last is None:
             return "no set point may be sent before the start of the task is admitted"
         reason = self._against_range(positions_rad)
@@ -179,11 +170,7 @@ class Guard:
         return ""
 
     def admit(self, positions_rad: Sequence[float]) -> tuple[float, ...]:
-        """Remember a set point that was checked and is sent; returns its velocities in rad/s.
-
-        Args:
-            positions_rad: Joint positions of the set point.
-        """
+        """Remember a set point that was checked and is sent; returns its velocities in rad/s."""
         position = np.array(positions_rad, dtype=float)
         if self._last is not None:
             self._velocity = (position - self._last) / self._period_s

@@ -37,9 +37,6 @@ def prints_to_stderr(module: str) -> None:
 
     It also prints from threads of its own at any time, so that redirecting the standard output while it is called
     would not do.
-
-    Args:
-        module: Name of the module.
     """
     vars(importlib.import_module(module))["print"] = _print_to_stderr
 

@@ -64,9 +64,5 @@ class TaskProgram:
         return tuple(found)
 
     def move(self, name: str) -> MoveStep:
-        """Move by name.
-
-        Args:
-            name: The name.
-        """
+        """Move by name."""
         return next(step for step in self.moves if step.name == name)

@@ -30,10 +30,6 @@ def value_columns(space: DesignSpace, variants: Sequence[DesignVariant]) -> tupl
 
     Values that a variant has at the same time, such as a component and the level that selects it, are in different
     columns of the same name.
-
-    Args:
-        space: The design space.
-        variants: Some of its variants.
     """
     names = FilterNames(
         parameters=space.parameters, factors=space.factors, catalogue=space.catalogue, selectors=space.selectors

@@ -20,13 +20,7 @@ class StepControlEntry(DocumentModel):
 
 
 def control_of(entry: StepControlEntry | None, reader: TaskReader, at: Location) -> StepControl | None:
-    """Joint control of a step; None for that of the study.
-
-    Args:
-        entry: Its entry.
-        reader: The reader of the file.
-        at: Location of the step.
-    """
+    """Joint control of a step; None for that of the study."""
     if entry is None:
         return None
     here = (*at, "control")

@@ -97,13 +97,7 @@ class TaskDocument(DocumentModel):
 
 
 def placed_steps(entries: Iterable[StepEntry], reader: TaskReader, position: Position) -> Iterator[Placed]:
-    """Steps of entries with loops expanded, and findings in the reader.
-
-    Args:
-        entries: The entries.
-        reader: The reader of the file.
-        position: Position of the list.
-    """
+    """Steps of entries with loops expanded, and findings in the reader."""
     for index, entry in enumerate(entries):
         if len(entry.stated) != 1:
             said = " and ".join(entry.stated) or "none"

@@ -11,12 +11,7 @@ from rgss.tasks.steps import HandAction, MoveStep, Step
 
 
 def hand_findings(document: Document, placed: Sequence[tuple[Step, Location]]) -> Iterator[Finding]:
-    """A finding for each step whose precondition on the hand fails, and for a task that ends with a held object.
-
-    Args:
-        document: The task's file.
-        placed: The steps with their locations in it.
-    """
+    """A finding for each step whose precondition on the hand fails, and for a task that ends with a held object."""
     is_held = False
     for index, (step, at) in enumerate(placed):
         if step.hand is HandAction.CLOSES:

@@ -28,11 +28,7 @@ class Position:
     object: str = ""
 
     def within(self, *keys: str | int) -> Position:
-        """Position of a part of the entry.
-
-        Args:
-            *keys: Its path in the entry.
-        """
+        """Position of a part of the entry."""
         return replace(self, at=(*self.at, *keys))
 
 

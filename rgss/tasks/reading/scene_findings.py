@@ -15,12 +15,7 @@ from rgss.tasks.steps import CheckStep, HandAction, Mention, MoveStep, Named, Ta
 
 
 def task_findings(loaded: LoadedTask, scene: Scene) -> tuple[Finding, ...]:
-    """Findings about a task in a scene.
-
-    Args:
-        loaded: The task with its positions in the file.
-        scene: The scene.
-    """
+    """Findings about a task in a scene."""
     found: list[Finding] = []
     start = loaded.program.start
     if start is not None:

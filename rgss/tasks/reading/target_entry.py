@@ -35,13 +35,7 @@ class TargetEntry(DocumentModel):
 
 
 def target_of(entry: TargetEntry, reader: TaskReader, position: Position) -> Target:
-    """Target of a move; without a name where the entry states none or several.
-
-    Args:
-        entry: Its entry.
-        reader: The reader of the file.
-        position: Position of the entry.
-    """
+    """Target of a move; without a name where the entry states none or several."""
     at = position.at
     given = [key for key in ("to", "configuration", "frame", "pose") if getattr(entry, key) is not None]
     if len(given) != 1:

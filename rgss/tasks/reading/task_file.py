@@ -19,13 +19,7 @@ from rgss.tasks.steps import MoveStep
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedTask:
-    """Task with the positions of its steps in the file.
-
-    Attributes:
-        program: The task.
-        document: Its file.
-        places: Location of each step in the file.
-    """
+    """Task with the positions of its steps in the file."""
 
     program: TaskProgram
     document: Document
