@@ -14,11 +14,7 @@ _LEAST_P = 0.001
 
 
 def driver_lines(found: DriversOfFailures) -> Iterator[str]:
-    """Lines with a sentence for each kind of failure, and the table behind it.
-
-    Args:
-        found: The drivers.
-    """
+    """Lines with a sentence for each kind of failure, and the table behind it."""
     if not found.seeds:
         yield "Nothing was drawn for these trials: neither the scene nor the study has 'uncertainty' or 'workload'."
         return
@@ -43,11 +39,7 @@ def driver_lines(found: DriversOfFailures) -> Iterator[str]:
 
 
 def driver_sentence(one: FailureDrivers) -> str:
-    """Sentence on the drivers of a kind of failure.
-
-    Args:
-        one: The kind with its drivers.
-    """
+    """Sentence on the drivers of a kind of failure."""
     where = f"{_place(one)} ({counted(one.trials, 'trial')}, {counted(one.seeds, 'seed')})"
     if not one.significant:
         return f"{where}: no draw stands out; more seeds would show weaker effects."
@@ -56,11 +48,7 @@ def driver_sentence(one: FailureDrivers) -> str:
 
 
 def driver_name(one: Driver) -> str:
-    """Name of a driver with its direction, such as ``large perception.x`` or ``low workpiece.friction``.
-
-    Args:
-        one: The driver.
-    """
+    """Name of a driver with its direction, such as ``large perception.x`` or ``low workpiece.friction``."""
     is_greater = one.auc >= 0.5
     if one.aspect is Aspect.CASE:
         return f"{'' if is_greater else 'not '}case {one.quantity}"
@@ -70,11 +58,7 @@ def driver_name(one: Driver) -> str:
 
 
 def drivers_to_json(found: DriversOfFailures) -> dict[str, Any]:
-    """The drivers as plain data.
-
-    Args:
-        found: The drivers.
-    """
+    """The drivers as plain data."""
     return {
         "trials": found.trials,
         "seeds": found.seeds,
@@ -104,11 +88,7 @@ def drivers_to_json(found: DriversOfFailures) -> dict[str, Any]:
 
 
 def case_lines(cases: Sequence[CaseSuccess]) -> Iterator[str]:
-    """Lines on the success of each case of the workload; empty if there is none.
-
-    Args:
-        cases: The cases.
-    """
+    """Lines on the success of each case of the workload; empty if there is none."""
     if cases:
         yield ""
         rows = [[one.case, str(one.trials), str(one.successes), f"{100.0 * one.share:.1f} %"] for one in cases]
@@ -116,11 +96,7 @@ def case_lines(cases: Sequence[CaseSuccess]) -> Iterator[str]:
 
 
 def cases_to_json(cases: Sequence[CaseSuccess]) -> list[dict[str, Any]]:
-    """The success of each case as plain data.
-
-    Args:
-        cases: The cases.
-    """
+    """The success of each case as plain data."""
     return [{"case": one.case, "trials": one.trials, "successes": one.successes} for one in cases]
 
 

@@ -213,12 +213,7 @@ def _refused(reasons: Mapping[str, str]) -> dict[str, list[str]]:
 
 
 def chosen_picture(chosen: int | None, pictures: Sequence[TrialPictures]) -> str:
-    """Data URL of the first picture of the chosen variant; empty without one.
-
-    Args:
-        chosen: The chosen variant.
-        pictures: Pictures of trials.
-    """
+    """Data URL of the first picture of the chosen variant; empty without one."""
     return next((data_address("image/png", one.still) for one in pictures if one.variant == chosen), "")
 
 

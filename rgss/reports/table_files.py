@@ -18,12 +18,7 @@ _WIDE, _NARROW, _MARK, _LONG_HEAD = 60.0, 18.0, 5.0, 12
 
 
 def to_markdown(tables: Sequence[Table], *, title: str) -> str:
-    """Write tables as one Markdown document with escaped cells.
-
-    Args:
-        tables: The tables.
-        title: The heading of the document.
-    """
+    """Write tables as one Markdown document with escaped cells."""
     parts = [f"# {_markdown(title)}\n"]
     for table in tables:
         parts.append(f"## {_markdown(table.title)}\n")

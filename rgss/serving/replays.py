@@ -20,11 +20,7 @@ _HIGHEST_SEED = 2**31 - 1
 
 
 def can_replay(project: Project) -> bool:
-    """True if trials of a study can be replayed here: contact is simulated, and the engines are installed.
-
-    Args:
-        project: The project with its study.
-    """
+    """True if trials of a study can be replayed here: contact is simulated, and the engines are installed."""
     return project.study.fidelity is Fidelity.CONTACT and not missing_engines(pictures=True)
 
 

@@ -10,11 +10,7 @@ from rgss.reports.plain_numbers import plain_number
 
 
 def confirmation_to_json(confirmation: Confirmation) -> dict[str, Any]:
-    """The confirmation as plain data; metrics are in the unit at the end of their name.
-
-    Args:
-        confirmation: The confirmation.
-    """
+    """The confirmation as plain data; metrics are in the unit at the end of their name."""
     selection = confirmation.selection
     return {
         "study": confirmation.study,

@@ -17,11 +17,7 @@ _MARKDOWN = re.compile(r"([\\`*_{}\[\]()#+!|~$@<>-])")
 
 
 def confirmation_lines(confirmation: Confirmation) -> Iterator[str]:
-    """The sentences, and the tables below them.
-
-    Args:
-        confirmation: The confirmation.
-    """
+    """The sentences, and the tables below them."""
     for sentence in summary_sentences(confirmation):
         yield printable(sentence)
     for table in confirmation_tables(confirmation):
@@ -33,11 +29,7 @@ def confirmation_lines(confirmation: Confirmation) -> Iterator[str]:
 
 
 def confirmation_to_markdown(confirmation: Confirmation) -> str:
-    """The same as a page in Markdown.
-
-    Args:
-        confirmation: The confirmation.
-    """
+    """The same as a page in Markdown."""
     lines = [f"# Confirmation of {_escaped(confirmation.study)}", ""]
     for sentence in summary_sentences(confirmation):
         lines += [_escaped(sentence), ""]

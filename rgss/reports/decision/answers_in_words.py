@@ -58,11 +58,7 @@ def method_sentence(one: ElicitedWeights) -> str:
 
 
 def consistency_sentences(found: Consistency) -> Iterator[str]:
-    """The indices with their limits, the worst triad and the worst answer with their corrections.
-
-    Args:
-        found: The inconsistency of the ratio answers.
-    """
+    """The indices with their limits, the worst triad and the worst answer with their corrections."""
     if found.is_contradicted:
         yield (
             f"The orders and ranges contradict the ratios: the worst is missed by ×{found.bound_factor:.3g} because of "

@@ -33,11 +33,7 @@ class AssumptionRow:
 
 
 def assumption_rows(made: StudyDecision) -> tuple[AssumptionRow, ...]:
-    """The rows of the table, in the order of the questions.
-
-    Args:
-        made: The decision.
-    """
+    """The rows of the table, in the order of the questions."""
     return tuple(
         AssumptionRow(
             title=one.question.title,
@@ -56,11 +52,7 @@ def assumption_rows(made: StudyDecision) -> tuple[AssumptionRow, ...]:
 
 
 def assumption_sentences(made: StudyDecision) -> Iterator[str]:
-    """Summary of the table, the command that completes it, and the decision at a lower fidelity.
-
-    Args:
-        made: The decision.
-    """
+    """Summary of the table, the command that completes it, and the decision at a lower fidelity."""
     if not made.assumptions:
         return
     known = [one for one in made.assumptions if one.is_same is not None]

@@ -82,11 +82,7 @@ def _failed(found: Conclusion) -> Iterator[str]:
 
 
 def rule_sentence(made: StudyDecision) -> str:
-    """The rule of the choice.
-
-    Args:
-        made: The decision.
-    """
+    """The rule of the choice."""
     within = "meet every requirement"
     if made.tolerance:
         share = share_text(made.tolerance)
@@ -111,9 +107,6 @@ def standing_sentence(made: StudyDecision) -> str:
 
     Open is what the headline counts as open: inconclusive, or without valid evidence. Not run by trials are those that
     no measure decides, unless a test or a record shows that they are missed.
-
-    Args:
-        made: The decision.
     """
     chosen = made.conclusion.chosen
     if chosen is None:
@@ -134,11 +127,7 @@ def standing_sentence(made: StudyDecision) -> str:
 
 
 def stale_sentence(made: StudyDecision) -> str:
-    """The requirements with a stale verdict on a design, the command that says why, and the remedy; empty without one.
-
-    Args:
-        made: The decision.
-    """
+    """Requirements with a stale verdict on a design, the command that says why, and the remedy; empty without one."""
     found = made.conclusion
     if not found.stale:
         return ""
@@ -187,11 +176,7 @@ def _seeds_text(group: SeedGroup) -> str:
 
 
 def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
-    """Sentences on the probability of the choice, on ties, and on the expected gain of more replicates.
-
-    Args:
-        made: The decision.
-    """
+    """Sentences on the probability of the choice, on ties, and on the expected gain of more replicates."""
     found = made.robustness
     weighting = None if found is None else found.analysis.weighting
     if found is None or weighting is None or weighting.uncertainty is None:

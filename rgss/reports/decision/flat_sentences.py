@@ -9,12 +9,7 @@ from rgss.reports.decision.words import amount
 
 
 def flat_sentences(flat: tuple[FlatWeight, ...], *, decides: bool = True) -> Iterator[str]:
-    """Sentences on weights that do not separate the designs, with advice.
-
-    Args:
-        flat: The weights.
-        decides: Whether the program decides by weights.
-    """
+    """Sentences on weights that do not separate the designs, with advice."""
     for one in flat:
         among = "feasible variants" if one.among_feasible else "variants"
         yield (

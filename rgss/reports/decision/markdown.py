@@ -42,11 +42,7 @@ END = "<!-- end of decision -->"
 
 
 def decision_section(made: StudyDecision) -> str:
-    """The decision, the reasons for it, and the effect of the assumed costs, between its markers.
-
-    Args:
-        made: The decision, whose robustness was analysed.
-    """
+    """The decision, the reasons for it, and the effect of the assumed costs, between its markers."""
     parts = [BEGIN, ""]
     found, exchange = made.robustness, None if made.sensitivity is None else made.sensitivity.exchange
     if made.comparison is None:
@@ -81,9 +77,6 @@ def _assumptions(made: StudyDecision) -> Iterator[str]:
 def text_with_place(file: Path) -> str:
     """Text of a file that has the markers of the section.
 
-    Args:
-        file: The file.
-
     Raises:
         DefinitionError: The file cannot be read, or does not have each marker exactly once.
     """
@@ -100,12 +93,7 @@ def text_with_place(file: Path) -> str:
 
 
 def with_section(text: str, section: str) -> str:
-    """A text with another section between its markers.
-
-    Args:
-        text: A text that has each marker once.
-        section: The section with its markers.
-    """
+    """A text with another section between its markers."""
     ended = section.replace("\n", "\r\n") if "\r\n" in text else section
     return text.partition(BEGIN)[0] + ended + text.partition(END)[2]
 

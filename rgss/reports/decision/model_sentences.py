@@ -11,11 +11,7 @@ from rgss.trace.views import share_in_words
 
 
 def model_cautions(made: StudyDecision) -> Iterator[str]:
-    """Cautions on verdicts, whether a variant is chosen or not: what an equation decides.
-
-    Args:
-        made: The decision.
-    """
+    """Cautions on verdicts, whether a variant is chosen or not: what an equation decides."""
     yield from (_equation_sentence(one) for one in made.equations)
     yield from (substitution_sentence(one, made.variants) for one in made.substitutions)
 

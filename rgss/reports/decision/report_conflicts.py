@@ -18,9 +18,6 @@ MOST_CONFLICTS_LISTED = 12
 def conflict_part(decision: Decision) -> Plain | None:
     """Requirements that cannot be met together, with the probability, and the repairs.
 
-    Args:
-        decision: The decision.
-
     Returns:
         None if a variant is feasible. Otherwise the conflicts with the probability that each remains
         when the replicates are resampled (None with one replicate), the repairs of all of them, the repair
@@ -67,11 +64,7 @@ def conflict_part(decision: Decision) -> Plain | None:
 
 
 def conflict_reasons(decision: Decision) -> Iterator[str]:
-    """Conflicts in sentences: the most probable one, the smallest repair of all, the nearest variant.
-
-    Args:
-        decision: The decision.
-    """
+    """Conflicts in sentences: the most probable one, the smallest repair of all, the nearest variant."""
     conflicts = decision.conflicts
     if conflicts is None:
         return

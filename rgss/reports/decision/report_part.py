@@ -39,11 +39,7 @@ _MOST_LISTED = 6
 
 
 def decision_part(made: StudyDecision) -> Plain:
-    """The decision, its reasons, its closest rivals, and what would change it.
-
-    Args:
-        made: The decision.
-    """
+    """The decision, its reasons, its closest rivals, and what would change it."""
     decision = made.decision
     return {
         "chosen": decision.chosen,
@@ -94,11 +90,7 @@ def decision_part(made: StudyDecision) -> Plain:
 
 
 def portfolio_sentence(portfolio: PortfolioDecision) -> str:
-    """The choice of a portfolio in a few sentences.
-
-    Args:
-        portfolio: The choice.
-    """
+    """The choice of a portfolio in a few sentences."""
     missing = no_portfolio(portfolio)
     if missing:
         return missing

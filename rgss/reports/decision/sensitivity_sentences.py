@@ -161,11 +161,7 @@ def _flip(bend: BentValue, end: BentEnd, word: str) -> str:
 
 
 def tied_by_weights_sentence(variants: tuple[int, ...]) -> str:
-    """Sentence on variants that are worth as much as the choice at the weights of the study alone.
-
-    Args:
-        variants: Their ids.
-    """
+    """Sentence on variants that are worth as much as the choice at the weights of the study alone."""
     are, they = ("is", "it is") if len(variants) == 1 else ("are", "they are")
     names = variants_text(variants)
     return (
@@ -175,11 +171,7 @@ def tied_by_weights_sentence(variants: tuple[int, ...]) -> str:
 
 
 def no_rival_clause(tornado: Tornado) -> str:
-    """Clause on a choice without a lead over another design: it is alone, or all feasible designs are tied with it.
-
-    Args:
-        tornado: The sensitivity of the choice.
-    """
+    """Clause on a choice without a lead over another design: it is alone, or all feasible designs are tied with it."""
     if tornado.tied:
         tied = f"{variants_text(tornado.tied)} {'is' if len(tornado.tied) == 1 else 'are'}"
         return f"every other feasible design is tied with variant {tornado.chosen}: {tied} worth as much"

@@ -122,11 +122,7 @@ def _side(limit: ClosestLimit) -> str:
 
 
 def cautions(made: StudyDecision) -> Iterator[str]:
-    """Cautions on a choice: double counting, weights without effect, equations that the simulation contradicts.
-
-    Args:
-        made: The decision.
-    """
+    """Cautions on a choice: double counting, weights without effect, equations that the simulation contradicts."""
     for overlap in made.double_counted:
         instead = f" {overlap.instead} could be valued instead of {overlap.whole}." if overlap.instead else ""
         yield f"{overlap.whole} contains {overlap.part}, so {overlap.part} counts twice.{instead}"
@@ -155,21 +151,13 @@ def unvalued_sentences(conflicts: Conflicts | None) -> Iterator[str]:
 
 
 def gap_sentence(gap: ModelGap) -> str:
-    """Both values of a measure that an equation gives and the simulation shows, without a full stop.
-
-    Args:
-        gap: Their difference.
-    """
+    """Both values of a measure that an equation gives and the simulation shows, without a full stop."""
     values = f"{amount(gap.by_equation, gap.unit)} by the equation, {amount(gap.simulated, gap.unit)} simulated"
     return f"{gap.measure} is {values} ({gap.simulated_as}, {100.0 * gap.relative:+.0f} %)"
 
 
 def reading_lines(made: StudyDecision) -> Iterator[str]:
-    """The choice under each reading of the source, one line each.
-
-    Args:
-        made: The decision.
-    """
+    """The choice under each reading of the source, one line each."""
     for outcome in made.readings:
         reading = outcome.reading
         if outcome.reason:
@@ -217,11 +205,7 @@ def notable_checks(checks: tuple[Check, ...]) -> list[str]:
 
 
 def unmeasured_sentence(names: Sequence[str]) -> str:
-    """Sentence on requirements without a value in any variant; empty if there are none.
-
-    Args:
-        names: Their ids.
-    """
+    """Sentence on requirements without a value in any variant; empty if there are none."""
     if not names:
         return ""
     verdict = "Its verdicts are" if len(names) == 1 else "Their verdicts are"

@@ -78,10 +78,6 @@ def activity_diagram(activity: Behaviour, names: Mapping[str, str]) -> Drawing |
 
     Each performer of its actions has a lane.
 
-    Args:
-        activity: The activity.
-        names: The name of each block by its id.
-
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
     """
@@ -163,9 +159,6 @@ def state_diagram(behaviour: Behaviour) -> Drawing | None:
     """State diagram: states and transitions; None while the machine is open.
 
     Transitions with the same ends are one arrow with a line for each.
-
-    Args:
-        behaviour: The behaviour.
 
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.

@@ -15,9 +15,6 @@ _BORDER = "border "
 def internal_block_diagrams(blocks: Sequence[Block]) -> tuple[Drawing, ...]:
     """Draw each block that has connectors.
 
-    Args:
-        blocks: The structure.
-
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
     """

@@ -27,10 +27,6 @@ def replay_to_glb(scene: ReplayScene, *, title: str) -> bytes:
     Every node is a child of one that rotates the world frame (z up) into that of glTF (y up). The extras of
     a node have its `kind`: body, link, object, perceived, path or graph; those of a line have its `phase`. Times are
     those of the trial.
-
-    Args:
-        scene: The scene of the replay.
-        title: Title of the file.
     """
     import pygltflib
 

@@ -37,9 +37,6 @@ class PackedReplay:
 def replay_to_html(replays: Sequence[PackedReplay]) -> str:
     """A page that plays one trial, or two as a ghost or side by side.
 
-    Args:
-        replays: The trials, one or two.
-
     Raises:
         DefinitionError: The package ``jinja2`` is not installed.
     """

@@ -21,12 +21,7 @@ _SHOWN = {"rad": ("°", math.degrees(1.0)), "m": ("mm", 1e3)}
 
 
 def timeline_to_json(timeline: Timeline, scene: ReplayScene) -> dict[str, Any]:
-    """Timeline that a replay's page shows beside the scene, as plain data for JSON; unknown values are None.
-
-    Args:
-        timeline: The timeline.
-        scene: The scene of the replay.
-    """
+    """Timeline that a replay's page shows beside the scene, as plain data for JSON; unknown values are None."""
     return {
         "title": timeline.title,
         "outcome": timeline.outcome,

@@ -13,11 +13,7 @@ _MOST_REPLAYS = 5
 
 
 def comparison_rows(document: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """The chosen variant beside the runner-up, a row for each parameter that varies and each weighted measure.
-
-    Args:
-        document: The report's document.
-    """
+    """The chosen variant beside the runner-up, a row for each parameter that varies and each weighted measure."""
     decision, variants = document["decision"], document["variants"]
     shown = [variants["id"].index(one) for one in (decision["chosen"], decision["runner_up"]) if one is not None]
     if not shown:
@@ -56,11 +52,7 @@ def comparison_rows(document: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def compared_trials(document: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """The trials of the chosen variant and of the runner-up, each with the command that runs it again.
-
-    Args:
-        document: The report's document.
-    """
+    """The trials of the chosen variant and of the runner-up, each with the command that runs it again."""
     decision, variants, trials = document["decision"], document["variants"], document["trials"]
     shown = [variants["id"].index(one) for one in (decision["chosen"], decision["runner_up"]) if one is not None]
     rows: dict[int, list[int]] = {place: [] for place in shown}

@@ -32,11 +32,7 @@ def factor_columns(measured: Sequence[VariantMeasures], effects: StudyEffects) -
 
 
 def effect_columns(effects: StudyEffects) -> list[Plain]:
-    """The main effects of all factors on each measure, and the shares of interactions.
-
-    Args:
-        effects: The effects from the trade-off.
-    """
+    """The main effects of all factors on each measure, and the shares of interactions."""
     return [_effects(one) for one in effects.measures]
 
 

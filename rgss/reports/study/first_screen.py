@@ -86,11 +86,7 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
 
 
 def worst_failure_in_words(document: Mapping[str, Any]) -> Plain | None:
-    """The worst failure: its trial in words, why it is shown, and where its evidence is; None without one.
-
-    Args:
-        document: The report's document.
-    """
+    """The worst failure: its trial in words, why it is shown, and where its evidence is; None without one."""
     trials = document["trials"]
     worst = trials["worst"]
     if worst is None:

@@ -18,9 +18,6 @@ def parted(document: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]
 
     A page with many variants is shown sooner without them, and adds them afterwards.
 
-    Args:
-        document: The report's document.
-
     Returns:
         The document, and the removed columns by the measure's id.
     """
@@ -50,11 +47,7 @@ def embedded_json(document: Any) -> str:
 
 
 def packed_json(text: str) -> str:
-    """A JSON text compressed with gzip and encoded in base64, reproducible byte for byte.
-
-    Args:
-        text: The text.
-    """
+    """A JSON text compressed with gzip and encoded in base64, reproducible byte for byte."""
     return base64.b64encode(gzip.compress(text.encode("ascii"), compresslevel=9, mtime=0)).decode("ascii")
 
 

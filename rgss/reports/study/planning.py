@@ -26,10 +26,6 @@ def planning_columns(project: Project, measured: Sequence[VariantMeasures]) -> P
     Variants that share a search differ in their time limits; the search with the longest limit is taken.
     A move that was not planned, because one before it failed, has no search.
 
-    Args:
-        project: The project with its study.
-        measured: Every variant with its trials.
-
     Returns:
         The planners, and a row for each search: planner, planning time with simplification (None if it
         found no path), the longest limit of the search, and the group of variants that share it.

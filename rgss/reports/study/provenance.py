@@ -77,11 +77,7 @@ def _seeds(project: Project, measured: Sequence[VariantMeasures]) -> str:
 
 
 def assumptions_of(project: Project) -> list[Plain]:
-    """Every assumption of the project with its reason: of the study, the measures, the designs, the catalogue.
-
-    Args:
-        project: The project with its study.
-    """
+    """Every assumption of the project with its reason: of the study, the measures, the designs, the catalogue."""
     return [{"where": where, "about": about, "why": why} for where, about, why in _assumptions(project)]
 
 

@@ -87,12 +87,7 @@ def parameter_columns(project: Project, measured: Sequence[VariantMeasures], fou
 
 
 def filter_columns(project: Project, measured: Sequence[VariantMeasures]) -> list[Plain]:
-    """Values of factors and roles that select variants, as after ``--only``; -1 for a variant without one of them.
-
-    Args:
-        project: The project.
-        measured: Every variant.
-    """
+    """Values of factors and roles that select variants, as after ``--only``; -1 for a variant without one of them."""
     found = value_columns(project.designs, [entry.variant for entry in measured])
     return [{"name": one.name, "values": list(one.values), "entries": condensed(one.entries)} for one in found]
 

@@ -61,12 +61,7 @@ def front_figure(measures: Sequence[PlottedMeasure], designs: PlottedDesigns, fr
 
 
 def with_front(designs: PlottedDesigns, front: Sequence[int]) -> PlottedDesigns:
-    """The designs with the front of other measures than the weighted ones.
-
-    Args:
-        designs: The designs.
-        front: The nondominated designs in these measures.
-    """
+    """The designs with the front of other measures than the weighted ones."""
     best = set(front)
     roles = {}
     for variant, role in designs.roles.items():

@@ -126,12 +126,7 @@ def tornado_figure(bars: Sequence[InputBar], lead: float, designs: PlottedDesign
 
 
 def weights_figure(ranges: Sequence[WeightRange], designs: PlottedDesigns) -> StudyFigure:
-    """Range of each weight alone within which the chosen design stays the best.
-
-    Args:
-        ranges: The weights.
-        designs: The designs.
-    """
+    """Range of each weight alone within which the chosen design stays the best."""
     chosen = ids_text(designs.with_role(Role.CHOSEN))
     figure = new_figure(8.4, 2.0 + 0.5 * len(ranges), f"Weights at which variant {chosen} stays the best")
     ax = figure.subplots()

@@ -28,14 +28,7 @@ _MOST_NAMED = 40
 def spread_figure(
     measure: PlottedMeasure, designs: PlottedDesigns, groups: Mapping[str, Sequence[int]], grouped_by: str
 ) -> StudyFigure:
-    """Intervals of a measure, the best design first, beside boxes of its values.
-
-    Args:
-        measure: The measure.
-        designs: The designs.
-        groups: The designs of each box.
-        grouped_by: Label of the grouping.
-    """
+    """Intervals of a measure, the best design first, beside boxes of its values."""
     known = measure.known(designs.roles)
     missing = len(designs.roles) - len(known)
     note = f"{missing} designs have no value" if missing else ""

@@ -43,13 +43,7 @@ class MatrixPart:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gap:
-    """Gap: an element that lacks a link, evidence or a met verdict.
-
-    Attributes:
-        id: Id of the element.
-        text: Text of the element.
-        metrics: The coverage that it lacks.
-    """
+    """Gap: an element that lacks a link, evidence or a met verdict."""
 
     id: str
     text: str

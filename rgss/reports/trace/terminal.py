@@ -82,11 +82,7 @@ def report_lines(report: TraceReport, *, gaps_only: bool = False, table: str = "
 
 
 def found_lines(found: Chain | Impact) -> list[str]:
-    """A chain or an impact as lines of text.
-
-    Args:
-        found: The chain or the impact.
-    """
+    """A chain or an impact as lines of text."""
     return chain_lines(found) if isinstance(found, Chain) else impact_lines(found)
 
 

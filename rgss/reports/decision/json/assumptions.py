@@ -8,11 +8,7 @@ from rgss.decision.assumptions import AssumptionOutcome
 
 
 def modelling_assumption_to_json(one: AssumptionOutcome) -> dict[str, Any]:
-    """The choice under one alternative of one assumption.
-
-    Args:
-        one: The outcome.
-    """
+    """The choice under one alternative of one assumption."""
     return {
         "assumption": one.question.about,
         "taken_as": one.taken_as,

@@ -9,11 +9,7 @@ Plain = dict[str, object]
 
 
 def conclusion_to_json(made: StudyDecision) -> Plain:
-    """Conclusion from the verdicts and the posterior draws as plain values.
-
-    Args:
-        made: The decision.
-    """
+    """Conclusion from the verdicts and the posterior draws as plain values."""
     found = made.conclusion
     return {
         "headline": headline(made),

@@ -12,9 +12,6 @@ from rgss.tradeoff.programs import Certificate
 def decision_to_json(decision: Decision) -> dict[str, object]:
     """Turn a decision into dictionaries, lists, strings, numbers and None.
 
-    Args:
-        decision: The decision.
-
     Returns:
         A document that `json.dumps` takes as it is, even with ``allow_nan=False``.
     """

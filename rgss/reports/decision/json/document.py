@@ -20,11 +20,7 @@ SCHEMA = 3
 
 
 def trade_document(made: StudyDecision) -> dict[str, Any]:
-    """The document.
-
-    Args:
-        made: The decision.
-    """
+    """The document."""
     what_if, screened = made.what_if, made.screened
     document: dict[str, Any] = {"schema": SCHEMA, "study": made.study, **decision_to_json(made.decision)}
     document["double_counting"] = [
@@ -110,11 +106,7 @@ def _substitutions_to_json(made: StudyDecision) -> list[dict[str, Any]]:
 
 
 def portfolio_to_json(portfolio: PortfolioDecision) -> dict[str, Any]:
-    """The choice of a portfolio as plain values.
-
-    Args:
-        portfolio: The choice.
-    """
+    """The choice of a portfolio as plain values."""
     return {
         "status": portfolio.status.value,
         "members": list(portfolio.members),

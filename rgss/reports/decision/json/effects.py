@@ -9,11 +9,7 @@ Plain = dict[str, object]
 
 
 def effects_to_json(effects: StudyEffects) -> Plain:
-    """Turn the effects on every measure into plain values.
-
-    Args:
-        effects: The effects.
-    """
+    """Turn the effects on every measure into plain values."""
     return {
         "factors": [_factor(factor) for factor in effects.factors],
         "constant_parameters": list(effects.constants),

@@ -27,9 +27,6 @@ Plain = dict[str, object]
 def robustness_to_json(found: Robustness) -> Plain:
     """Turn the analyses into dictionaries, lists, strings, numbers and None.
 
-    Args:
-        found: The analyses.
-
     Returns:
         A document that `json.dumps` takes as it is, even with ``allow_nan=False``. Alternatives go
         by their variants' ids; an unbounded end is None.

@@ -14,11 +14,7 @@ _ALL = "All assumed costs of components together"
 
 
 def assumption_lines(found: RobustnessFindings) -> Iterator[str]:
-    """The range of each assumed number, and of all costs together.
-
-    Args:
-        found: The robustness of a choice.
-    """
+    """The range of each assumed number, and of all costs together."""
     yield ""
     if found.is_missing(Part.ASSUMPTIONS):
         yield "Assumptions: not computed."

@@ -21,11 +21,7 @@ MOST_GROUPS = 10
 
 
 def contender_lines(found: RobustnessFindings) -> Iterator[str]:
-    """The Pareto front, and the acceptability of the variants that come first for some weights.
-
-    Args:
-        found: The robustness of a choice.
-    """
+    """The Pareto front, and the acceptability of the variants that come first for some weights."""
     yield _front(found)
     weighting = found.analysis.weighting
     if weighting is None:

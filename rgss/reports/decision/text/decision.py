@@ -23,11 +23,7 @@ from rgss.tradeoff.programs import Certificate
 
 
 def choice_lines(made: StudyDecision) -> Iterator[str]:
-    """The chosen variant beside the runner-up, with reasons; or the conflicts of an infeasible decision.
-
-    Args:
-        made: The decision.
-    """
+    """The chosen variant beside the runner-up, with reasons; or the conflicts of an infeasible decision."""
     stale = tuple(filter(None, (stale_sentence(made),)))
     if made.comparison is None:
         yield from conflict_lines(made.decision, shown_feasible=made.shown_feasible)
@@ -48,21 +44,13 @@ def choice_lines(made: StudyDecision) -> Iterator[str]:
 
 
 def certificate_lines(certificate: Certificate) -> Iterator[str]:
-    """Lines on the certificate, and on checks that disagree or are by another solver.
-
-    Args:
-        certificate: The certificate of the decision.
-    """
+    """Lines on the certificate, and on checks that disagree or are by another solver."""
     yield certificate_sentence(certificate)
     yield from notable_checks(certificate.checks)
 
 
 def portfolio_lines(portfolio: PortfolioDecision) -> Iterator[str]:
-    """A portfolio of designs, and the member that serves each study.
-
-    Args:
-        portfolio: The choice of a portfolio.
-    """
+    """A portfolio of designs, and the member that serves each study."""
     yield from ("", "Portfolio")
     missing = no_portfolio(portfolio)
     if missing:

@@ -14,11 +14,7 @@ LEAST_INTERACTION = 0.005
 
 
 def effects_lines(effects: Iterable[MeasureEffects]) -> Iterator[str]:
-    """The effect of each level of each factor on each measure.
-
-    Args:
-        effects: The effects on the measures that are shown.
-    """
+    """The effect of each level of each factor on each measure."""
     for one in effects:
         yield ""
         title = f"Effects on {one.measure}" + ("" if one.unit == "1" else f" [{one.unit}]")
@@ -49,11 +45,7 @@ def _of_levels(title: str, one: MeasureEffects) -> Iterator[str]:
 
 
 def usable_resamples_sentence(analysis: FactorialAnalysis) -> str:
-    """Sentence on the resamples of which the intervals are; empty if they are of all, or there are none.
-
-    Args:
-        analysis: The effects on a measure.
-    """
+    """Sentence on the resamples of which the intervals are; empty if they are of all, or there are none."""
     if not 0.0 < analysis.used < 1.0 - 1e-9:
         return ""
     share = share_in_words(analysis.used)

@@ -11,22 +11,14 @@ from rgss.reports.plain_text import aligned_table
 
 
 def modelling_lines(made: StudyDecision) -> Iterator[str]:
-    """Lines of the table and its summary.
-
-    Args:
-        made: The decision.
-    """
+    """Lines of the table and its summary."""
     yield from ("", "Which assumption changes the choice (--what-if)", "")
     yield from aligned_table(ASSUMPTION_HEADS, [row.cells for row in assumption_rows(made)])
     yield from assumption_sentences(made)
 
 
 def drivers_lines(made: StudyDecision) -> Iterator[str]:
-    """Lines on the drivers of failures, and the success of each case; empty if nothing was drawn.
-
-    Args:
-        made: The decision.
-    """
+    """Lines on the drivers of failures, and the success of each case; empty if nothing was drawn."""
     if made.drivers is not None and made.drivers.seeds:
         yield ""
         yield from driver_lines(made.drivers)

@@ -16,11 +16,7 @@ from rgss.trace.views import share_in_words
 
 
 def robustness_lines(made: StudyDecision) -> Iterator[str]:
-    """The robustness of a decision; each part that was not computed with its reason.
-
-    Args:
-        made: The decision, whose robustness was analysed.
-    """
+    """The robustness of a decision; each part that was not computed with its reason."""
     found = made.robustness
     if found is None:
         return

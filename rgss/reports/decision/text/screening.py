@@ -8,11 +8,7 @@ from rgss.decision import ScreenedVariant, ScreeningResult
 
 
 def screening_lines(result: ScreeningResult) -> list[str]:
-    """Number of promoted designs, and the reason for each other one.
-
-    Args:
-        result: The outcome of screening.
-    """
+    """Number of promoted designs, and the reason for each other one."""
     screening = result.screening
     rule = f"Screening at {screening.fidelity.value} fidelity ({screening.promotion})"
     lines = [f"{rule}: {len(result.survivors)} of {len(result.variants)} designs go on"]
@@ -25,11 +21,7 @@ def screening_lines(result: ScreeningResult) -> list[str]:
 
 
 def reopened_lines(variants: Sequence[int]) -> list[str]:
-    """Designs that were screened out and would go on under suppositions; no line if there are none.
-
-    Args:
-        variants: Their ids.
-    """
+    """Designs that were screened out and would go on under suppositions; no line if there are none."""
     if not variants:
         return []
     ids = ", ".join(map(str, variants))

@@ -27,11 +27,7 @@ from rgss.reports.plain_text import aligned_table
 
 
 def sensitivity_lines(found: Sensitivity) -> Iterator[str]:
-    """The lines of the section.
-
-    Args:
-        found: The sensitivity of a decision.
-    """
+    """The lines of the section."""
     if found.tornado is not None:
         yield ""
         yield "How sensitive it is"

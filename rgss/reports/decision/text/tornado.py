@@ -19,11 +19,7 @@ _LOW, _HIGH, _BASE, _ZERO, _MISSED, _TO_MISSED = "▒", "█", "│", "┊", "�
 
 
 def tornado_lines(tornado: Tornado) -> Iterator[str]:
-    """The bars, their legend, and the values at which the choice changes.
-
-    Args:
-        tornado: The sensitivity of a choice.
-    """
+    """The bars, their legend, and the values at which the choice changes."""
     moving = tornado.moving
     if tornado.lead is None:
         yield f"Tornado: {no_rival_clause(tornado)}."

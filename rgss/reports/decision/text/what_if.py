@@ -11,11 +11,7 @@ from rgss.trace.views import value_in_words
 
 
 def what_if_lines(what_if: WhatIf) -> Iterator[str]:
-    """Lines on the suppositions, their consequences, and the decision before and after.
-
-    Args:
-        what_if: The effect of suppositions.
-    """
+    """Lines on the suppositions, their consequences, and the decision before and after."""
     scenario = what_if.scenario
     yield "What if"
     for change in scenario.changes:

@@ -20,10 +20,6 @@ def replay_to_mcap(timeline: Timeline, scene: ReplayScene) -> bytes:
 
     Messages are JSON with JSON Schemas, those of Foxglove where it publishes one. Times are those of the trial, in
     simulated time; the file has no other.
-
-    Args:
-        timeline: The timeline.
-        scene: The scene of the replay.
     """
     from mcap.writer import Writer
 

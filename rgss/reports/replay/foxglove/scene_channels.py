@@ -40,10 +40,6 @@ def scene_channels(timeline: Timeline, scene: ReplayScene) -> tuple[Channel, ...
     """Channels of the scene.
 
     Everything that does not change is published once, on topics of its own, so that a viewer that seeks finds it.
-
-    Args:
-        timeline: The timeline.
-        scene: The scene of the replay.
     """
     perceived = [track for track in scene.nodes if track.kind is NodeKind.PERCEIVED]
     bodies = [track for track in scene.nodes if track.kind is not NodeKind.PERCEIVED]

@@ -33,11 +33,7 @@ _PHASE_SCHEMA = Schema(
 
 
 def series_channels(timeline: Timeline) -> tuple[Channel, ...]:
-    """Channels of the plotted quantities and of the phases.
-
-    Args:
-        timeline: The timeline.
-    """
+    """Channels of the plotted quantities and of the phases."""
     plots = (timeline.joint_positions, timeline.joint_speeds, *timeline.quantities)
     return (
         Channel(topic="/joint_states", schema=published_schema("JointStates"), messages=_joint_states(timeline)),

@@ -18,9 +18,6 @@ TRACE_FORMATS: tuple[TraceFormat, ...] = (TEXT, HTML, MARKDOWN, CSV, EXCEL, JSON
 def trace_format(name: str) -> TraceFormat:
     """The format with a name.
 
-    Args:
-        name: Its name.
-
     Raises:
         DefinitionError: The name is unknown.
     """
