@@ -140,10 +140,6 @@ def record_of(
 def require_complete(measured: Sequence[VariantMeasures], *, sweep: str = "rgss sweep") -> None:
     """Check that every trial of the study has evidence.
 
-    Args:
-        measured: Every variant with its evidence.
-        sweep: The command that makes the evidence.
-
     Raises:
         EvidenceError: Some have none.
     """
@@ -164,33 +160,19 @@ def requirements_with_criteria(project: Project) -> tuple[Requirement, ...]:
 
 
 def verdicts_on(project: Project, entry: VariantMeasures, *, stale: Collection[str] = ()) -> dict[str, Verdict]:
-    """The verdict on each requirement with a criterion, from the estimates of a variant.
-
-    Args:
-        project: The project.
-        entry: The variant with its estimates.
-        stale: Ids of the requirements whose verdict is stale.
-    """
+    """The verdict on each requirement with a criterion, from the estimates of a variant."""
     return {one.id: _verdict(criterion, entry, stale=one.id in stale) for one, criterion in _criteria(project)}
 
 
 def judged_measures(project: Project) -> frozenset[str]:
-    """Ids of the measures of effectiveness, and of those that a requirement's criterion bounds.
-
-    Args:
-        project: The project.
-    """
+    """Ids of the measures of effectiveness, and of those that a requirement's criterion bounds."""
     effectiveness = {measure.id for measure in project.measures.of_kind(MeasureKind.EFFECTIVENESS)}
     bounded = {criterion.measure for _, criterion in _criteria(project)}
     return frozenset(effectiveness | bounded)
 
 
 def leading_measures(project: Project) -> tuple[Measure, ...]:
-    """The measures of effectiveness, each by its simulation if that is what a requirement bounds.
-
-    Args:
-        project: The project.
-    """
+    """The measures of effectiveness, each by its simulation if that is what a requirement bounds."""
     measures = project.measures
     bounded = {criterion.measure for _, criterion in _criteria(project)}
     found = (

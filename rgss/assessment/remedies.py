@@ -13,10 +13,6 @@ def stale_remedies(project: Project, measured: Sequence[VariantMeasures]) -> tup
 
     Trials of an earlier model are made again. A change of a requirement or a measure leaves them as they are, so that a
     sweep finds nothing to run, and the verdicts are recorded again.
-
-    Args:
-        project: The project with its study.
-        measured: Every variant with its verdicts.
     """
     needing = {entry.outdated > 0 for entry in measured if entry.causes}
     sentences = []

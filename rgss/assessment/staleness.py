@@ -64,13 +64,7 @@ class BasisReader:
         self._requirements: dict[str, str] = {}
 
     def basis(self, requirement: Requirement, criterion: Criterion, variant: DesignVariant) -> Basis:
-        """Inputs of the verdict on a requirement, for one variant.
-
-        Args:
-            requirement: The requirement.
-            criterion: Its criterion.
-            variant: The variant.
-        """
+        """Inputs of the verdict on a requirement, for one variant."""
         measures = self._project.measures
         if criterion.measure not in self._measures:
             self._measures[criterion.measure] = definition_digest(measures, criterion.measure)

@@ -16,13 +16,7 @@ from rgss.studies import Project
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CaseSuccess:
-    """Trials of a case, over all designs.
-
-    Attributes:
-        case: Its name.
-        trials: Number of trials.
-        successes: Number of successes.
-    """
+    """Trials of a case, over all designs."""
 
     case: str
     trials: int
@@ -52,11 +46,6 @@ def success_by_case(project: Project, measured: Sequence[VariantMeasures]) -> tu
 
 def measured_in_case(project: Project, measured: Sequence[VariantMeasures], case: str) -> tuple[VariantMeasures, ...]:
     """Every variant with estimates and verdicts from the trials of one case alone.
-
-    Args:
-        project: The project with its study.
-        measured: Every variant with its records.
-        case: Name of the case.
 
     Raises:
         DefinitionError: The study's workload has no such case.

@@ -122,11 +122,7 @@ def choose(
 
 
 def demanded_criteria(project: Project) -> dict[str, Criterion]:
-    """Criterion of the choice by requirement; if the study decides by verdicts, on the end that a verdict needs.
-
-    Args:
-        project: The project with its study.
-    """
+    """Criterion of the choice by requirement; if the study decides by verdicts, on the end that a verdict needs."""
     return {
         requirement.id: _demanded(project, requirement.criterion)
         for requirement in requirements_with_criteria(project)

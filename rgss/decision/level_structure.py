@@ -20,10 +20,6 @@ def level_structure(designs: DesignSpace, variants: Sequence[DesignVariant]) -> 
     A rule is formulated over the fewest factors that determine what it excludes: one on the number of fingers
     and the gripper's mass is a condition on these two, independent of other factors.
 
-    Args:
-        designs: The design space.
-        variants: Its variants.
-
     Raises:
         DefinitionError: The designs are not combinations of levels.
     """
@@ -63,10 +59,6 @@ def level_structure(designs: DesignSpace, variants: Sequence[DesignVariant]) -> 
 
 def level_numbers(designs: DesignSpace, variants: Sequence[int]) -> NDArray[np.intp] | None:
     """The level of each variant in each factor as a number, shape (variants, factors).
-
-    Args:
-        designs: The design space.
-        variants: Ids of variants.
 
     Returns:
         The numbers; None if designs are a sample of ranges, or a variant is not in the design space.

@@ -20,12 +20,7 @@ from rgss.trials.pieces import TrialSpec
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NamedTrials:
-    """Trials that a study names.
-
-    Attributes:
-        trials: Their keys.
-        pieces: The digests of their pieces.
-    """
+    """Trials that a study names."""
 
     trials: frozenset[str]
     pieces: frozenset[str]

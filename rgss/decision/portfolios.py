@@ -31,10 +31,6 @@ def portfolio_projects(project: Project) -> Mapping[str, Project]:
 def measured_studies(project: Project, store: EvidenceStore) -> dict[str, tuple[Project, Sequence[VariantMeasures]]]:
     """Project and measured variants of each study that the portfolio of a study serves, by the study's file.
 
-    Args:
-        project: The project with the study of the portfolio.
-        store: The evidence.
-
     Raises:
         DefinitionError: The study has no portfolio.
         EvidenceError: The store is damaged.

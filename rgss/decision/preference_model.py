@@ -105,11 +105,6 @@ def threshold_of(project: Project, requirement: str, criterion: Criterion, *, co
 def bound_of(project: Project, name: str, bound: BoundChoice | RequirementBound) -> Threshold:
     """The threshold of a bound that a study sets.
 
-    Args:
-        project: The project.
-        name: Id of the demand.
-        bound: The bound.
-
     Raises:
         DefinitionError: It names a requirement that has no criterion, or none on the measure.
     """
@@ -157,9 +152,6 @@ def risks_of(project: Project) -> tuple[Risk, ...]:
 
 def deciding_measures(project: Project) -> tuple[str, ...]:
     """Measures that a choice reads: those with a weight, those of the program and of risks, those of requirements.
-
-    Args:
-        project: The project with its study.
 
     Raises:
         TradeoffError: As for `program_of`.

@@ -19,9 +19,6 @@ def replication_findings(project: Project) -> Iterator[Finding]:
 
     They are demands on more replicates than a study with a fixed number has, and replication until decided of a
     trade-off that has no sequential rule (a warning if `rgss sweep` does not replicate until decided by itself).
-
-    Args:
-        project: The project with its study.
     """
     if any(criterion.comparison.is_strict for criterion in demanded_criteria(project).values()):
         return  # no trade-off can hold it, which is a finding of its own
@@ -44,9 +41,6 @@ def replication_findings(project: Project) -> Iterator[Finding]:
 
 def require_sequential_rule(project: Project) -> None:
     """Refuse a trade-off that has no sequential rule.
-
-    Args:
-        project: The project with its study.
 
     Raises:
         TradeoffError: It has none, or its program contradicts itself.

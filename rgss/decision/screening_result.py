@@ -70,11 +70,7 @@ class ScreeningResult:
         return tuple(one.variant for one in self.variants if one.goes_on)
 
     def promoted(self, variants: Iterable[DesignVariant]) -> tuple[DesignVariant, ...]:
-        """Those of some designs that are promoted.
-
-        Args:
-            variants: The designs.
-        """
+        """Those of some designs that are promoted."""
         survivors = set(self.survivors)
         return tuple(one for one in variants if one.id in survivors)
 

@@ -49,12 +49,7 @@ def trace_evidence(
 
 
 def variant_evidence(project: Project, entry: VariantMeasures) -> VariantEvidence:
-    """Evidence on one variant, with the value of each measure in each of its trials.
-
-    Args:
-        project: The project with its study.
-        entry: The variant with its estimates.
-    """
+    """Evidence on one variant, with the value of each measure in each of its trials."""
     trials = tuple(_trial(project, entry, key, record) for key, record in zip(entry.trials, entry.records, strict=True))
     deciding = {}
     for measure in project.measures.measures:

@@ -156,10 +156,6 @@ def replicate_until_decided(
 def trial_twins(project: Project, variants: Sequence[DesignVariant]) -> Mapping[int, int]:
     """Variants with the same trials for every seed, which differ only in properties that trials do not use.
 
-    Args:
-        project: The project.
-        variants: The variants.
-
     Returns:
         By variant, the first variant with the same trials.
     """

@@ -14,11 +14,7 @@ _ALL = "all"
 
 
 def assumption_findings(project: Project) -> tuple[Finding, ...]:
-    """Findings on the alternatives of assumptions and the names of ranges, at their places in the file.
-
-    Args:
-        project: The project with its study.
-    """
+    """Findings on the alternatives of assumptions and the names of ranges, at their places in the file."""
     return (*_alternative_findings(project), *_range_findings(project))
 
 
@@ -42,11 +38,7 @@ def _range_findings(project: Project) -> Iterator[Finding]:
 
 
 def input_names(project: Project) -> tuple[str, ...]:
-    """Names that a range may have: weights, ends and shapes of value functions, thresholds, assumed numbers.
-
-    Args:
-        project: The project with its study.
-    """
+    """Names that a range may have: weights, ends and shapes of value functions, thresholds, assumed numbers."""
     trade_off = project.study.trade_off
     measures = list(trade_off.weighting.weights)
     return (

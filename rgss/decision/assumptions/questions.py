@@ -50,9 +50,6 @@ def questions_of(project: Project) -> tuple[Question, ...]:
     They are those with alternatives in the study's file; if it has none, the charge of a check halved and
     doubled, each planning limit of a design for all designs, the world without uncertainty, kinematic trials, and
     assumed prices of 0. Readings of the source that decide something follow from the measures' file.
-
-    Args:
-        project: The project with its study.
     """
     listed = [
         Question(about=one.about, alternative=alternative)

@@ -76,9 +76,6 @@ def leading_factors(effects: MeasureEffects) -> Mapping[str, float]:
     """The factors by their total-order share of a measure's variance, the largest first.
 
     For a sample of designs it is the share that each explains alone, of those that exceed what chance gives.
-
-    Args:
-        effects: The effects on the measure.
     """
     shares = sorted(_shares(effects).items(), key=lambda item: -item[1])
     return {factor: share for factor, share in shares if share >= _LEAST_SHARE}

@@ -60,13 +60,7 @@ class BentValue:
 
 
 def bent_values_of(project: Project, tornado: Tornado, functions: Sequence[ValueFunction]) -> tuple[BentValue, ...]:
-    """Effects of bending on the choice, in the order of the study.
-
-    Args:
-        project: The project with its study.
-        tornado: The sensitivity of the choice.
-        functions: The study's value functions.
-    """
+    """Effects of bending on the choice, in the order of the study."""
     by_measure = {function.measure: function for function in functions}
     bars = {bar.id.partition(".")[2]: bar for bar in tornado.bars if bar.kind is InputKind.SHAPE}
     found = []

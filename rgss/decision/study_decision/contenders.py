@@ -46,9 +46,6 @@ class Contender:
 def contenders_of(found: Robustness) -> tuple[Contender, ...]:
     """The contenders, the most often first ones at the beginning, equals by ascending id.
 
-    Args:
-        found: The robustness of the decision.
-
     Returns:
         The contenders; none if the acceptability was not computed.
     """

@@ -35,12 +35,7 @@ class EquationVerification:
 
 
 def equation_verifications(project: Project, measured: Sequence[VariantMeasures]) -> tuple[EquationVerification, ...]:
-    """The requirements on a value whose measure is an equation with a simulation.
-
-    Args:
-        project: The project.
-        measured: Every variant with its estimates.
-    """
+    """The requirements on a value whose measure is an equation with a simulation."""
     found = []
     for requirement in requirements_with_criteria(project):
         criterion = requirement.criterion

@@ -49,9 +49,6 @@ class ClosestLimit:
 def gains_over_runner_up(decision: Decision) -> tuple[Gain, ...]:
     """The gains of the chosen variant over the runner-up, in the order of the weights.
 
-    Args:
-        decision: The decision.
-
     Returns:
         A gain for each weighted measure; none if nothing is chosen, there is no runner-up, or the program chooses by
         something else than the weighted value.

@@ -33,12 +33,7 @@ class DecidingSubstitution:
 
 
 def deciding_substitutions(project: Project, measured: Sequence[VariantMeasures]) -> tuple[DecidingSubstitution, ...]:
-    """The substitutions in measures that the choice reads.
-
-    Args:
-        project: The project with its study.
-        measured: Every variant with its records.
-    """
+    """The substitutions in measures that the choice reads."""
     return tuple(
         found
         for measure, requirements in _deciding(project).items()

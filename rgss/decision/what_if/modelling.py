@@ -11,11 +11,7 @@ from rgss.studies import Project
 
 
 def model_settings(project: Project) -> dict[str, ModelSetting]:
-    """The modelling assumptions that trials are made with, by name.
-
-    Args:
-        project: The project with its study.
-    """
+    """The modelling assumptions that trials are made with, by name."""
     return {setting.id: setting for setting in _settings(project)}
 
 

@@ -36,11 +36,7 @@ _QUANTITIES = {
 
 
 def settings_of_planning(project: Project) -> Iterator[ModelSetting]:
-    """The assumptions on planning, in the order of the study's file.
-
-    Args:
-        project: The project with its study.
-    """
+    """The assumptions on planning, in the order of the study's file."""
     planning = project.study.planning
     for key, quantity in _QUANTITIES.items():
         name, value = f"planning.{key}", getattr(planning, quantity.field)
@@ -132,11 +128,7 @@ def _with_shared(project: Project, planners: Sequence[str], key: str, text: str)
 
 
 def settings_of_designs(project: Project) -> Iterator[ModelSetting]:
-    """The planning limit and other quantities that design parameters set to numbers, changed for all designs together.
-
-    Args:
-        project: The project with its study.
-    """
+    """The planning limit and other numbers that design parameters set, changed for all designs together."""
     designs = project.designs
     selecting = {parameter for selector in designs.selectors.values() for parameter in selector}
     setters: dict[str, list[str]] = {}

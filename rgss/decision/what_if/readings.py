@@ -51,9 +51,6 @@ def readings_of(project: Project) -> tuple[Reading, ...]:
 def deciding_readings(project: Project) -> tuple[Reading, ...]:
     """The alternatives of measures that the choice reads, and of those that these use.
 
-    Args:
-        project: The project with its study.
-
     Raises:
         TradeoffError: As for `deciding_measures`.
         DefinitionError: As for `deciding_measures`.

@@ -12,11 +12,7 @@ SHAPE, ALL = "shape", "all"
 
 
 def curvature_names(project: Project) -> dict[str, tuple[str, ...]]:
-    """Names of the curvatures that can be supposed, each with the measures whose value functions it bends.
-
-    Args:
-        project: The project.
-    """
+    """Names of the curvatures that can be supposed, each with the measures whose value functions it bends."""
     measures = [valued.measure for valued in project.study.trade_off.valued]
     every = {f"{SHAPE}.{ALL}": tuple(measures)} if len(measures) > 1 else {}
     return {**{f"{SHAPE}.{measure}": (measure,) for measure in measures}, **every}

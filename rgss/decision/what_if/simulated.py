@@ -13,13 +13,7 @@ from rgss.trials.pieces import digests_of
 def simulated_numbers(
     project: Project, variants: Sequence[DesignVariant], numbers: Iterable[ModelNumber]
 ) -> frozenset[str]:
-    """Ids of the numbers whose change needs other trials.
-
-    Args:
-        project: The project with its study.
-        variants: Its variants.
-        numbers: The numbers.
-    """
+    """Ids of the numbers whose change needs other trials."""
     asked, pairs = [], []
     for number in numbers:
         before = next((one for one in variants if variant_with(one, number, number.value + 1.0) is not one), None)

@@ -66,9 +66,6 @@ class ScenarioEvidenceReader:
     def read(self, scenario: Scenario) -> ScenarioEvidence:
         """The evidence of a scenario, without a simulation.
 
-        Args:
-            scenario: The suppositions.
-
         Raises:
             EvidenceError: The store is damaged.
             DefinitionError: A measure is not defined for a design, or a design is incomplete.

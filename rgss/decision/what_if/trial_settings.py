@@ -22,11 +22,7 @@ _CASE_UNITS = {"mass_kg": "kg", "radius_m": "m", "height_m": "m", "friction": "1
 
 
 def settings_of_trials(project: Project) -> Iterator[ModelSetting]:
-    """The assumptions on trials, in the order of the study's file.
-
-    Args:
-        project: The project with its study.
-    """
+    """The assumptions on trials, in the order of the study's file."""
     study = project.study
     known = tuple(one.value for one in Fidelity)
     yield ModelSetting(

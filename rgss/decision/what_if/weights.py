@@ -16,10 +16,6 @@ def with_weights(trade_off: TradeOff, wanted: Mapping[str, float]) -> TradeOff:
 
     The measures of a group keep their proportions, and so do all others.
 
-    Args:
-        trade_off: The trade-off.
-        wanted: The supposed weight in the whole of some measures and groups.
-
     Raises:
         DefinitionError: The weights leave nothing, or too little, for the others, or a group and
             one of its members are both named.
