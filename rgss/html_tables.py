@@ -7,12 +7,7 @@ from html import escape
 
 
 def html_view(title: str, body: str) -> str:
-    """A heading above a body.
-
-    Args:
-        title: The heading, as text.
-        body: HTML.
-    """
+    """A heading, given as text, above a body of HTML."""
     return f"<div><p><strong>{escape(title)}</strong></p>{body}</div>"
 
 
