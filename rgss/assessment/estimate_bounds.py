@@ -41,7 +41,7 @@ IN_COMMON = frozenset(
         Failure.TRAJECTORY_IN_COLLISION,
     }
 )
-"""Failures that a trial has at every fidelity, since they occur before any motion."""
+"""Failures that a trial has at every fidelity and in every engine, since they occur before any motion."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

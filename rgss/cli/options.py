@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import shlex
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -117,6 +118,16 @@ def add_evidence_choice(parser: argparse.ArgumentParser) -> None:
     add_replicates(parser)
     add_fidelity(parser)
     add_nominal(parser)
+
+
+def add_junit(parser: argparse.ArgumentParser) -> None:
+    """Add the file with the result of the tests."""
+    parser.add_argument(
+        "--junit",
+        type=Path,
+        metavar="FILE",
+        help="read the result of the tests from FILE (default: .rgss/junit.xml in the project)",
+    )
 
 
 def sweep_words(options: argparse.Namespace, *names: str) -> list[str]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from rgss.confirmation.selection import PLANNED_FAILURES, Selection
+from rgss.assessment import IN_COMMON
+from rgss.confirmation.selection import Selection
 from rgss.confirmation.settings import Aspect, ConfirmationSetting
 from rgss.evidence import Metric, TrialRecord
 from rgss.measures import Verdict
@@ -141,7 +142,7 @@ class Confirmation:
     @property
     def before_physics(self) -> int:
         """Number of trials of the confirmed designs that end before physics, which are the same under every setting."""
-        return sum(trial.records[0].failure in PLANNED_FAILURES for trial in self.trials if not trial.is_sample)
+        return sum(trial.records[0].failure in IN_COMMON for trial in self.trials if not trial.is_sample)
 
     @property
     def reference(self) -> int | None:

@@ -5,30 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-from rgss.assessment import VariantMeasures
+from rgss.assessment import IN_COMMON, VariantMeasures
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError
-from rgss.evidence import Failure
 from rgss.studies import Project
 from rgss.tradeoff import Decision
 
 MOST_RIVALS = 5
 """Most rivals of the chosen design that are confirmed."""
-
-PLANNED_FAILURES = frozenset(
-    {
-        Failure.PLANNING_LIMIT,
-        Failure.PATH_NOT_VERIFIED,
-        Failure.INVALID_START,
-        Failure.INVALID_GOAL,
-        Failure.MOVE_BLOCKED,
-        Failure.MOVE_UNREACHABLE,
-        Failure.UNREACHABLE_WAYPOINT,
-        Failure.TRAJECTORY_INFEASIBLE,
-        Failure.TRAJECTORY_IN_COLLISION,
-    }
-)
-"""Failures before physics, which do not depend on the engine."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,7 +101,7 @@ def _with_sample(measured: Sequence[VariantMeasures], confirmed: Collection[int]
         for record in entry.records:
             if record.failure is None:
                 continue
-            if record.failure in PLANNED_FAILURES:
+            if record.failure in IN_COMMON:
                 planned += 1
                 continue
             physical += 1

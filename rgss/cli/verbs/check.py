@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rgss.cli.options import STUDY_HELP
+from rgss.cli.options import STUDY_HELP, add_junit
 from rgss.counted import counted
 
 if TYPE_CHECKING:
@@ -33,12 +33,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--evidence", action="store_true", help="check the stored evidence and the result of the tests too"
     )
-    parser.add_argument(
-        "--junit",
-        type=Path,
-        metavar="FILE",
-        help="read the result of the tests from FILE (default: .rgss/junit.xml in the project)",
-    )
+    add_junit(parser)
     parser.add_argument("--explain", nargs="?", const="", metavar="RULE", help="explain a rule, or list all of them")
     parser.add_argument("--markdown", action="store_true", help="with --explain: write the page of all rules")
     parser.add_argument(

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
-from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,7 +16,7 @@ if TYPE_CHECKING:
     from rgss.evidence import EvidenceStore
     from rgss.regression import Baseline
     from rgss.studies import Project
-    from rgss.sweep import FinishedTrial, LostTrials
+    from rgss.sweep import LostTrials
     from rgss.trials.pieces import TrialSpec
 
 CHANGED = 4
@@ -53,6 +51,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--junit", type=Path, metavar="FILE", help="write the findings as JUnit XML")
     parser.add_argument("--markdown", type=Path, metavar="FILE", help="write a summary for a pull request")
+    parser.set_defaults(dask=None)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -63,18 +62,17 @@ def run(options: argparse.Namespace) -> int:
         a stated reason.
     """
     from rgss.cli.output import shown_path
-    from rgss.cli.sweep import report_lost
+    from rgss.cli.sweep import SweepRunner, execution_backend, jobs_of, report_lost
     from rgss.documents import require_no_source
     from rgss.engines import require_engines
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
     from rgss.guard import baseline_name, guard_of
     from rgss.regression import read_baseline
+    from rgss.sweep import WorkerLimits
 
     require_engines("'rgss regress'")
-    jobs = options.jobs if options.jobs is not None else (os.cpu_count() or 1)
-    if jobs < 1:
-        raise DefinitionError("--jobs must be at least 1", hint="omit it for one process a core")
+    jobs_of(options)
     if options.reason is not None and not options.update:
         raise DefinitionError("--reason needs --update", hint="without it nothing is changed")
     if options.update:
@@ -100,8 +98,15 @@ def run(options: argparse.Namespace) -> int:
     before = read_baseline(path, label=label) if not options.update or _is_there(path) else None
     lost: list[LostTrials] = []
     shown = shown_path(project.evidence)
-    with EvidenceStore.open(project.evidence, label=shown) as store:
-        run_trials = _runner(project, store, jobs, lost)
+    with (
+        EvidenceStore.open(project.evidence, label=shown) as store,
+        execution_backend(options, WorkerLimits()) as backend,
+    ):
+        runner = SweepRunner(project=project, store=store, backend=backend, share=True)
+
+        def run_trials(specs: Sequence[TrialSpec]) -> None:
+            lost.extend(runner.run(specs).result.lost)
+
         try:
             if before is None or options.update:
                 return _update(options, project, store, run_trials, path, label, before)
@@ -170,35 +175,6 @@ def _compare(
     if report.is_unexplained:
         return CHANGED
     return FINDINGS if undecided else CLEAN
-
-
-def _runner(
-    project: Project, store: EvidenceStore, jobs: int, lost: list[LostTrials]
-) -> Callable[[Sequence[TrialSpec]], None]:
-    """Function that runs missing trials by the sweep."""
-    from rgss.cli.sweep import SweepProgress
-    from rgss.sweep import origin_of, sweep
-
-    def run_trials(specs: Sequence[TrialSpec]) -> None:
-        tally: Counter[str] = Counter()
-
-        def on_finished(trial: FinishedTrial) -> None:
-            tally["run" if trial.fresh else "kept"] += 1
-            tally["succeeded" if trial.record.success else "failed"] += 1
-            progress.finished(tally)
-
-        with SweepProgress(len(specs)) as progress:
-            result = sweep(
-                specs,
-                store,
-                jobs=jobs,
-                on_finished=on_finished,
-                on_state=progress.state,
-                origin=lambda: origin_of(project.folder, project.study.label),
-            )
-        lost.extend(result.lost)
-
-    return run_trials
 
 
 def _report_look(look: int, undecided: int) -> None:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rgss.cli.options import add_evidence_choice, chosen_project, sweep_command
+from rgss.cli.options import add_evidence_choice, add_junit, chosen_project, sweep_command
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -57,12 +57,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--film-rate", type=float, metavar="N", help="frames a second of films (default: 8, or 5 if there are many)"
     )
-    parser.add_argument(
-        "--junit",
-        type=Path,
-        metavar="FILE",
-        help="read the result of the tests from FILE (default: .rgss/junit.xml in the project)",
-    )
+    add_junit(parser)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rgss.cli.options import STUDY_HELP, add_fidelity, add_replicates, chosen_project
+from rgss.cli.options import STUDY_HELP, add_fidelity, add_junit, add_replicates, chosen_project
 from rgss.cli.trace_output import TABLES, deliver, ordered
 from rgss.reports.trace import TRACE_FORMATS
 
@@ -42,12 +42,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write a file, or files into a folder")
     parser.add_argument("--diagrams", type=Path, metavar="DIR", help="write the diagrams as SVG files into a folder")
-    parser.add_argument(
-        "--junit",
-        type=Path,
-        metavar="FILE",
-        help="read the result of the tests from FILE (default: .rgss/junit.xml in the project)",
-    )
+    add_junit(parser)
     parser.add_argument("--study", metavar="STUDY", help=STUDY_HELP)
     add_replicates(parser)
     add_fidelity(parser)
