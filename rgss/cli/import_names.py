@@ -81,7 +81,7 @@ def add_names(parser: argparse.ArgumentParser) -> None:
 
 
 def import_names(options: argparse.Namespace) -> ImportNames:
-    """What the options say, those of the command line before those of the file.
+    """Names and defaults of the options, those of the command line before those of the file.
 
     Raises:
         DefinitionError: An option is malformed.

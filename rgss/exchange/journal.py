@@ -197,7 +197,7 @@ def _under_way() -> DefinitionError:
 
 
 def _in_the_way(folder: Path) -> DefinitionError:
-    """What has the name of the journal: that of an import under way, or something that no import makes."""
+    """Error for what has the name of the journal: that of an import under way, or something that no import makes."""
     if has_journal(folder):
         return _under_way()
     name = _JOURNAL if (folder / _JOURNAL.parent).is_dir() else _JOURNAL.parent

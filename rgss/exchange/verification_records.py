@@ -51,7 +51,7 @@ def record_cells(records: Mapping[str, RecordEvidence]) -> Mapping[str, Mapping[
 
 
 def evidence_lines(found: RecordEvidence) -> Iterator[str]:
-    """What a verification record rests on, line by line: its note, its files, and what has changed since."""
+    """Basis of a verification record, line by line: its note, its files, and what has changed since."""
     if found.record.note:
         yield found.record.note
     for file, digest in sorted(found.record.files.items()):

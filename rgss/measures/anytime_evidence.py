@@ -193,7 +193,7 @@ def _crossing(height: Callable[[float], float], low: float, high: float) -> floa
 
 
 def _height(evidence: Callable[[float], float], count: int, tail: float) -> Callable[[float], float]:
-    """What falls through 0 where the evidence reaches log(1/tail): powers of p-values, which are nearly straight."""
+    """Nearly straight function, of powers of p-values, that falls through 0 where the evidence reaches log(1/tail)."""
     needed = float(tail ** (1.0 / count))
 
     def height(limit: float) -> float:

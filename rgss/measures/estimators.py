@@ -1,4 +1,4 @@
-"""How one value is estimated from the values of trials."""
+"""Estimators of one value from the values of trials."""
 
 from __future__ import annotations
 

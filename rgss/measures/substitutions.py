@@ -44,7 +44,7 @@ def substitutions_in(measures: MeasureSet, measure: str, values: Mapping[str, Va
 
 
 def may_substitute(measures: MeasureSet, measure: str) -> bool:
-    """Whether a measure, or one on which it depends, has a term that another one may stand for.
+    """True if a measure, or one on which it depends, has a term that another one may stand for.
 
     Raises:
         DefinitionError: The measure is unknown.

@@ -52,7 +52,7 @@ def undefined_measures(measure_set: MeasureSet, *, fixed: Mapping[str, float | s
 
 
 def _is_never_defined(node: Node, ranges: Mapping[str, Range]) -> bool:
-    """Whether a part of an expression divides by zero, or takes the root of a negative number, in every trial."""
+    """True if a part of an expression divides by zero, or takes the root of a negative number, in every trial."""
     if isinstance(node, Negative):
         return _is_never_defined(node.operand, ranges)
     if isinstance(node, Binary):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 SPENDING_POWER = 2.0
-"""How slowly the error rate is spent: little at the first look, most at the last."""
+"""Exponent of the error spending: little is spent at the first look, most at the last."""
 
 
 def holm_adjusted(p_values: Sequence[float], weights: Sequence[float] | None = None) -> tuple[float, ...]:

@@ -166,7 +166,7 @@ def _of_mean(
 
 
 def _least_found(power: Callable[[float], float], spread: float) -> float | None:
-    """How far beyond its margin a mean must be to be found with the wanted power, by bisection.
+    """Distance beyond its margin at which a mean is found with the wanted power, by bisection.
 
     Args:
         power: The power by the distance from the margin, increasing.

@@ -17,10 +17,10 @@ from rgss.sweep.task_queue import Trial
 from rgss.trials.code import versions
 
 NON_DETERMINISM = "non-determinism: "
-"""What the store's message begins with if the same inputs gave another result."""
+"""Beginning of the store's message if the same inputs gave another result."""
 
 LONGEST_S = 1.0
-"""How long a finished result may wait until it is on disk."""
+"""Longest time for which a finished result may wait until it is on disk."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

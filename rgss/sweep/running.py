@@ -32,7 +32,7 @@ from rgss.trials.pieces import Task, TrialSpec, TrialTask, make, record_of
 Maker = Callable[[Task, Mapping[str, Piece]], Piece | TrialRecord]
 
 MOST_ATTEMPTS = 2
-"""How often a task is tried whose worker crashed, hung or ran out of memory."""
+"""Number of attempts at a task whose worker crashed, hung or ran out of memory."""
 
 
 def sweep(

@@ -37,7 +37,7 @@ from rgss.trials.code import numeric_environment_of_children
 _KILLED_S = 5.0
 _STARTING_S = 120.0
 _FAILED_STARTS = 2
-"""How many processes more than the pool has may end one after another before one of them has done a task."""
+"""Number of processes, beyond those of the pool, that may end in a row before one of them has done a task."""
 
 
 @dataclass(slots=True, kw_only=True, eq=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 ESTIMATING = "estimating"
-"""What is said before anything is done."""
+"""Text before anything is done."""
 
 _LEAST = 1e-6
 """Part of a step below which nothing is left: sums of parts are not exact."""

@@ -81,7 +81,7 @@ class ExchangeRate:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExchangeRates:
-    """What better quantities are worth to the chosen design: pricing out, in the measure that serves as currency.
+    """Worth of better quantities to the chosen design: pricing out, in the measure that serves as currency.
 
     Keeney, Raiffa, *Decisions with Multiple Objectives*, 1976, chapter 3: two changes that cancel in value are worth
     the same. The rates follow from weights and value functions alone; they are a test of both, as nobody who would

@@ -99,7 +99,7 @@ class Tornado:
 
     @property
     def has_leads(self) -> bool:
-        """Whether there is a lead to draw: over a rival, or over or behind a tied design at an end of an input."""
+        """True if there is a lead to draw: over a rival, or over or behind a tied design at an end of an input."""
         return self.lead is not None or any(end.lead is not None for bar in self.bars for end in (bar.low, bar.high))
 
     @property

@@ -87,7 +87,7 @@ class ObjectReader:
         }
         self._parts = {name.lower(): kind for kind, name in TYPE_NAMES.items()}
         self.omissions = Omissions(self._mapped)
-        """What is not imported."""
+        """Findings on what is not imported."""
         self.names: dict[str, None] = {}
         """The names of all attributes."""
         self.records: dict[str, dict[str, str]] = {}

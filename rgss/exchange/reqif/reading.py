@@ -78,7 +78,7 @@ def read_reqif(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Context:
-    """What the project and the user say of the objects of a file."""
+    """Statements of the project and the user about the objects of a file."""
 
     known: Mapping[str, Part]
     part: Part | None

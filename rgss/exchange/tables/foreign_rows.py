@@ -20,7 +20,7 @@ _BREAK = re.compile(r"\r\n?")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ForeignTable:
-    """What is known of a table of another tool.
+    """Known facts about a table of another tool.
 
     Attributes:
         names: The mapped names of its columns and values.

@@ -76,7 +76,7 @@ class FormattedCell:
         return PlainText(text=text.rstrip(" ") if found else text, losses=found)
 
     def _formatting(self, piece: Any) -> tuple[bool, str]:
-        """Whether a piece is struck out, and how it is shifted; a piece without a font has that of the cell."""
+        """Strike-through of a piece, and its shift; a piece without a font has that of the cell."""
         font = getattr(piece, "font", None)
         return (self.is_struck, "") if font is None else (bool(font.strike), font.vertAlign or "")
 

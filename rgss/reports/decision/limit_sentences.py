@@ -8,7 +8,7 @@ from rgss.decision.study_decision import LimitMoves
 
 
 def limit_sentences(limits: Sequence[LimitMoves], *, tolerance: float) -> tuple[str, ...]:
-    """What a table of moved limits leaves out, with what a supposition of the same limit takes; empty if nothing.
+    """Omissions of a table of moved limits, with what a supposition of the same limit takes; empty if nothing.
 
     Args:
         limits: The moves of each limit.
@@ -29,7 +29,7 @@ def limit_sentences(limits: Sequence[LimitMoves], *, tolerance: float) -> tuple[
 
 
 def anchored_limits_sentence(limits: Sequence[LimitMoves]) -> str:
-    """What moves of such limits leave out, with the command that includes it; empty without such limits."""
+    """Omissions of moves of such limits, with the command that includes it; empty without such limits."""
     anchored = [one for one in limits if one.anchored]
     if not anchored:
         return ""

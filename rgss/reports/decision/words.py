@@ -37,7 +37,7 @@ def ids_text(variants: Iterable[int], *, longest: int = LONGEST_IDS, counted: bo
 
 
 def basis_text(*, shown_feasible: bool) -> str:
-    """What decides whether a variant meets a requirement: its estimates, or verdicts on them."""
+    """Basis of the statement that a variant meets a requirement: its estimates, or verdicts on them."""
     return "verdicts" if shown_feasible else "estimates"
 
 

@@ -18,7 +18,7 @@ def edges_are_clear(
     centres: Mapping[str, Point],
     sizes: Mapping[str, tuple[float, float]],
 ) -> bool:
-    """Whether no edge runs through a node at which it does not end.
+    """True if no edge runs through a node at which it does not end.
 
     Args:
         graph: The diagram.

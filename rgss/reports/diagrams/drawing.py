@@ -265,7 +265,7 @@ def _draw_edge(canvas: Canvas, edge: Edge, points: tuple[Point, ...]) -> None:
 
 
 def _behind(points: tuple[Point, ...]) -> Point:
-    """Where an edge comes from as its head shows it; a last piece shorter than half a head has no direction."""
+    """Point from which an edge comes, as its head shows it; a last piece shorter than half a head has no direction."""
     tip = points[-1]
     if math.dist(tip, points[-2]) >= _SHORT:
         return points[-2]

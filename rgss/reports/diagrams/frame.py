@@ -12,7 +12,7 @@ _EDGE, _HEADER, _CORNER = 8.0, 24.0, 9.0
 _PAD = 8.0
 
 ORIGIN: Point = (_EDGE, _EDGE + _HEADER)
-"""Where what is within a frame begins on the paper."""
+"""Origin on the paper of what is within a frame."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -110,7 +110,7 @@ def _end(name: str, port: str | None, owner: Block) -> tuple[str, str]:
 
 
 def _flow(connector: Connector, blocks: Mapping[str, Block]) -> str:
-    """What flows: as the connector says it, or else the port where it begins, or the one where it ends."""
+    """The flow: as the connector says it, or else the port where it begins, or the one where it ends."""
     if connector.flow is not None:
         return connector.flow
     for name, port in ((connector.source, connector.source_port), (connector.target, connector.target_port)):

@@ -82,7 +82,7 @@ class Strokes:
         self._boxes = np.hstack([self._ends.min(axis=1), self._ends.max(axis=1)])
 
     def cross(self, boxes: Array) -> Mask:
-        """Whether any of them is partly within each rectangle, shape (k,).
+        """True where any of them is partly within a rectangle, shape (k,).
 
         Args:
             boxes: Left, top, right and bottom of each rectangle, shape (k, 4).
@@ -245,7 +245,7 @@ def frame_lines(frames: Iterable[Box]) -> list[Segment]:
 
 
 def _overlaps(boxes: Array, others: Array) -> Mask:
-    """Whether rectangles share an area with others, or with the rectangles about segments; shape (k, n)."""
+    """True where rectangles share an area with others, or with the rectangles about segments; shape (k, n)."""
     left, top, right, bottom = boxes.T[:, :, None]
     return np.asarray((right > others[:, 0]) & (left < others[:, 2]) & (bottom > others[:, 1]) & (top < others[:, 3]))
 
@@ -255,7 +255,7 @@ def _roomy(centre: Point, size: tuple[float, float]) -> Box:
 
 
 class _Sides:
-    """Which edge a label is beside, in diagrams with lanes."""
+    """Edge that a label is beside, in diagrams with lanes."""
 
     def __init__(self, ways: Sequence[Sequence[Point]], lanes: Sequence[Box]) -> None:
         self._ways, self._lanes = ways, lanes
@@ -263,7 +263,7 @@ class _Sides:
         self._edges = np.repeat(np.arange(len(ways)), [len(way) for way in ways])
 
     def is_of(self, box: Box, index: int) -> bool:
-        """Whether a label belongs to its edge: no other edge is nearer, and the edge beside it is in the same lane."""
+        """True if a label belongs to its edge: no other edge is nearer, and the edge beside it is in the same lane."""
         if not self._lanes:
             return True
         apart, (beside, _) = min((box.distance(point), point) for point in self._ways[index])

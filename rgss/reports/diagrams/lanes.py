@@ -65,7 +65,7 @@ def add_lanes(drawn: Any, graph: Graph, names: Mapping[str, str]) -> None:
 
 
 def is_mirrored(drawn: Any, graph: Graph) -> bool:
-    """Whether the lane of the first node is nearer to the right edge; the reader begins at the left."""
+    """True if the lane of the first node is nearer to the right edge; the reader begins at the left."""
     first = next(index for index, lane in enumerate(graph.lanes) if lane.id == graph.nodes[0].cluster)
     left, _, right, _ = _bounds(drawn.graph_attr["bb"])
     x, _, end, _ = _bounds(drawn.get_subgraph(f"cluster_{first}").graph_attr["bb"])

@@ -66,7 +66,7 @@ def _check_connector(
 
 
 def _check_direction(declaration: Declaration, port: Port, at: At, *, leaves: bool, outer: bool) -> Iterator[Finding]:
-    """What leaves a part passes an out port of it; what enters a block by its own border passes an in port."""
+    """Directions of flows: out of a part by an out port of it, into a block by an in port of its own border."""
     wanted = PortDirection.OUT if leaves != outer else PortDirection.IN
     if port.direction not in (wanted, PortDirection.INOUT):
         message = f"{at[-1]}: port {port.id!r} has the direction {port.direction.value!r}, not {wanted.value!r}"

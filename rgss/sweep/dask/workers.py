@@ -24,10 +24,10 @@ from rgss.sweep.dask.tasks import carry_out, stop
 from rgss.sweep.task_end import Ended, TaskError
 
 IN_FLIGHT = 2
-"""How many tasks each thread of the cluster has: one that is carried out, and the next."""
+"""Number of tasks that each thread of the cluster has: one that is carried out, and the next."""
 
 WITHOUT_WORKERS_S = 300.0
-"""How long a cluster may be without any worker in the middle of a sweep."""
+"""Longest time for which a cluster may be without any worker in the middle of a sweep."""
 
 _COUNTED_EVERY_S = 1.0
 _STOPPING_S = 0.7

@@ -17,7 +17,7 @@ from rgss.trace.evidence.junit_file import JUnitReport, RunTest, TestEnd
 from rgss.trace.evidence.test_marks import MarkedTest
 
 JUNIT_FILE = ".rgss/junit.xml"
-"""Where the result of a project's tests is kept, relative to the project."""
+"""File with the result of a project's tests, relative to the project."""
 
 SOFTWARE = "rgss.software"
 """Name of the property of a run that holds the digest of what was tested."""

@@ -15,7 +15,7 @@ from rgss.trace.evidence.record_evidence import RecordEvidence
 from rgss.trace.evidence.software import SoftwareEvidence, TestEvidence
 
 KEY_DIGITS = 12
-"""How much of a trial's key names it; `rgss replay` takes it."""
+"""Number of digits of a trial's key that name it, as `rgss replay` takes it."""
 
 _WORST_FIRST = (Verdict.NOT_MET, Verdict.STALE, Verdict.NOT_RUN, Verdict.INCONCLUSIVE, Verdict.MET)
 

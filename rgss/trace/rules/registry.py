@@ -50,7 +50,7 @@ RULES: tuple[Rule, ...] = tuple(rule for family in FAMILIES for rule in family.r
 
 
 _READING = frozenset({"document", "design", "measures", "scene", "study"})
-"""What the ids of findings start with that are made while other files are read."""
+"""Prefixes of the ids of findings that are made while other files are read."""
 
 
 def rule_of(rule_id: str) -> Rule:

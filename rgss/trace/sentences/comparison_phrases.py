@@ -199,7 +199,7 @@ SIGNS: Mapping[str, bool] = MappingProxyType(
 """Signs before a number, and whether the quantity may exceed it; behind a number the other holds."""
 
 NEGATORS = ("avoid", "avoids", "cannot", "neither", "never", "no", "nor", "not", "without")
-"""What turns the phrase before a number into its opposite: 'no more than', 'not exceeding'."""
+"""Words that turn the phrase before a number into its opposite: 'no more than', 'not exceeding'."""
 
 BETWEEN = (
     "allowed",

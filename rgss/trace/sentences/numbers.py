@@ -29,7 +29,7 @@ NUMBER = rf"""
 """Pattern of a number, in verbose notation."""
 
 NOT_WITHIN = r"(?<![\w.^\u2212-])(?<!\d[,'’/:])"
-"""What must not be before a number: it would be within a name such as UR10 or KG-2, or within 4.3.1, 1/2 or 0:25."""
+"""Condition before a number: that it is not within a name such as UR10 or KG-2, or within 4.3.1, 1/2 or 0:25."""
 
 _SCALES: Mapping[str | None, float] = MappingProxyType(
     {None: 1.0, "k": 1e3, " thousand": 1e3, " million": 1e6, " billion": 1e9}

@@ -105,8 +105,8 @@ _ONWARD: Mapping[Relation, frozenset[Relation]] = {
     Relation.TRACED_BY: _NOTHING,
     Relation.COMPUTED_FROM: _NOTHING,
 }
-"""Where a chain goes on after a relation, where that is not everywhere: it is not to wander through the
-architecture, nor through the inside of a measure, when something else was requested."""
+"""Relations that may continue a chain after another one, if not all: a chain must not wander through
+the architecture, nor through the inside of a measure, when something else was requested."""
 
 
 def _upward(root: Named, neighbours: Neighbours) -> _Next:

@@ -12,7 +12,7 @@ from rgss.errors import TradeoffError
 Array = NDArray[np.float64]
 
 SOLVER_TOLERANCE = 1e-10
-"""How far a condition may be from holding; conditions are scaled to unit length before."""
+"""Largest violation of a condition that counts as met; conditions are scaled to unit length before."""
 
 _OPTIMAL, _INFEASIBLE = 0, 2
 

@@ -11,7 +11,7 @@ from rgss.tradeoff.milp.sums import LinearQuantity
 from rgss.tradeoff.problem import Alternative, replicates_of
 
 INTEGRALITY_TOLERANCE = 1e-6
-"""How far a boolean variable may be from 0 or 1 in an answer that is accepted."""
+"""Largest distance of a boolean variable from 0 or 1 in an answer that is accepted."""
 
 Row = tuple[float | None, ...]
 

@@ -14,7 +14,7 @@ RANDOM_STARTS = 8
 """So many random portfolios of each size are improved beside the greedy one."""
 
 UNSERVED = -2.0
-"""What a task counts that no member serves: more than all tasks together can be worth."""
+"""Value of a task that no member serves: more than all tasks together can be worth."""
 
 
 def profits_of(values: Values, weights: Values) -> Values:

@@ -10,7 +10,7 @@ from enum import Enum
 from rgss.errors import TradeoffError
 
 WEIGHT_SUM_TOLERANCE = 1e-9
-"""How far the weights may be from a sum of exactly 1."""
+"""Largest distance of the sum of the weights from 1."""
 
 
 class RankRule(str, Enum):

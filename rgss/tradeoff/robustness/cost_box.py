@@ -15,7 +15,7 @@ from rgss.tradeoff.problem import TIE_TOLERANCE, Array, Mask
 from rgss.tradeoff.robustness.polygon_extremes import clip, lowest_separable, zonotope
 
 PRECISION = 1e-9
-"""How closely the factor is bisected."""
+"""Tolerance of the bisection of the factor."""
 
 _SLACK = 1e-9
 

@@ -29,7 +29,7 @@ class ReplicationGains:
 
 
 NO_GAINS = ReplicationGains(of_more=(), perfect=0.0)
-"""Where gains are not asked for."""
+"""Gains that were not computed."""
 
 
 def _worth(found: PosteriorOutcomes) -> Array:

@@ -21,7 +21,7 @@ MOST_MORE = 100_000
 """More replicates than this are not counted out."""
 
 FEWEST_AT_THRESHOLD = 10.0
-"""Where fewer failures than this are to be expected at the threshold of a share, probabilities follow the prior."""
+"""Fewest failures to be expected at the threshold of a share; with fewer, probabilities follow the prior."""
 
 _Z = 1.6448536269514722
 """The one-sided 95 % quantile of the normal distribution."""

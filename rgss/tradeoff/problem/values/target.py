@@ -73,7 +73,7 @@ class TargetValue:
         return ((self.too_low, 0.0), (self.target, 1.0), (self.too_high, 0.0))
 
     def ends_at(self, quantity: float) -> tuple[float, float]:
-        """What is too low or too high, on the side of a quantity, and the target."""
+        """The end that is too low or too high, on the side of a quantity, and the target."""
         return (self.too_low if quantity < self.target else self.too_high), self.target
 
     def value_at(self, quantity: float) -> float:
