@@ -62,7 +62,6 @@ def servo_motion(
     *,
     start: tuple[float | Array, float | Array] = (0.0, 0.0),
     commands: CommandedPositions = CommandedPositions.HELD,
-    longest_step_s: float = LONGEST_STEP_S,
 ) -> ServoMotion:
     """Motion of several servos under the same commands, from the same start.
 
@@ -77,10 +76,9 @@ def servo_motion(
         commanded_rad_s: Commanded speeds, shape (times,).
         start: Position (rad) and speed (rad/s) at the first sample, each one for all or of shape (servos,).
         commands: Course of the commanded positions between samples.
-        longest_step_s: Bound of the step.
     """
     given = ServoCommands(times_s=times_s, commanded_rad=commanded_rad, commanded_rad_s=commanded_rad_s, start=start)
-    (motion,) = servo_motions(servos, [given], commands=commands, longest_step_s=longest_step_s)
+    (motion,) = servo_motions(servos, [given], commands=commands)
     return motion
 
 

@@ -14,13 +14,9 @@ class Hints:
     Without it, a project with only wrong ids would compare all pairs.
     """
 
-    def __init__(self, most_comparisons: int = _MOST_COMPARISONS) -> None:
-        """Start without comparisons.
-
-        Args:
-            most_comparisons: Greatest number of compared ids.
-        """
-        self._left = most_comparisons
+    def __init__(self) -> None:
+        """Start without comparisons."""
+        self._left = _MOST_COMPARISONS
 
     def nearest(self, name: str, names: Collection[str]) -> str:
         """Hint with the id nearest to an unknown one; empty if none is similar or the limit is exceeded.

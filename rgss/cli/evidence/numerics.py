@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from rgss.counted import counted
+
 
 def computed_with(path: Path, label: str) -> list[dict[str, Any]]:
     """Numeric environments of a store's trials, with the number of trials and whether this machine has the same.
@@ -45,8 +47,7 @@ def numerics_line(computed: Mapping[str, Any]) -> str:
     from rgss.evidence.records import numerics_text
     from rgss.findings import printable
 
-    number = computed["trials"]
-    who = f"{number} {'trial' if number == 1 else 'trials'}"
+    who = counted(computed["trials"], "trial")
     how = printable(numerics_text(computed["numerics"]))
     if computed["as_here"]:
         return f"{who}: computed as on this machine, so 'rgss replay' must agree bit for bit ({how})."

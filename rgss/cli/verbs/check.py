@@ -226,7 +226,7 @@ def _review(options: argparse.Namespace) -> int:
         print_json({"reviewed": list(ids), "reviewer": reviews[ids[0]].reviewer if ids else "", "file": path})
     else:
         elements = "1 element" if len(ids) == 1 else f"{len(ids)} elements"
-        print(f"Reviewed {elements}; {path} has {len(reviews)} {'review' if len(reviews) == 1 else 'reviews'}.")
+        print(f"Reviewed {elements}; {path} has {counted(len(reviews), 'review')}.")
     return CLEAN
 
 

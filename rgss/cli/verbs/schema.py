@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rgss.studies import DocumentKind
 
+from rgss.counted import counted
+
 HELP = "write JSON Schemas of the YAML documents, for completion and checks in editors"
 FITTED = False
 EXAMPLE = "rgss schema --out schemas --headers"
@@ -98,7 +100,7 @@ def _write(options: argparse.Namespace) -> int:
     if options.json:
         print_json({"schemas": [str(path) for path in files], "headed": [shown_path(path) for path in headed]})
         return CLEAN
-    print(f"{len(files)} {'schema' if len(files) == 1 else 'schemas'} in {shown_path(options.out)}")
+    print(f"{counted(len(files), 'schema')} in {shown_path(options.out)}")
     if project is not None:
         if not headed:
             print("every document of the project names its schema already")

@@ -6,6 +6,7 @@ import argparse
 from datetime import date
 
 from rgss.cli.options import STUDY_HELP
+from rgss.counted import counted
 
 HELP = "record what an inspection, a demonstration, an analysis or a test by a person found"
 EXAMPLE = "rgss verify SYS-2 --result met --by 'A. Reader' --on 2026-05-12 --file protocols/closing.md"
@@ -70,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
         print_json({"verified": list(ids), "result": None if record is None else record.result.value, "file": path})
     else:
         done = "Withdrew the record" if record is None else f"Recorded {options.result.replace('-', ' ')}"
-        print(f"{done} of {', '.join(ids)}; {path} has {len(records)} {'record' if len(records) == 1 else 'records'}.")
+        print(f"{done} of {', '.join(ids)}; {path} has {counted(len(records), 'record')}.")
     return CLEAN
 
 

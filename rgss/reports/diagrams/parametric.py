@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from rgss.counted import counted
 from rgss.measures import Constant, InputSymbol, Measure, MeasureKind, MeasureSet, Name
 from rgss.reports.diagrams.drawing import Drawing, draw_graph
 from rgss.reports.diagrams.frame import Heading
@@ -80,7 +81,7 @@ def _diagram(
         name=f"parametric-{name}",
         title=f"Parametric diagram: {title}",
         description=(
-            f"{len(shown)} {'equation' if len(shown) == 1 else 'equations'}; small squares are parameters, lines bind "
+            f"{counted(len(shown), 'equation')}; small squares are parameters, lines bind "
             "these to values and to each other."
         ),
         text_alternative=" ".join(f"{measure.id} = {measure.expression.text}." for measure in shown),

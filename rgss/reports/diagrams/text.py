@@ -65,12 +65,12 @@ def wrapped(text: str, width: float, size: float, *, bold: bool = False) -> tupl
     return (*lines, line) if line else tuple(lines)
 
 
-def shortened(text: str, width: float, size: float, *, bold: bool = False) -> str:
+def shortened(text: str, width: float, size: float) -> str:
     """Text on one line, cut with an ellipsis if it does not fit."""
     line = " ".join(text.split())
-    if text_width(line, size, bold=bold) <= width:
+    if text_width(line, size) <= width:
         return line
-    while line and text_width(f"{line}…", size, bold=bold) > width:
+    while line and text_width(f"{line}…", size) > width:
         line = line[:-1]
     return f"{line.rstrip()}…"
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from rgss.counted import counted
 from rgss.measures import Verdict
 from rgss.reports.trace.report import MatrixPart, TraceReport
 from rgss.reports.trace.tables import matrix_note, tally_in_words
@@ -221,7 +222,7 @@ def _verification_row(row: VerificationRow) -> dict[str, Any]:
             for trial in row.trials
         ],
         "tests": [{"id": test.test, "end": end_in_words(test)} for test in row.tests],
-        "tests_summary": f"{len(row.tests)} {'test' if len(row.tests) == 1 else 'tests'}: "
+        "tests_summary": f"{counted(len(row.tests), 'test')}: "
         + ", ".join(f"{count} {end}" for end, count in counts.items()),
         "record": "" if row.record is None else record_in_words(row.record),
         "verdict": "differing" if row.verdict is None else row.verdict.value,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from rgss.counted import counted
 from rgss.findings import printable
 from rgss.reports.plain_text import aligned_table
 from rgss.reports.tables import Cell, Table, cell_text, chosen_table
@@ -162,7 +163,7 @@ def _matrix(part: MatrixPart) -> Table:
 def _evidence(row: VerificationRow) -> str:
     parts = [] if row.estimate is None or row.estimate.value is None else [estimate_in_words(row.estimate)]
     counts = Counter(end_in_words(test) for test in row.tests)
-    parts += [f"{count} {'test' if count == 1 else 'tests'} {end}" for end, count in counts.items()]
+    parts += [f"{counted(count, 'test')} {end}" for end, count in counts.items()]
     parts += [] if row.record is None else [f"record of {row.record.record.date}"]
     if row.estimate is None and row.tally:
         # Without a choice no variant is shown, and all are judged.

@@ -33,14 +33,9 @@ class DriverLimits:
         return replace(joint, lower_rad=lower, upper_rad=upper, speed_rad_s=min(joint.speed_rad_s, self.speed))
 
 
-def driven_of(moving: Iterable[ET.Element], frozen: Collection[str] = ()) -> tuple[ET.Element, ...]:
-    """Joints of a chain that follow no other one.
-
-    Args:
-        moving: The movable joints of the chain.
-        frozen: Names of those that do not move.
-    """
-    return tuple(one for one in moving if one.find("mimic") is None and one.get("name", "") not in frozen)
+def driven_of(moving: Iterable[ET.Element]) -> tuple[ET.Element, ...]:
+    """Those of the movable joints of a chain that follow no other one."""
+    return tuple(one for one in moving if one.find("mimic") is None)
 
 
 def follower_problems(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from rgss.counted import counted
 from rgss.evidence.records import Metric
 from rgss.figures import rounded_figure
 from rgss.measures import Estimate, StaleCause, Verdict
@@ -102,4 +103,4 @@ def estimate_in_words(estimate: Estimate) -> str:
         return f"{text}, from the design alone"
     if estimate.low is not None and estimate.high is not None and estimate.low != estimate.high:
         text += f" ({value_in_words(estimate.low)} to {value_in_words(estimate.high)})"
-    return f"{text}, {estimate.n} {'trial' if estimate.n == 1 else 'trials'}"
+    return f"{text}, {counted(estimate.n, 'trial')}"

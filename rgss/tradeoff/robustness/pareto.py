@@ -69,10 +69,6 @@ class ParetoFront:
         """The alternatives on the front, ascending."""
         return tuple(point.row for point in self.points if point.support is not Support.DOMINATED)
 
-    def with_support(self, *support: Support) -> tuple[int, ...]:
-        """The alternatives at given places, ascending."""
-        return tuple(point.row for point in self.points if point.support in support)
-
 
 def pareto_front(values: Array, feasible: Mask) -> ParetoFront:
     """Place every feasible alternative on the front or behind it.

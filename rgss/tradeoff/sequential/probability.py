@@ -43,7 +43,7 @@ def probability_of_good_selection(
 
 
 def probabilities_of_loss(
-    evidence: SequentialEvidence, chosen: int | None, *, margin: float, seed: int, draws: int = LOSS_DRAWS
+    evidence: SequentialEvidence, chosen: int | None, *, margin: float, seed: int
 ) -> NDArray[np.float64]:
     """Posterior probability that each alternative is the best while the choice is not good, shape (n,).
 
@@ -55,9 +55,8 @@ def probabilities_of_loss(
         chosen: The choice; None if nothing is feasible by the estimates, which is never good.
         margin: The practically irrelevant difference of value.
         seed: Seed of the draws.
-        draws: Number of draws.
     """
-    found = _posterior(evidence, seed=seed, draws=draws)
+    found = _posterior(evidence, seed=seed, draws=LOSS_DRAWS)
     feasible = found.outcomes.feasible
     worth = np.where(feasible, np.nan_to_num(found.totals), -np.inf)
     highest = worth.max(axis=1, keepdims=True)

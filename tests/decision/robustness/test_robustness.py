@@ -110,7 +110,7 @@ def test_regions_and_acceptability(found):
     assert not weighting.elicited
     feasible = {found.variants[row] for row in np.flatnonzero(found.feasible)}
     assert {found.variants[point.row] for point in found.front.points} == feasible
-    extreme = set(found.front.with_support(Support.EXTREME))
+    extreme = {point.row for point in found.front.points if point.support is Support.EXTREME}
     assert {row for row, region in enumerate(weighting.regions) if region.share > 0} == extreme
 
 
