@@ -12,12 +12,12 @@ from rgss.documents import Document, read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
-from rgss.scenes import (
-    half_extents_m,
-    mesh_volume_findings,
-)
+from rgss.scenes import half_extents_m, mesh_volume_findings
 from rgss.studies.checks import (
+    MISFITS,
     OF_ONE_GRIPPER,
+    TOO_WIDE,
+    Misfit,
     TooTall,
     check_step_findings,
     checked_mounting,
@@ -27,16 +27,10 @@ from rgss.studies.checks import (
     is_at_the_palm,
     is_of_fingers,
     lack_of_room,
-    narrow_finding,
     no_grasp_texts,
-    objects_too_narrow,
     objects_too_tall,
-    objects_too_wide,
     remedy,
-    seal_finding,
     step_findings,
-    unsealed_objects,
-    width_finding,
 )
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.expansion import trial_specs
@@ -98,13 +92,8 @@ def check_scene(project: Project) -> SceneCheck:
     found += places.outgrown_regions()
     found += mesh_volume_findings(project.folder / label, label=label)
     found += [
-        finding(document, (*places.at[name][:-1], "id"), reason, files, serves=of_hands.serves(name, every))
-        for finding, unfit in (
-            (seal_finding, of_hands.not_sealed),
-            (width_finding, of_hands.too_wide),
-            (narrow_finding, of_hands.too_narrow),
-        )
-        for (name, reason), files in unfit.items()
+        misfit.finding(document, (*places.at[name][:-1], "id"), reason, files, serves=of_hands.serves(name, every))
+        for (misfit, name, reason), files in of_hands.misfits.items()
     ]
     found += [places.too_tall(tall, files, serves=len(files) < every) for tall, files in of_hands.too_tall.items()]
     return SceneCheck(findings=tuple(sorted(found)), skipped=skipped)
@@ -118,14 +107,11 @@ class _HandProblems:
     room: dict[SceneProblem, str] = field(default_factory=dict)
     steps: dict[HandStepProblem, list[str]] = field(default_factory=dict)
     too_tall: dict[TooTall, list[str]] = field(default_factory=dict)
-    too_wide: dict[tuple[str, str], list[str]] = field(default_factory=dict)
-    too_narrow: dict[tuple[str, str], list[str]] = field(default_factory=dict)
-    not_sealed: dict[tuple[str, str], list[str]] = field(default_factory=dict)
+    misfits: dict[tuple[Misfit, str, str], list[str]] = field(default_factory=dict)
 
     def serves(self, name: str, every: int) -> bool:
         """True if an object fits a gripper of the designs: between its fingers, or a cup that seals on it."""
-        sizes = (*self.not_sealed.items(), *self.too_wide.items(), *self.too_narrow.items())
-        unfit = (files for (of, _), files in sizes if of == name)
+        unfit = (files for (_, of, _), files in self.misfits.items() if of == name)
         return len({file for files in unfit for file in files}) < every
 
     def reaches(self, problem: SceneProblem, every: int) -> bool:
@@ -143,23 +129,21 @@ class _HandProblems:
 
         scene, friction = project.scene, _pad_friction(project, file)
         geometry = checked_mounting(project, file, friction)
-        tall, wide = objects_too_tall(geometry, project), objects_too_wide(geometry, project)
+        tall = objects_too_tall(geometry, project)
+        misfits = [(misfit, *found) for misfit in MISFITS for found in misfit.objects(geometry, project)]
         for one in tall:
             self.too_tall.setdefault(one, []).append(file)
-        for unfit in wide:
-            self.too_wide.setdefault(unfit, []).append(file)
-        for narrow in objects_too_narrow(geometry, project):
-            self.too_narrow.setdefault(narrow, []).append(file)
-        for unsealed in unsealed_objects(geometry, project):
-            self.not_sealed.setdefault(unsealed, []).append(file)
+        for unfit in misfits:
+            self.misfits.setdefault(unfit, []).append(file)
         if not is_searched:
             return
+        wide = [name for misfit, name, _ in misfits if misfit is TOO_WIDE]
         clearance_m, task = project.study.planning.clearance_m, project.study.task
         for step in hand_step_problems(scene, geometry, clearance_m=clearance_m, task=task, friction=friction):
             self.steps.setdefault(step, []).append(file)
         for problem in reach_problems(scene, geometry, clearance_m=clearance_m, task=task, friction=friction):
             at_palm = any(is_at_the_palm(problem, one.object) for one in tall)
-            if not at_palm and not any(is_of_fingers(problem, name) for name, _ in wide):
+            if not at_palm and not any(is_of_fingers(problem, name) for name in wide):
                 self.reach.setdefault(problem, []).append(file)
                 if problem.kind is SceneProblemKind.NO_GRASP:
                     self.room[problem] = lack_of_room(project, geometry, problem.first, friction)

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from rgss.studies.checks.candidate_grasps import checked_mounting, lack_of_room
     from rgss.studies.checks.double_counting import double_counting_findings
     from rgss.studies.checks.draw_check import draw_findings
+    from rgss.studies.checks.gripped_objects import MISFITS, TOO_WIDE, Misfit, is_of_fingers
     from rgss.studies.checks.held_load_check import held_load_findings
     from rgss.studies.checks.impact_check import impact_findings
     from rgss.studies.checks.light_check import light_body_findings
@@ -20,19 +21,11 @@ if TYPE_CHECKING:
         no_grasp_texts,
         remedy,
     )
-    from rgss.studies.checks.seal_check import seal_finding, unsealed_objects
     from rgss.studies.checks.step_check import check_step_findings, step_findings
     from rgss.studies.checks.strict_check import strict_findings
     from rgss.studies.checks.task_time_check import task_time_findings
     from rgss.studies.checks.threshold_check import threshold_findings
     from rgss.studies.checks.too_tall import TooTall, is_at_the_palm, objects_too_tall
     from rgss.studies.checks.undefined_check import undefined_findings
-    from rgss.studies.checks.width_check import (
-        is_of_fingers,
-        narrow_finding,
-        objects_too_narrow,
-        objects_too_wide,
-        width_finding,
-    )
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -11,7 +11,7 @@ import pytest
 from rgss.documents import read_document
 from rgss.findings import Severity
 from rgss.scenes import Cylinder, GraspCandidates, MeshShape
-from rgss.studies.checks import seal_finding, unsealed_objects
+from rgss.studies.checks.gripped_objects import NOT_SEALED
 from rgss.studies.project import load_project
 from rgss.studies.scene_findings import check_scene
 
@@ -29,13 +29,13 @@ def cup_of(project, radius_m=0.01):
 
 
 def test_the_cubes_leave_room_for_the_cup(project):
-    assert unsealed_objects(cup_of(project), project) == ()
+    assert NOT_SEALED.objects(cup_of(project), project) == ()
     fingers = next(one.geometry for file, one in project.grippers.items() if file != CUP)
-    assert unsealed_objects(fingers, project) == ()
+    assert NOT_SEALED.objects(fingers, project) == ()
 
 
 def test_every_gripped_object_that_is_smaller_than_the_cup(project):
-    found = unsealed_objects(cup_of(project, 0.0151), project)
+    found = NOT_SEALED.objects(cup_of(project, 0.0151), project)
 
     assert [name for name, _ in found] == [one.workpiece.id for one in project.scene.objects]
     assert all(
@@ -49,13 +49,13 @@ def test_a_stated_grasp_of_a_cup_needs_a_box_or_an_upright_cylinder(project):
     mesh = MeshShape(parts_m=(corners,), sha256="0" * 64)
     scene = replace(project.scene, workpiece=replace(project.scene.workpiece, shape=mesh))
     with_mesh = replace(project, scene=scene)
-    ((name, why),) = unsealed_objects(cup_of(project), with_mesh)
+    ((name, why),) = NOT_SEALED.objects(cup_of(project), with_mesh)
 
     assert name == scene.workpiece.id
     assert why.startswith(f"gripper lite6_vacuum takes {name} by candidates alone: the stated grasp of a cup is in")
     # Where the task chooses among candidates, its own findings tell of objects without any.
     chosen = replace(scene, task=replace(scene.task, candidates=GraspCandidates()))
-    assert unsealed_objects(cup_of(project), replace(project, scene=chosen)) == ()
+    assert NOT_SEALED.objects(cup_of(project), replace(project, scene=chosen)) == ()
 
 
 @pytest.mark.engine
@@ -72,7 +72,7 @@ def test_the_check_of_the_scene_notes_a_cup_that_is_too_large_for_the_cubes(tmp_
 
 def test_no_other_gripper_makes_it_an_error():
     document = read_document(REPOSITORY / "scenes/restaurant.yaml", label="scenes/restaurant.yaml")
-    finding = seal_finding(document, ("workpiece", "id"), "the cup is too large", [CUP], serves=False)
+    finding = NOT_SEALED.finding(document, ("workpiece", "id"), "the cup is too large", [CUP], serves=False)
 
     assert (finding.rule, finding.severity) == ("scene.seal", Severity.ERROR)
     assert finding.hint == "take a smaller cup, or let the task choose the grasp with 'grasp: automatic'"

@@ -10,7 +10,7 @@ from rgss.documents import read_document
 from rgss.findings import Severity
 from rgss.scenes import Cylinder
 from rgss.scenes.grasps import GraspCandidates
-from rgss.studies.checks import narrow_finding, objects_too_narrow, objects_too_wide, width_finding
+from rgss.studies.checks.gripped_objects import TOO_NARROW, TOO_WIDE
 from rgss.studies.scene_findings import check_scene
 
 SCENE = "scenes/restaurant.yaml"
@@ -31,7 +31,7 @@ def geometry_of(project):
 def test_an_object_wider_than_the_open_fingers(shipped, share, found):
     geometry = geometry_of(shipped)
     project = with_radius(shipped, share * geometry.largest_opening_m)
-    reasons = objects_too_wide(geometry, project)
+    reasons = TOO_WIDE.objects(geometry, project)
     assert len(reasons) == found
     for name, reason in reasons:
         assert name == project.scene.workpiece.id
@@ -42,7 +42,7 @@ def test_an_object_wider_than_the_open_fingers(shipped, share, found):
 def test_an_object_narrower_than_the_closed_fingers(shipped, share, found):
     geometry = geometry_of(shipped)
     project = with_radius(shipped, share * geometry.least_opening_m)
-    reasons = objects_too_narrow(geometry, project)
+    reasons = TOO_NARROW.objects(geometry, project)
     assert len(reasons) == found
     for name, reason in reasons:
         assert name == project.scene.workpiece.id
@@ -56,8 +56,8 @@ def test_chosen_grasps_have_findings_of_their_own(shipped):
     project = with_radius(shipped, 1.01 * geometry_of(shipped).largest_opening_m)
     task = replace(project.scene.task, candidates=GraspCandidates())
     chosen = replace(project, scene=replace(project.scene, task=task))
-    assert objects_too_wide(geometry_of(shipped), chosen) == ()
-    assert objects_too_narrow(geometry_of(shipped), with_radius(chosen, 1e-3)) == ()
+    assert TOO_WIDE.objects(geometry_of(shipped), chosen) == ()
+    assert TOO_NARROW.objects(geometry_of(shipped), with_radius(chosen, 1e-3)) == ()
 
 
 def test_the_check_names_the_sizes_and_no_collision_of_a_finger(shipped):
@@ -79,7 +79,7 @@ def test_the_check_names_an_object_that_no_hand_touches(shipped):
     }
 
 
-@pytest.mark.parametrize("finding_of", [width_finding, narrow_finding])
+@pytest.mark.parametrize("finding_of", [TOO_WIDE.finding, TOO_NARROW.finding])
 def test_another_gripper_makes_it_a_result(shipped, finding_of):
     document = read_document(shipped.folder / SCENE, label=SCENE)
     found = [
