@@ -76,6 +76,11 @@ EXCHANGE_RATES = FrameDescription(
             kind=Kind.NUMBER,
         ),
         Column(name="misses", meaning="requirements that it misses, separated by commas; none if it is feasible"),
+        Column(
+            name="is_tied",
+            meaning="true if the evidence does not separate its value from that of the choice; missing if not known",
+            kind=Kind.TRUTH,
+        ),
     ),
 )
 

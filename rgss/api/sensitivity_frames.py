@@ -75,6 +75,7 @@ def exchange_rates_frame(found: Sensitivity) -> pd.DataFrame:
             "better_quantity": None if rate.better is None else rate.better.quantity,
             "extra": None if rate.better is None else rate.better.extra,
             "misses": "" if rate.better is None else ", ".join(rate.better.misses),
+            "is_tied": None if rate.better is None else rate.better.is_tied,
         }
         for rate in exchange.rates
     ]

@@ -73,8 +73,7 @@ def test_a_single_variant_that_misses_a_limit(decide):
     assert made.decision.chosen is None
     text = "\n".join(decision_lines(made))
     assert not OF_SEVERAL.search(text), OF_SEVERAL.search(text)
-    assert "The only variant does not meet every requirement by its estimates." in text
     assert "No variant is chosen: the only one compared does not meet every requirement by its estimates" in text
     assert re.search(r"^Variant \d+ (violates|has no value)", text, re.MULTILINE)
     assert "Nearest" not in text
-    assert "The only variant of study `pick_place` does not meet every requirement" in decision_section(made)
+    assert "the only one compared does not meet every requirement" in decision_section(made)

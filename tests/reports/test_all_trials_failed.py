@@ -38,7 +38,7 @@ def test_a_requirement_without_a_value_is_not_said_to_be_missed(made):
     rows = {tuple(one["requirements"]): one["unmeasured"] for one in conflict_part(made.decision)["conflicts"]}
     assert rows["SYS-005",] is True
     assert rows["SYS-024",] is False
-    lines = list(conflict_lines(made.decision, shown_feasible=False))
+    lines = list(conflict_lines(made.decision))
     assert next(line for line in lines if line.startswith("SYS-005 alone")).endswith("no value")
 
 

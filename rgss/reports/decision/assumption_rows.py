@@ -174,7 +174,7 @@ def _change(one: AssumptionOutcome) -> str:
     if one.is_same is None:
         return UNKNOWN
     if one.is_unseparated:
-        return f"no, variant {one.chosen} is not separated from it"
+        return f"not shown: variant {one.chosen} is not separated from the choice"
     if one.is_same:
         return "no"
     return "yes, to nothing" if one.chosen is None else f"yes, to variant {one.chosen}"

@@ -21,8 +21,10 @@ from rgss.reports.decision.conclusion import (
     standing_sentence,
     uncertainty_sentences,
 )
+from rgss.reports.decision.conflict_tables import conflict_tables, unmeasured_headline
 from rgss.reports.decision.exchange_sentences import worth_sentences
 from rgss.reports.decision.sensitivity_sentences import tied_by_weights_sentence
+from rgss.reports.decision.sentences import nearest_sentence
 from rgss.reports.decision.words import (
     UNKNOWN,
     amount,
@@ -46,10 +48,7 @@ def decision_section(made: StudyDecision) -> str:
     parts = [BEGIN, ""]
     found, exchange = made.robustness, None if made.sensitivity is None else made.sensitivity.exchange
     if made.comparison is None:
-        basis = basis_text(shown_feasible=made.shown_feasible)
-        whose = "The only variant" if made.is_alone else "No variant"
-        meets = "does not meet" if made.is_alone else "meets"
-        parts += [f"{whose} of study `{made.study}` {meets} every requirement by its {basis}.", ""]
+        parts += [*_conflicts(made), ""]
     elif found is not None:
         parts += [*_choice(made, made.comparison), ""]
         parts += [*_deciding(made, made.comparison, found), ""]
@@ -96,6 +95,22 @@ def with_section(text: str, section: str) -> str:
     """A text with another section between its markers."""
     ended = section.replace("\n", "\r\n") if "\r\n" in text else section
     return text.partition(BEGIN)[0] + ended + text.partition(END)[2]
+
+
+def _conflicts(made: StudyDecision) -> Iterator[str]:
+    """What no variant meets, and what would be enough."""
+    yield from filter(None, (headline(made), stale_sentence(made), unmeasured_headline(made.decision)))
+    found = made.decision.conflicts
+    for table in () if found is None else conflict_tables(made.decision, found):
+        yield ""
+        yield f"| {' | '.join(table.heads)} |"
+        yield "|" + "---|" * len(table.heads)
+        for row in table.rows:
+            yield f"| {' | '.join(row)} |"
+        for note in table.notes:
+            yield from ("", note)
+    if found is not None:
+        yield from ("", nearest_sentence(made.decision, found))
 
 
 def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:

@@ -44,7 +44,7 @@ def test_what_leaves_nothing_feasible(rgss, with_evidence):
 
     assert (told.status, told.errors) == (1, "")
     assert "to nothing." in told.output
-    assert "No variant meets every requirement by its estimates." in told.output
+    assert "No variant is chosen: none meets every requirement by its estimates" in told.output
     assert "SYS-012" in told.output
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import sqlite3
 from pathlib import Path
@@ -222,8 +223,15 @@ def test_trade_where_nothing_is_feasible(rgss, spoilt):
     told, document = rgss("trade", "--project", spoilt), rgss("trade", "--json", "--project", spoilt)
 
     assert (told.status, told.errors, document.status) == (1, "", 1)
-    assert "No variant meets every requirement by its estimates." in told.output
+    assert told.output.count("none meets every requirement by its estimates") == 1
     assert "SYS-012" in told.output
+    section = rgss("trade", "--section", "--project", spoilt)
+    assert (section.status, section.errors) == (1, "")
+    assert "No variant is chosen: none meets every requirement by its estimates" in section.output
+    (row,) = [line for line in section.output.splitlines() if line.startswith("| SYS-012 |")]
+    assert row.split(" | ")[1:3] == ["P_max_simulated >= 80 kg", "72"]
+    assert "| SYS-012 alone |" in section.output
+    assert re.search(r"^Nearest: variant \d+, which violates SYS-012", section.output, re.MULTILINE)
     assert (document.document["status"], document.document["chosen"]) == ("infeasible", None)
 
 

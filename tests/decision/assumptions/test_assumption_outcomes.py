@@ -131,7 +131,7 @@ def test_trials_that_do_not_observe_a_valued_measure_decide_nothing(evidence, fi
 
     kinematic = project.with_fidelity("kinematic")
     alone = choose(kinematic, measure_variants(kinematic, store))
-    (line,) = list(conflict_lines(alone, shown_feasible=False))[:1]
+    (line,) = list(conflict_lines(alone))[:1]
     assert line.startswith("No variant can be chosen: the trials give no value of ")
     assert line.endswith(" for one.")
 
@@ -321,7 +321,7 @@ def test_a_design_that_is_ahead_by_less_than_the_margin_is_no_change(evidence, f
     made = decide_study(project, measured, evidence="e", assumptions=assumption_outcomes(project, measured, store))
 
     assert (found.chosen, found.is_same, found.is_unseparated) == (rival, True, True)
-    assert f"no, variant {rival} is not separated from it" in "\n".join(decision_lines(made))
+    assert f"not shown: variant {rival} is not separated from the choice" in "\n".join(decision_lines(made))
     entry = trade_document(made)["modelling_assumptions"][0]
     assert (entry["changes_choice"], entry["unseparated"]) == (False, True)
 

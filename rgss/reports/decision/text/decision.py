@@ -26,9 +26,9 @@ def choice_lines(made: StudyDecision) -> Iterator[str]:
     """The chosen variant beside the runner-up, with reasons; or the conflicts of an infeasible decision."""
     stale = tuple(filter(None, (stale_sentence(made),)))
     if made.comparison is None:
-        yield from conflict_lines(made.decision, shown_feasible=made.shown_feasible)
         yield headline(made)
         yield from stale
+        yield from conflict_lines(made.decision)
         return
     yield headline(made)
     yield standing_sentence(made)
