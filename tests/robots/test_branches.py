@@ -51,3 +51,31 @@ def test_two_ways_of_like_length_end_the_arm_with_a_note_that_names_the_end_of_t
 def test_a_hand_with_fingers_of_the_same_length_is_no_division(draft, lengths):
     fingers = "".join(branch("flange", count, f"finger_{at}") for at, count in enumerate(lengths))
     assert "divides" not in rationales(draft(CLEAN.replace("</robot>", f"{fingers}</robot>")))
+
+
+def follower(parent, name, joint):
+    """A link that turns with a joint of the arm."""
+    first = branch(parent, 1, name)
+    return first.replace("</joint>", f'<mimic joint="{joint}" multiplier="-1"/></joint>')
+
+
+@pytest.mark.parametrize(("at", "follows"), [("link_2", 1), ("link_3", 2), ("link_5", 2), ("link_3", 4), ("link_4", 5)])
+def test_the_rods_of_a_parallelogram_are_not_where_the_arm_ends(draft, at, follows):
+    """A rod that follows a joint before its link or the one on it, and a triangle on it, as palletisers have them."""
+    clean = draft(CLEAN)
+    rods = follower(at, "rod", f"joint_{follows}") + follower("rod_1", "triangle", "joint_2")
+    drafted = draft(CLEAN.replace("</robot>", f"{rods}</robot>"))
+    assert drafted.arm.flange == clean.arm.flange == "flange"
+    assert [joint.name for joint in drafted.robot.joints] == [joint.name for joint in clean.robot.joints]
+    assert drafted.arm.rods == ("rod_1",)
+    assert drafted.arm.hands == ()
+    assert "as the rods of a parallelogram do, is left out: rod_1." in drafted.file.read_text(encoding="utf-8")
+    q = [0.3, -0.4, 0.5, 0.6, -0.7, 0.8]
+    assert tool(drafted, q) == pytest.approx(tool(clean, q), abs=1e-12)
+
+
+def test_fingers_that_follow_each_other_are_a_hand(draft):
+    fingers = branch("flange", 1, "left") + follower("flange", "right", "left_joint_1")
+    drafted = draft(CLEAN.replace("</robot>", f"{fingers}</robot>"))
+    assert [joint.name for joint in drafted.robot.joints] == [f"joint_{number}" for number in range(1, 7)]
+    assert (drafted.arm.hands, drafted.arm.rods) == (("flange_palm",), ())

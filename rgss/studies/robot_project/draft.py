@@ -78,7 +78,7 @@ def drafted_robot(
     if len(arm.joints) < _POSE_FREEDOMS:
         notes += snap_right_angles(root)
     likely = likely_tool_axes(root, arm, urdf)
-    notes += complete_masses(root, urdf, leave=arm.hands, mass_kg=mass_kg)
+    notes += complete_masses(root, urdf, leave=(*arm.hands, *arm.rods), mass_kg=mass_kg)
     id_ = identifier_of(arm.name, prefix="arm")
     robots = project / "scenes" / "robots"
     robots.mkdir(parents=True, exist_ok=True)

@@ -43,8 +43,8 @@ def robot_text(arm: UrdfArm, *, id_: str, urdf: str, home: Sequence[float], held
         f"tool_acceleration: {TOOL_ACCELERATION_M_S2:g} m/s^2",
         f"home: [{', '.join(_position(joint, value) for joint, value in zip(arm.joints, home, strict=True))}]",
     ]
-    if arm.hands:
-        lines.append(f"without: [{', '.join(arm.hands)}]")
+    if arm.hands or arm.rods:
+        lines.append(f"without: [{', '.join((*arm.hands, *arm.rods))}]")
     lines.append("assumptions:")
     for about, rationale in _assumptions(arm, reason):
         lines += [f"  - about: {about}", f"    rationale: {json.dumps(rationale, ensure_ascii=False)}"]
@@ -87,6 +87,12 @@ def _assumptions(arm: UrdfArm, payload: str) -> Sequence[tuple[str, str]]:
         found.append(("joints.torque", f"The URDF has no effort of {', '.join(weak)}."))
     if arm.hands:
         found.append(("without", "The hand of the URDF is left out; the design's gripper takes its place."))
+    if arm.rods:
+        rationale = (
+            "What moves with the arm's joints beside it, as the rods of a parallelogram do, is left out: "
+            f"{', '.join(arm.rods)}. Neither its masses nor collisions with it are simulated."
+        )
+        found.append(("without", rationale))
     return [*found, *((note.about, note.rationale) for note in arm.notes)]
 
 

@@ -20,11 +20,10 @@ from rgss.scenes import (
     kind_of,
 )
 from rgss.studies.robot_project.urdf.reading import Note
+from rgss.studies.robot_project.urdf.rods import NO_FINGER, joints_in_a_row, rods_beside, without_rods
 
 _LONGER_BY = 3
 """Joints by which the arm is longer than what else turns on one of its links; fingers of a hand differ by fewer."""
-_NO_FINGER = 2
-"""Joints in a row from which a branch may be a part of the arm."""
 
 _GRIPPING = ("gripper", "jaw", "finger", "claw")
 _DEFAULT_RANGE = (-3.141592653589793, 3.141592653589793)
@@ -64,6 +63,7 @@ class UrdfArm:
         flange: The link that carries the gripper.
         joints: The arm's joints, from the base to the flange.
         hands: Links on the flange that lead to movable joints, such as a hand: the gripper takes their place.
+        rods: Links beside the arm that move with its joints alone, such as the rods of a parallelogram.
         notes: What was assumed about the URDF.
     """
 
@@ -71,6 +71,7 @@ class UrdfArm:
     flange: str
     joints: tuple[UrdfJoint, ...]
     hands: tuple[str, ...]
+    rods: tuple[str, ...] = ()
     notes: tuple[Note, ...] = ()
 
 
@@ -92,7 +93,8 @@ def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
     if flange is not None and flange not in links:
         raise DefinitionError(f"the URDF has no link {flange}", hint=f"its links are {', '.join(links)}")
     found = flange if flange is not None else _last_link(root, below)
-    chained = chain_to(root, found).movable
+    chain = chain_to(root, found)
+    chained = chain.movable
     moving = driven_of(chained)
     if not 1 <= len(moving) <= MOST_JOINTS:
         raise DefinitionError(
@@ -117,6 +119,7 @@ def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
             _within(_joint(joint), driver_limits(joint.get("name", ""), followers, by_name)) for joint in moving
         ),
         hands=tuple(hands),
+        rods=tuple(rods_beside(chain.joints, below, hands)),
         notes=() if flange is not None else (*_notes_of_jaw(moving), *_notes_of_division(found, below)),
     )
 
@@ -126,12 +129,12 @@ def _notes_of_division(flange: str, below: Mapping[str, list[ET.Element]]) -> It
     link = flange
     while len(ways := _ways(link, below)) == 1:
         link = end_of(ways[0], "child")
-    lengths = sorted((_joints_in_a_row(joint, below) for joint in ways), reverse=True)
-    if not ways or lengths[0] < _NO_FINGER or lengths[0] == lengths[1]:
+    lengths = sorted((joints_in_a_row(joint, below) for joint in ways), reverse=True)
+    if not ways or lengths[0] < NO_FINGER or lengths[0] == lengths[1]:
         return
-    last = end_of(max(ways, key=lambda joint: _joints_in_a_row(joint, below)), "child")
+    last = end_of(max(ways, key=lambda joint: joints_in_a_row(joint, below)), "child")
     while below.get(last):
-        last = end_of(max(below[last], key=lambda joint: _joints_in_a_row(joint, below)), "child")
+        last = end_of(max(below[last], key=lambda joint: joints_in_a_row(joint, below)), "child")
     rationale = (
         f"The URDF divides at {link}, into branches of {' and '.join(map(str, lengths))} joints in a row, which count"
         f" as a hand: the arm ends before them. With --flange {last} it goes on along the longest."
@@ -187,11 +190,13 @@ def _last_link(root: ET.Element, below: Mapping[str, list[ET.Element]]) -> str:
     link = next(link.get("name", "") for link in root.findall("link") if link.get("name") not in carried)
     rigid = [link]
     moved = False
+    passed: list[str] = []
     while True:
-        ways = _ways(link, below)
+        ways = without_rods(_ways(link, below), below, passed)
         way = ways[0] if len(ways) == 1 else _longest(ways, below) if moved else None
         if way is not None:
             link = end_of(way, "child")
+            passed.append(way.get("name", ""))
             moved = moved or way.get("type") != "fixed"
             rigid = [*rigid, link] if way.get("type") == "fixed" else [link]
             continue
@@ -225,15 +230,9 @@ def _ways(link: str, below: Mapping[str, list[ET.Element]]) -> list[ET.Element]:
 
 def _longest(ways: list[ET.Element], below: Mapping[str, list[ET.Element]]) -> ET.Element | None:
     """The way on which the arm goes on, beside a head or a camera that turns; None where a hand divides."""
-    ways = sorted(ways, key=lambda joint: -_joints_in_a_row(joint, below))
-    lengths = [_joints_in_a_row(joint, below) for joint in ways]
+    ways = sorted(ways, key=lambda joint: -joints_in_a_row(joint, below))
+    lengths = [joints_in_a_row(joint, below) for joint in ways]
     return ways[0] if len(ways) > 1 and lengths[0] >= lengths[1] + _LONGER_BY else None
-
-
-def _joints_in_a_row(joint: ET.Element, below: Mapping[str, list[ET.Element]]) -> int:
-    """Most movable joints that follow each other from a joint on, itself among them; followers do not count."""
-    moves = joint.get("type") != "fixed" and joint.find("mimic") is None
-    return moves + max((_joints_in_a_row(one, below) for one in below.get(end_of(joint, "child"), ())), default=0)
 
 
 def _leads_to_movable(link: str, below: Mapping[str, list[ET.Element]]) -> bool:

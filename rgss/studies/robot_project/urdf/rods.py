@@ -1,0 +1,69 @@
+"""Branches of a URDF that follow the arm's own joints, such as the rods of a parallelogram."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Collection, Iterator, Mapping, Sequence
+
+from rgss.scenes import end_of
+
+NO_FINGER = 2
+"""Joints in a row from which a branch may be a part of the arm."""
+
+
+def without_rods(
+    ways: Sequence[ET.Element], below: Mapping[str, list[ET.Element]], joints: Collection[str]
+) -> list[ET.Element]:
+    """The ways on which something else moves than what follows the arm's joints; all where there is none.
+
+    Joints of the arm are those before the link, and those on a way with two joints in a row: a finger that drives
+    another one by a joint of its own is a hand.
+
+    Args:
+        ways: Joints of one link that move, or lead to one that does.
+        below: Joints of each link.
+        joints: Names of the joints from the base to the link.
+    """
+    kept = [way for way in ways if not _is_rod(way, below, joints)]
+    longest = max(kept, key=lambda way: joints_in_a_row(way, below), default=None)
+    if longest is None or joints_in_a_row(longest, below) < NO_FINGER:
+        return kept or list(ways)
+    arm = [*joints, *_movable(longest, below)]
+    return [way for way in kept if way is longest or not _is_rod(way, below, arm)]
+
+
+def joints_in_a_row(joint: ET.Element, below: Mapping[str, list[ET.Element]]) -> int:
+    """Most movable joints that follow each other from a joint on, itself among them; followers do not count."""
+    moves = joint.get("type") != "fixed" and joint.find("mimic") is None
+    return moves + max((joints_in_a_row(one, below) for one in below.get(end_of(joint, "child"), ())), default=0)
+
+
+def rods_beside(
+    chain: Sequence[ET.Element], below: Mapping[str, list[ET.Element]], hands: Collection[str]
+) -> Iterator[str]:
+    """Links beside an arm that move with its joints alone, with all that they carry.
+
+    Args:
+        chain: Joints from the base to the flange, fixed ones among them.
+        below: Joints of each link.
+        hands: Links whose place the gripper takes.
+    """
+    moving = [joint.get("name", "") for joint in chain if joint.get("type") != "fixed"]
+    for one in chain:
+        for joint in below[end_of(one, "parent")]:
+            if joint not in chain and end_of(joint, "child") not in hands and _is_rod(joint, below, moving):
+                yield end_of(joint, "child")
+
+
+def _is_rod(joint: ET.Element, below: Mapping[str, list[ET.Element]], joints: Collection[str]) -> bool:
+    """Whether all that moves from a joint on follows the given joints."""
+    mimics = {name: one.find("mimic") for name, one in _movable(joint, below).items()}
+    return bool(mimics) and all(mimic is not None and mimic.get("joint") in joints for mimic in mimics.values())
+
+
+def _movable(joint: ET.Element, below: Mapping[str, list[ET.Element]]) -> dict[str, ET.Element]:
+    """The movable joints from one on, by name."""
+    found = {} if joint.get("type") == "fixed" else {joint.get("name", ""): joint}
+    for one in below.get(end_of(joint, "child"), ()):
+        found |= _movable(one, below)
+    return found
