@@ -118,7 +118,7 @@ TRIALS = {
     ),
     "a cup narrower than the closed hand": (
         lambda spec: with_cup_of(spec, 0.018),
-        (Failure.NO_FIRM_GRASP, Phase.GRASP, r"cup of 36 mm is too narrow .* kg-2, which closes to 44 mm"),
+        (Failure.NO_FIRM_GRASP, Phase.GRASP, r"cup, 36 mm across, is too narrow .* kg-2, which closes to 44 mm"),
     ),
     "a cup too heavy to begin with": (
         lambda spec: with_workpiece(spec, mass_kg=3.0),
