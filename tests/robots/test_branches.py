@@ -79,3 +79,10 @@ def test_fingers_that_follow_each_other_are_a_hand(draft):
     drafted = draft(CLEAN.replace("</robot>", f"{fingers}</robot>"))
     assert [joint.name for joint in drafted.robot.joints] == [f"joint_{number}" for number in range(1, 7)]
     assert (drafted.arm.hands, drafted.arm.rods) == (("flange_palm",), ())
+
+
+def test_a_finger_that_follows_one_with_two_joints_is_a_hand(draft):
+    fingers = branch("flange", 2, "finger") + follower("flange", "other", "finger_joint_1")
+    drafted = draft(CLEAN.replace("</robot>", f"{fingers}</robot>"))
+    assert [joint.name for joint in drafted.robot.joints] == [f"joint_{number}" for number in range(1, 7)]
+    assert drafted.arm.rods == ()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from rgss.counted import counted
@@ -64,13 +64,20 @@ def decision_section(made: StudyDecision) -> str:
 
 def _assumptions(made: StudyDecision) -> Iterator[str]:
     """The table of the modelling assumptions, and its summary."""
-    yield f"| {' | '.join(ASSUMPTION_HEADS)} |"
-    yield "|" + "---|" * len(ASSUMPTION_HEADS)
-    for row in assumption_rows(made):
-        first, *others = (cell.replace("|", "\\|") for cell in row.cells)
-        yield f"| `{first}` | {' | '.join(others)} |"
+    yield from _table(ASSUMPTION_HEADS, [(f"`{row.cells[0]}`", *row.cells[1:]) for row in assumption_rows(made)])
     yield ""
     yield " ".join(assumption_sentences(made))
+
+
+def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
+    yield f"| {' | '.join(heads)} |"
+    yield "|" + "---|" * len(heads)
+    for row in rows:
+        yield f"| {' | '.join(_escaped(cell) for cell in row)} |"
+
+
+def _escaped(cell: str) -> str:
+    return cell.replace("|", "\\|")
 
 
 def text_with_place(file: Path) -> str:
@@ -103,10 +110,7 @@ def _conflicts(made: StudyDecision) -> Iterator[str]:
     found = made.decision.conflicts
     for table in () if found is None else conflict_tables(made.decision, found):
         yield ""
-        yield f"| {' | '.join(table.heads)} |"
-        yield "|" + "---|" * len(table.heads)
-        for row in table.rows:
-            yield f"| {' | '.join(row)} |"
+        yield from _table(table.heads, table.rows)
         for note in table.notes:
             yield from ("", note)
     if found is not None:

@@ -20,12 +20,11 @@ from rgss.scenes import (
     kind_of,
 )
 from rgss.studies.robot_project.urdf.reading import Note
-from rgss.studies.robot_project.urdf.rods import NO_FINGER, joints_in_a_row, rods_beside, without_rods
+from rgss.studies.robot_project.urdf.rods import NO_FINGER, grips, joints_in_a_row, rods_beside, without_rods
 
 _LONGER_BY = 3
 """Joints by which the arm is longer than what else turns on one of its links; fingers of a hand differ by fewer."""
 
-_GRIPPING = ("gripper", "jaw", "finger", "claw")
 _DEFAULT_RANGE = (-3.141592653589793, 3.141592653589793)
 
 
@@ -148,7 +147,7 @@ def _notes_of_jaw(moving: Sequence[ET.Element]) -> Iterator[Note]:
         return
     last = moving[-1]
     name = last.get("name", "")
-    if any(word in name.casefold() for word in _GRIPPING):
+    if grips(name):
         rationale = (
             f"The joint {name} counts as the arm's last, although by its name it may drive a jaw: with "
             f"--flange {end_of(last, 'parent')} the arm ends before it."

@@ -10,14 +10,16 @@ from rgss.scenes import end_of
 NO_FINGER = 2
 """Joints in a row from which a branch may be a part of the arm."""
 
+_GRIPPING = ("gripper", "jaw", "finger", "claw")
+
 
 def without_rods(
     ways: Sequence[ET.Element], below: Mapping[str, list[ET.Element]], joints: Collection[str]
 ) -> list[ET.Element]:
     """The ways on which something else moves than what follows the arm's joints; all where there is none.
 
-    Joints of the arm are those before the link, and those on a way with two joints in a row: a finger that drives
-    another one by a joint of its own is a hand.
+    Joints of the arm are those before the link, and those on a way with two joints in a row, unless it is named for
+    what grips: fingers may follow one that has two joints.
 
     Args:
         ways: Joints of one link that move, or lead to one that does.
@@ -26,10 +28,15 @@ def without_rods(
     """
     kept = [way for way in ways if not _is_rod(way, below, joints)]
     longest = max(kept, key=lambda way: joints_in_a_row(way, below), default=None)
-    if longest is None or joints_in_a_row(longest, below) < NO_FINGER:
+    if longest is None or joints_in_a_row(longest, below) < NO_FINGER or any(map(grips, _movable(longest, below))):
         return kept or list(ways)
     arm = [*joints, *_movable(longest, below)]
     return [way for way in kept if way is longest or not _is_rod(way, below, arm)]
+
+
+def grips(name: str) -> bool:
+    """Whether a joint is named for what grips."""
+    return any(word in name.casefold() for word in _GRIPPING)
 
 
 def joints_in_a_row(joint: ET.Element, below: Mapping[str, list[ET.Element]]) -> int:
