@@ -13,7 +13,9 @@ from decimal import Decimal
 from functools import lru_cache
 from types import MappingProxyType
 
-_LENGTH, _MASS, _TIME, _CURRENT, _MONEY, _ANGLE = "length", "mass", "time", "current", "currency", "angle"
+from rgss.currencies import CODES, currency_dimension
+
+_LENGTH, _MASS, _TIME, _CURRENT, _ANGLE = "length", "mass", "time", "current", "angle"
 _FORCE = {_LENGTH: 1, _MASS: 1, _TIME: -2}
 _ENERGY = {_LENGTH: 2, _MASS: 1, _TIME: -2}
 _PRESSURE = {_LENGTH: -1, _MASS: 1, _TIME: -2}
@@ -54,10 +56,10 @@ _ATOMS: Mapping[str, tuple[str, Mapping[str, int]]] = MappingProxyType(
         "mV": ("0.001", {**_ENERGY, _TIME: -3, _CURRENT: -1}),
         "rad": ("1", {_ANGLE: 1}),
         "deg": ("0.01745329251994329576923690768", {_ANGLE: 1}),
-        "USD": ("1", {_MONEY: 1}),
     }
+    | {code: ("1", {currency_dimension(code): 1}) for code in CODES}
 )
-"""Each unit in the root units metre, kilogram, second, ampere, US dollar and radian."""
+"""Each unit in the root units metre, kilogram, second, ampere and radian, and currencies."""
 
 _LONGEST_TEXT = 60
 _FACTOR = re.compile(r"(?P<between>[*/·]?)(?P<name>1|%|[A-Za-z]+)(?:(?:\*\*|\^)(?P<power>-?[1-9]))?")

@@ -1,7 +1,7 @@
 """Quantities with units: parsing and unit conversion.
 
-A float in a file has its unit in the text (``"120 mm"``); inside rgss every float is in SI (money in US dollars), with
-the unit in its name.
+A float in a file has its unit in the text (``"120 mm"``); inside rgss every float is in SI (money in its
+currency), with the unit in its name.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from rgss.common_units import common_unit
+from rgss.currencies import CODES, currencies_in, without_currency
 from rgss.errors import QuantityError
 from rgss.findings import shown
 from rgss.unit_registry import contains_level, is_level, unit_registry
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     import pint
 
 _LONGEST_TEXT = 60
+_AMOUNT = 'write an amount of money with the code of its currency behind it, such as "5200 EUR"'
 _MINUS_LIKE = "\u2212\u2010\u2011\u2012\u2013\u2014\ufe63\uff0d"
 """Signs that look like the minus of numbers, such as a true minus or a dash."""
 # A unit may begin with a reciprocal, "90 1/h" or "90 /h"; its 1 is separated from the number.
@@ -38,11 +40,8 @@ _BETWEEN = r"(?:\s*[*/·]\s*|\s+)"
 _GROUP = rf"\(\s*{_FACTOR}(?:{_BETWEEN}{_FACTOR})*\s*\){_POWER}"
 _UNIT = re.compile(rf"1|(?:1\s*/\s*)?(?:{_FACTOR}|{_GROUP})(?:{_BETWEEN}(?:{_FACTOR}|{_GROUP}))*")
 
-# Signs and ISO 4217 codes. Only one currency has a unit: rates change, so that none is converted.
-_OTHER_CURRENCY = re.compile(
-    "[€£¥₩₹]|(?<![A-Za-z])(?:AED|ARS|AUD|BGN|BRL|CAD|CHF|CLP|CNY|COP|CZK|DKK|EGP|EUR|GBP|HKD|HUF|IDR|ILS|INR|ISK|JPY|"
-    "KES|KRW|MXN|MYR|NGN|NOK|NZD|PEN|PHP|PKR|PLN|QAR|RON|RSD|RUB|SAR|SEK|SGD|THB|TRY|TWD|UAH|VND|ZAR)(?![A-Za-z])"
-)
+# Signs and codes of currencies, in texts that are no quantities.
+_MONEY = re.compile(rf"[€£¥₩₹]|(?<![A-Za-z])(?:{'|'.join(CODES)})(?![A-Za-z])")
 
 
 def parse_quantity(text: str, unit: str) -> float:
@@ -64,8 +63,8 @@ def parse_quantity(text: str, unit: str) -> float:
     """
     match = _QUANTITY.fullmatch(text) if len(text) <= _LONGEST_TEXT else None
     if match is None:
-        if other := _OTHER_CURRENCY.search(text[:_LONGEST_TEXT]):
-            raise _other_currency(other[0])
+        if _MONEY.search(text[:_LONGEST_TEXT]):
+            raise QuantityError(f"{shown(text)} is not a quantity", hint=_AMOUNT)
         if (bare := text.lstrip()) and bare[0] in _MINUS_LIKE:
             plain = f"-{bare[1:].lstrip()}"
             raise QuantityError(f"{shown(text)} begins with another sign than the minus", hint=f'write "{plain}"')
@@ -207,8 +206,6 @@ def _unit(text: str) -> pint.Unit:
         if contains_level(unit):
             raise ValueError("a product with a level")
     except (pint.errors.PintError, ValueError) as error:
-        if other := _OTHER_CURRENCY.search(text):
-            raise _other_currency(other[0]) from error
         raise QuantityError(f"unknown unit {shown(text)}", hint="use units such as mm, kg, s, N, deg, USD") from error
     return unit
 
@@ -269,14 +266,14 @@ def _on_scale(value: float, from_unit: str, to_unit: str) -> float | None:
 
 
 def _mismatch(written: str, wanted: str) -> QuantityError:
+    one, other = dimension(written), dimension(wanted)
+    if one != other and without_currency(one) == without_currency(other):
+        has, needs = " and ".join(currencies_in(one)), " and ".join(currencies_in(other))
+        return QuantityError(
+            f"{has} is another currency than {needs}, and none is converted",
+            hint="give every amount in one currency; a rate is stated in 'rationale' or 'source'",
+        )
     return QuantityError(
         f"unit {shown(written)} does not measure what {shown(wanted)} measures",
         hint=f"give it in {wanted} or a multiple of it",
-    )
-
-
-def _other_currency(name: str) -> QuantityError:
-    return QuantityError(
-        f"{shown(name)} is another currency than USD, the only one of rgss, which converts none",
-        hint="give the amount in USD, and its rate in 'rationale' or 'source'",
     )

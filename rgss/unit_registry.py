@@ -6,6 +6,8 @@ from decimal import Decimal
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+from rgss.currencies import CODES, DOLLAR, currency_dimension
+
 if TYPE_CHECKING:
     import pint
 
@@ -14,14 +16,17 @@ _ROUNDING = Decimal("1e-12")
 
 @lru_cache(maxsize=1)
 def unit_registry() -> Any:
-    """The registry, with US dollars and the torques of data sheets."""
+    """The registry, with currencies and the torques of data sheets."""
     import pint
 
     # Decimals keep "35 mm" exact: with floats, cm**3 would be 1.0000000000000002e-06 m**3.
     registry: Any = pint.UnitRegistry(
         autoconvert_offset_to_baseunit=False, cache_folder=None, non_int_type=Decimal, on_redefinition="ignore"
     )
-    registry.define("US_dollar = [currency] = USD = dollar")
+    registry.define(f"US_dollar = [{currency_dimension(DOLLAR)}] = {DOLLAR} = dollar")
+    for code in CODES:
+        if code != DOLLAR:
+            registry.define(f"{code} = [{currency_dimension(code)}]")
     # Torques as data sheets write them. To pint, Nm is the number of a yarn, and Ncm and Nmm are unknown.
     for symbol, length in (("Nm", "meter"), ("Ncm", "centimeter"), ("Nmm", "millimeter")):
         registry.define(f"newton_{length} = newton * {length} = {symbol}")

@@ -10,9 +10,10 @@ from rgss.errors import QuantityError
 from rgss.quantities import conversion_factor, dimension, parse_quantity, same_dimension, written_unit
 
 OTHER_CURRENCY = (
-    "'{}' is another currency than USD, the only one of rgss, which converts none "
-    "(give the amount in USD, and its rate in 'rationale' or 'source')"
+    "EUR is another currency than USD, and none is converted "
+    "(give every amount in one currency; a rate is stated in 'rationale' or 'source')"
 )
+AMOUNT = '(write an amount of money with the code of its currency behind it, such as "5200 EUR")'
 
 
 @pytest.mark.parametrize(
@@ -105,12 +106,13 @@ def test_torques_are_read_as_data_sheets_write_them(text, torque_nm):
         ("5 kg", "m", "unit 'kg' does not measure what 'm' measures (give it in m or a multiple of it)"),
         ("5 %", "m", "unit '%' does not measure what 'm' measures (give it in m or a multiple of it)"),
         ("5 XYZ", "USD", "unknown unit 'XYZ' (use units such as mm, kg, s, N, deg, USD)"),
-        ("5 EUR", "USD", OTHER_CURRENCY.format("EUR")),
-        ("5 kg/EUR", "kg/USD", OTHER_CURRENCY.format("EUR")),
-        ("5 JPY", "kg", OTHER_CURRENCY.format("JPY")),
-        ("5 €", "USD", OTHER_CURRENCY.format("€")),
-        ("£5", "USD", OTHER_CURRENCY.format("£")),
-        ("EUR 5", "USD", OTHER_CURRENCY.format("EUR")),
+        ("5 EUR", "USD", OTHER_CURRENCY),
+        ("5 kg/EUR", "kg/USD", OTHER_CURRENCY),
+        ("5 kUSD", "EUR", OTHER_CURRENCY.replace("EUR is", "USD is").replace("than USD", "than EUR")),
+        ("5 JPY", "kg", "unit 'JPY' does not measure what 'kg' measures (give it in kg or a multiple of it)"),
+        ("5 €", "USD", f"'5 €' is not a quantity {AMOUNT}"),
+        ("£5", "USD", f"'£5' is not a quantity {AMOUNT}"),
+        ("EUR 5", "USD", f"'EUR 5' is not a quantity {AMOUNT}"),
         ("5 m/0", "m", "'m/0' is not a unit (write units such as mm, m/s or kg*m**2)"),
         ("3 dB/m", "1/m", "unknown unit 'dB/m' (use units such as mm, kg, s, N, deg, USD)"),
         ("20 degC", "K", "unit 'degC' is not on a scale that starts at zero (use K)"),

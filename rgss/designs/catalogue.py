@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from pydantic import Field
 
+from rgss.currencies import DOLLAR, currencies_in
 from rgss.designs.components import Catalogue, Component, Role, SourcedValue
 from rgss.designs.fields import ConditionsField, ScalarField
 from rgss.designs.findings import dotted_findings, duplicate_findings, near_hint, unit_findings
@@ -15,6 +16,7 @@ from rgss.designs.set_findings import component_set_findings, role_set_findings
 from rgss.documents import Document, DocumentModel, Identifier, Text, load_document
 from rgss.errors import DocumentError, QuantityError
 from rgss.findings import Finding, shown
+from rgss.quantities import dimension, written_unit
 
 
 class SourcedValueModel(DocumentModel):
@@ -65,6 +67,7 @@ class _CatalogueReader:
         self._document = document
         self._model = model
         self._findings: list[Finding] = []
+        self._currency = _currency_of(model.components)
 
     def read(self) -> Catalogue:
         self._findings += duplicate_findings(self._document, ("roles",), self._model.roles)
@@ -120,7 +123,7 @@ class _CatalogueReader:
         )
 
     def _cost(self, model: SourcedValueModel, *place: str | int) -> SourcedValue:
-        cost = self._value("cost", model, "USD", *place)
+        cost = self._value("cost", model, self._currency, *place)
         if cost.value < 0:
             self._report(
                 "value",
@@ -167,6 +170,19 @@ class _CatalogueReader:
             rationale=model.rationale or "",
             source=model.source or "",
         )
+
+
+def _currency_of(components: Iterable[ComponentModel]) -> str:
+    """Code of the currency of the first cost that has one, in which all are to be."""
+    for component in components:
+        unit = written_unit(str(component.cost.value)) or ""
+        try:
+            found = currencies_in(dimension(unit)) if unit else ()
+        except QuantityError:
+            continue
+        if found:
+            return found[0]
+    return DOLLAR
 
 
 def _stays_inside(geometry: str) -> bool:

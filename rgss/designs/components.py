@@ -17,7 +17,7 @@ class SourcedValue:
     """A magnitude with its source or assumption.
 
     Attributes:
-        value: The magnitude in SI (money in US dollars).
+        value: The magnitude in SI (money in its currency).
         unit: Its unit.
         assumption: True if it is assumed instead of taken from a source.
         rationale: Reason for this value; required if it is assumed.
@@ -97,6 +97,11 @@ class Catalogue:
     roles: tuple[Role, ...]
     components: tuple[Component, ...]
     document: Document = field(repr=False, compare=False)
+
+    @property
+    def currency(self) -> str:
+        """Code of the currency of every cost."""
+        return self.components[0].cost.unit
 
     def of_role(self, role: str) -> tuple[Component, ...]:
         """The components of a role, in the order of the file."""

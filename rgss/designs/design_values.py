@@ -20,7 +20,7 @@ def sources(variant: DesignVariant) -> Mapping[str, float | str]:
 
     Returns:
         ``design.<parameter>`` for every parameter, then ``component.<role>.<property>`` for
-        every component, where ``cost`` (in US dollars) is a property of each.
+        every component, where ``cost`` is a property of each.
     """
     named = {f"{DESIGN_PREFIX}{name}": value for name, value in variant.parameters.items()}
     return {**named, **numbers(variant.parameters, variant.components)}
@@ -54,6 +54,6 @@ def source_units(parameters: Iterable[DesignParameter], catalogue: Catalogue) ->
     """SI unit of each value of `sources`, by name; empty for names."""
     units = {f"{DESIGN_PREFIX}{parameter.id}": parameter.unit for parameter in parameters}
     for role in catalogue.roles:
-        for name, unit in {"cost": "USD", **role.properties}.items():
+        for name, unit in {"cost": catalogue.currency, **role.properties}.items():
             units[f"{COMPONENT_PREFIX}{role.id}.{name}"] = unit
     return units

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
+from rgss.currencies import CODES, currency_dimension
 from rgss.errors import QuantityError
 from rgss.findings import shown
 from rgss.quantities import conversion_factor, dimension, parse_quantity
@@ -16,13 +17,13 @@ ParameterValue = float | int | str
 
 _BASE_UNITS: Mapping[str, str] = {
     "current": "A",
-    "currency": "USD",
     "length": "m",
     "luminosity": "cd",
     "mass": "kg",
     "substance": "mol",
     "temperature": "K",
     "time": "s",
+    **{currency_dimension(code): code for code in CODES},
 }
 _USUAL_UNITS = ("1", "rad", "rad/s", "rad/s**2", "Hz", "N", "N*m", "N/m", "Pa", "W", "V", "m/s", "m/s**2")
 
@@ -114,7 +115,7 @@ def is_si(unit: str) -> bool:
 
 
 def si_unit(unit: str) -> str:
-    """Symbol of the SI unit (US dollars for money) of the same dimension as a unit.
+    """Symbol of the SI unit (its currency for money) of the same dimension as a unit.
 
     Raises:
         QuantityError: The unit is unknown, or has no SI equivalent.

@@ -9,6 +9,7 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
+from rgss.currencies import CODES, currency_dimension
 from rgss.documents import DocumentModel, Identifier, QuantityText, Text, UnitText, number_as_text
 from rgss.errors import DefinitionError
 from rgss.measures.estimators import Estimator, Population, Summary
@@ -16,7 +17,7 @@ from rgss.measures.expressions import Expression
 from rgss.measures.ranges import Range
 from rgss.quantities import dimension
 
-_NEVER_NEGATIVE = tuple(((name, 1.0),) for name in ("time", "mass", "currency"))
+_NEVER_NEGATIVE = tuple(((name, 1.0),) for name in ("time", "mass", *map(currency_dimension, CODES)))
 
 
 class MeasureKind(str, Enum):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from rgss.currencies import CODES, currency_dimension
 from rgss.measures.expressions import (
     Binary,
     Call,
@@ -26,7 +27,7 @@ PURE: Dimension = ()
 _BASE_UNITS: tuple[tuple[str, str], ...] = (
     ("mass", "kg"),
     ("length", "m"),
-    ("currency", "USD"),
+    *((currency_dimension(code), code) for code in CODES),
     ("current", "A"),
     ("temperature", "K"),
     ("substance", "mol"),
@@ -49,7 +50,7 @@ class Kind:
 
 
 def si_unit(dimension: Dimension) -> str:
-    """Coherent SI unit of a dimension (money in US dollars), such as ``kg·m·s^-2``."""
+    """Coherent SI unit of a dimension (money in its currency), such as ``kg·m·s^-2``."""
     exponents = dict(dimension)
     parts = [
         unit if exponents[base] == 1 else f"{unit}^{exponents[base]:g}"

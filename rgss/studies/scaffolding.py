@@ -7,6 +7,7 @@ from contextlib import suppress
 from importlib import resources
 from pathlib import Path
 
+from rgss.currencies import DOLLAR
 from rgss.documents import read_document
 from rgss.errors import DefinitionError
 from rgss.studies.schemas import DOCUMENT_KINDS, SCHEMAS, cannot_write, kind_of, schema_reference, with_header
@@ -18,11 +19,17 @@ def scaffold_texts() -> Mapping[str, str]:
     return {**texts, **{f"{SCHEMAS}/{kind.schema_file}": kind.schema_text() for kind in DOCUMENT_KINDS}}
 
 
-def write_scaffold(folder: Path) -> tuple[str, ...]:
+def in_currency(texts: Mapping[str, str], currency: str) -> Mapping[str, str]:
+    """The files of a new project with its amounts of money in a currency."""
+    return {name: text if name.startswith(SCHEMAS) else text.replace(DOLLAR, currency) for name, text in texts.items()}
+
+
+def write_scaffold(folder: Path, *, currency: str = DOLLAR) -> tuple[str, ...]:
     """Write a new project into a folder, which is made if it is not there.
 
     Args:
         folder: The folder; what is in it already stays as it is.
+        currency: Code of the currency of its amounts, which are the same in each.
 
     Returns:
         The names of the files that were written, relative to the folder.
@@ -32,7 +39,7 @@ def write_scaffold(folder: Path) -> tuple[str, ...]:
             written.
         StorageError: The disk is full or fails; then nothing is written.
     """
-    texts = scaffold_texts()
+    texts = in_currency(scaffold_texts(), currency)
     write_new_files(folder, {name: text.encode("utf-8") for name, text in texts.items()})
     return tuple(texts)
 

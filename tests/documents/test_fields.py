@@ -109,7 +109,7 @@ def test_unit(unit):
     assert adapter("UnitText").validate_python(unit) == unit
 
 
-@pytest.mark.parametrize("unit", ["furlongs-ish", "m**", "12", "m/0", "EUR"])
+@pytest.mark.parametrize("unit", ["furlongs-ish", "m**", "12", "m/0", "XAU"])
 def test_unknown_unit(unit):
     assert refusal("UnitText", unit)["type"] == "quantity"
 

@@ -41,6 +41,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="with --robot: the URDF of your gripper, or again that of the arm for the hand that it has",
     )
     add_xacro_arguments(parser, "with --robot")
+    parser.add_argument(
+        "--currency", default="USD", metavar="CODE", help="currency of the costs by its ISO 4217 code (default: USD)"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -49,8 +52,9 @@ def run(options: argparse.Namespace) -> int:
 
     from rgss.cli.main import CLEAN
     from rgss.cli.output import print_json
+    from rgss.currencies import is_currency
     from rgss.errors import DefinitionError
-    from rgss.findings import printable
+    from rgss.findings import printable, shown
     from rgss.studies import write_scaffold
 
     folder: Path = options.folder
@@ -66,14 +70,19 @@ def run(options: argparse.Namespace) -> int:
         if getattr(options, name) is not None and options.robot is None:
             option = f"--{name.replace('_', '-')}"
             raise DefinitionError(f"{option} {what} of a URDF", hint="give the URDF with --robot")
-    files, notes = (write_scaffold(folder), ()) if options.robot is None else _robot_files(options)
+    if not is_currency(options.currency):
+        upper = options.currency.upper()
+        hint = f"did you mean {upper}?" if is_currency(upper) else "give an ISO 4217 code, such as EUR"
+        raise DefinitionError(f"--currency: {shown(options.currency)} is not the code of a currency", hint=hint)
+    made = (write_scaffold(folder, currency=options.currency), ()) if options.robot is None else _robot_files(options)
+    files, notes = made
     if options.json:
         print_json({"folder": str(folder), "files": list(files), "assumed": list(notes)})
         return CLEAN
     for note in notes:
         print(f"Assumed: {note}", file=sys.stderr)
-    shown = folder.resolve().name if folder.resolve() == Path.cwd() else printable(folder.as_posix())
-    print(f"A project of {len(files)} files is in {shown}/; its README.md says what each is for. Next:")
+    name = folder.resolve().name if folder.resolve() == Path.cwd() else printable(folder.as_posix())
+    print(f"A project of {len(files)} files is in {name}/; its README.md says what each is for. Next:")
     print()
     if folder.resolve() != Path.cwd():
         print(f"  cd {shlex.quote(str(folder))}")
@@ -99,6 +108,7 @@ def _robot_files(options: argparse.Namespace) -> tuple[tuple[str, ...], tuple[st
             mass_kg=arm_mass_kg(options.mass),
             gripper=options.gripper,
             xacro=xacro_arguments(options.xacro),
+            currency=options.currency,
             on_stage=on_stage,
         )
     return written.files, tuple(note.rationale for note in written.notes)

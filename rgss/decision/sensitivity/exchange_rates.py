@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.currencies import is_currency
 from rgss.decision.sensitivity.standings import Standings
 from rgss.decision.sensitivity.tornado import Tornado
 from rgss.tradeoff.problem import EVIDENCE_PREFIX, TIE_TOLERANCE, ValueFunction
@@ -237,7 +238,7 @@ def _reference(standings: Standings) -> str | None:
         return named
     functions = _functions(standings)
     monotone = [measure for measure in standings.measures if functions[measure].more_is_better is not None]
-    money = [measure for measure in monotone if _unit(standings, measure) == "USD"]
+    money = [measure for measure in monotone if is_currency(_unit(standings, measure))]
     weights = dict(zip(standings.measures, standings.weights.tolist(), strict=True))
     return money[0] if money else max(monotone, key=weights.__getitem__, default=None)
 

@@ -19,7 +19,7 @@ class ModelNumber:
     Attributes:
         id: Its name on the command line: ``catalogue.<component>.<property>`` or
             ``measures.<constant>``.
-        value: Its value in SI (money in US dollars).
+        value: Its value in SI (money in its currency).
         unit: The unit of the value.
         rationale: Reason for the assumption; empty unless it is assumed.
         component: The component; empty for a constant.

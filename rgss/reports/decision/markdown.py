@@ -255,10 +255,10 @@ def _costs(found: RobustnessFindings) -> Iterator[str]:
             continue
         bounds = []
         if span.low is not None:
-            least = kept_amount(span.low, "USD", is_least=True)
+            least = kept_amount(span.low, one.number.unit, is_least=True)
             bounds.append(f"at least {least} (below, {ids_text(found.variants(span.below))})")
         if span.high is not None:
             above = f" (above, {ids_text(found.variants(span.above))})" if span.above else ""
-            bounds.append(f"at most {kept_amount(span.high, 'USD', is_least=False)}{above}")
-        assumed = amount(one.number.value, "USD")
+            bounds.append(f"at most {kept_amount(span.high, one.number.unit, is_least=False)}{above}")
+        assumed = amount(one.number.value, one.number.unit)
         yield f"- `{one.number.component}` costs {' and '.join(bounds)}; assumed are {assumed}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 
+from rgss.currencies import is_currency
 from rgss.trace.views import rounded_away, value_in_words
 
 LONGEST_IDS = 12
@@ -49,8 +50,8 @@ def variants_text(variants: Sequence[int], *, counted: bool = False) -> str:
 
 
 def amount(value: float, unit: str) -> str:
-    """Quantity with its unit; money is rounded to the dollar."""
-    return f"{value:,.0f} USD" if unit == "USD" else value_in_words(value, unit)
+    """Quantity with its unit; money is rounded to whole units of it."""
+    return f"{value:,.0f} {unit}" if is_currency(unit) else value_in_words(value, unit)
 
 
 def quantity_text(value: float, unit: str) -> str:

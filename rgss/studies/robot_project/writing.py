@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path, PurePosixPath
 
+from rgss.currencies import DOLLAR
 from rgss.errors import DefinitionError
 from rgss.scenes import GripperGeometry, Robot, load_gripper_file
 from rgss.studies.project import load_project
@@ -34,7 +35,7 @@ from rgss.studies.robot_project.reach import SAMPLES, greatest_travel_m
 from rgss.studies.robot_project.robot_text import robot_text
 from rgss.studies.robot_project.unfit_shapes import UnfitShapesError, is_any_mesh_concave
 from rgss.studies.robot_project.urdf import INSTALL, NO_ARGUMENTS, Note, can_decompose
-from rgss.studies.scaffolding import scaffold_texts, write_new_files
+from rgss.studies.scaffolding import in_currency, scaffold_texts, write_new_files
 
 _MOST_AXES, _MOST_CELLS = 3, 4
 # Greatest angle from the vertical, in a sampled configuration, of an axis that an arm may turn down.
@@ -65,6 +66,7 @@ def write_robot_project(
     mass_kg: float | None = None,
     gripper: Path | None = None,
     xacro: Mapping[str, str] = NO_ARGUMENTS,
+    currency: str = DOLLAR,
     on_stage: Callable[[str], None] | None = None,
 ) -> RobotProject:
     """Write a new project round the arm of a URDF into a folder, which is made if it is not there.
@@ -81,6 +83,7 @@ def write_robot_project(
         gripper: The URDF of a gripper, or that of the arm for the hand that it has; two grippers with sliding fingers
             where None.
         xacro: Arguments, if one of them is a xacro.
+        currency: Code of the currency of its amounts, which are the same in each.
         on_stage: Called with the name of each stage of the search, which may take minutes, before it begins.
 
     Raises:
@@ -98,7 +101,7 @@ def write_robot_project(
                 draft_gripper = partial(
                     gripper_or_hand, gripper, project, urdf, xacro=xacro, is_decomposed=is_decomposed
                 )
-            return project, _write_files(project, tool_axis, draft, draft_gripper, on_stage=report)
+            return project, _write_files(project, tool_axis, draft, draft_gripper, currency, on_stage=report)
 
         try:
             project, notes = write("project", is_decomposed=False)
@@ -122,6 +125,7 @@ def _write_files(
     tool_axis: str | None,
     draft: Callable[..., DraftedRobot],
     draft_gripper: Callable[[DraftedRobot], DraftedGripper] | None,
+    currency: str,
     *,
     on_stage: Callable[[str], None],
 ) -> tuple[Note, ...]:
@@ -136,6 +140,7 @@ def _write_files(
     renamed = partial(_renamed, old=old, id_=id_, name=drafted.arm.name)
     if own is not None:
         texts = with_gripper(texts, own)
+    texts = in_currency(texts, currency)
     sizes = tuple(hand_sizes(drafted.robot, () if own is None else own.cups))
     for size, axis in itertools.product(sizes, axes):
         if reasons.get(axis) in {POINTS_INTO_ARM, *UNMENDED}:

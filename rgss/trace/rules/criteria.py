@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from rgss.currencies import without_currency
 from rgss.findings import Severity
-from rgss.quantities import possible_magnitudes, same_dimension
+from rgss.quantities import dimension, possible_magnitudes, same_dimension
 from rgss.requirements import Criterion, Requirement, VerificationMethod
 from rgss.trace.model import MeasureTrace, TraceModel
 from rgss.trace.rules.rule import ModelRule, Violation
@@ -77,9 +78,7 @@ def _wrong_units(model: TraceModel) -> Iterator[Violation]:
 
 def _contradicting_numbers(model: TraceModel) -> Iterator[Violation]:
     for requirement, criterion in _criteria(model):
-        stated = [
-            quantity for quantity in quantities_in(requirement.text) if same_dimension(quantity.unit, criterion.unit)
-        ]
+        stated = [quantity for quantity in quantities_in(requirement.text) if _is_comparable(quantity, criterion)]
         if stated and not any(_equal(quantity, criterion) for quantity in stated):
             texts = ", ".join(repr(quantity.text) for quantity in stated)
             message = f"text of {requirement.id!r} says {texts}, but its criterion says {str(criterion)!r}"
@@ -93,7 +92,7 @@ def _contradicting_comparisons(model: TraceModel) -> Iterator[Violation]:
         start = response_start(requirement.text)
         for quantity in quantities_in(requirement.text):
             in_condition = quantity.start < start or is_in_trailing_condition(requirement.text, quantity.start, start)
-            if in_condition or not same_dimension(quantity.unit, criterion.unit):
+            if in_condition or not _is_comparable(quantity, criterion):
                 continue
             bound = bound_of(requirement.text, quantity) if _equal(quantity, criterion) else None
             if bound is not None and bound.is_lower is not is_lower_bound:
@@ -108,11 +107,13 @@ def _criteria(model: TraceModel) -> Iterator[tuple[Requirement, Criterion]]:
             yield requirement, requirement.criterion
 
 
+def _is_comparable(quantity: TextQuantity, criterion: Criterion) -> bool:
+    """True if a quantity has the dimension of the threshold; an amount of money in any currency."""
+    return without_currency(dimension(quantity.unit)) == without_currency(dimension(criterion.unit))
+
+
 def _equal(quantity: TextQuantity, criterion: Criterion) -> bool:
     """True if a quantity may be the threshold, in one of its readings."""
-    if quantity.currency not in ("", "USD"):
-        # Thresholds are in US dollars; there are no exchange rates.
-        return False
     return any(
         math.isclose(magnitude, criterion.threshold, rel_tol=1e-9, abs_tol=1e-12)
         for value in quantity.values

@@ -30,7 +30,7 @@ class TextQuantity:
     Attributes:
         text: The quantity as it is written, with its unit.
         values: The magnitudes that it may have, the most likely first: ``1,500`` may be 1500 or 1.5.
-        unit: Its unit, with US dollars in place of any currency; ``"1"`` for a pure number.
+        unit: Its unit, with the code of its currency if it has one; ``"1"`` for a pure number.
         currency: Code of its currency; empty if it has none.
         start: Where it starts in the sentence.
         end: Where it ends there, its unit included.
@@ -54,7 +54,7 @@ def quantities_in(sentence: str) -> Iterator[TextQuantity]:
         end = match.end() if found else match.end("number")
         if found and not before:
             found, end = _whole_unit(sentence, found, match.start("unit"), end)
-        unit, currency = found or (("USD", CURRENCIES[before]) if before else ("1", ""))
+        unit, currency = found or ((CURRENCIES[before], CURRENCIES[before]) if before else ("1", ""))
         values = readings(match.groupdict(), is_money=bool(currency), is_pure=unit == "1")
         if not values:
             continue

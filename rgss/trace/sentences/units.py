@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from types import MappingProxyType
 
+from rgss.currencies import CODES
 from rgss.errors import QuantityError
 from rgss.quantities import dimension
 
@@ -38,8 +39,7 @@ _EXPONENT = re.compile(r"(?<![^\W\d_])(mm|cm|dm|km|m|s|in|ft)([2-4])(?!\w)")
 _OF_CHARACTERS = str.maketrans({"\u03a9": "ohm", "\u2126": "ohm", "\u22c5": "·", "\u2219": "·", "\u00b5": "\u03bc"})
 
 CURRENCIES: Mapping[str, str] = MappingProxyType(
-    {code: code for code in ("AUD", "BRL", "CAD", "CHF", "CNY", "CZK", "DKK", "EUR", "GBP", "HKD", "HUF", "ILS")}
-    | {code: code for code in ("INR", "JPY", "KRW", "MXN", "NOK", "NZD", "PLN", "SEK", "SGD", "USD", "ZAR")}
+    {code: code for code in CODES}
     | {"$": "USD", "US$": "USD", "A$": "AUD", "C$": "CAD", "€": "EUR", "£": "GBP", "¥": "JPY", "₩": "KRW", "₹": "INR"}
     | {"euro": "EUR", "euros": "EUR"}
 )
@@ -59,11 +59,11 @@ def unit_of(text: str) -> tuple[str, str] | None:
         text: The text, such as ``m/s²``, ``Ω`` or ``EUR/h``.
 
     Returns:
-        The unit as quantities are written here, with US dollars in place of any currency, and the code of the currency;
-        empty if it has none.
+        The unit as quantities are written here, with the codes of currencies, and the code of its currency; empty if
+        it has none.
     """
     currency = next((CURRENCIES[match[2]] for match in _CURRENCY.finditer(text)), "")
-    unit = _EXPONENT.sub(r"\1^\2", _CURRENCY.sub(r"\1USD", text.translate(_OF_CHARACTERS)))
+    unit = _EXPONENT.sub(r"\1^\2", _CURRENCY.sub(_with_code, text.translate(_OF_CHARACTERS)))
     if unit in _PROSE or not all(map(_is_spelt_out, _WORD.findall(unit))):
         return None
     try:
@@ -76,6 +76,10 @@ def unit_of(text: str) -> tuple[str, str] | None:
 def is_unit(text: str) -> bool:
     """True if a text is the name of a unit, or a product or quotient of such names."""
     return unit_of(text) is not None
+
+
+def _with_code(match: re.Match[str]) -> str:
+    return match[1] + CURRENCIES[match[2]]
 
 
 def _is_spelt_out(word: str) -> bool:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from rgss.counted import counted
+from rgss.currencies import is_currency
 from rgss.evidence.records import Metric
 from rgss.figures import rounded_figure
 from rgss.measures import Estimate, StaleCause, Verdict
@@ -79,7 +80,7 @@ def rounded_away(limit: float, needed: float, unit: str, digits: int = 4) -> flo
 
     if needed == 0.0:
         return needed
-    last = 0 if unit == "USD" else min(0, math.floor(math.log10(abs(needed))) - digits + 1)
+    last = 0 if is_currency(unit) else min(0, math.floor(math.log10(abs(needed))) - digits + 1)
     nearest = round(needed, -last)
     if math.isclose(nearest, needed, rel_tol=1e-9):
         return nearest

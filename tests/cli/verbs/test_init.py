@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -44,6 +45,50 @@ def test_its_page_has_a_place_for_the_decision(rgss, tmp_path):
     assert (told.status, told.errors) == (0, "")
     assert "is chosen" in page.read_text(encoding="utf-8")
     assert page.read_text(encoding="utf-8").startswith("# A project of rgss")
+
+
+def test_a_project_in_another_currency_is_decided_in_it(rgss, tmp_path):
+    folder = tmp_path / "project"
+    assert rgss("init", folder, "--currency", "EUR").status == 0
+    checked = rgss("check", "--project", folder)
+    assert (checked.status, checked.errors) == (0, "")
+    assert ": 0 findings" in checked.output
+    project = load_project(folder).with_fidelity("kinematic")
+    assert project.designs.catalogue.currency == "EUR"
+    with EvidenceStore.open(project.evidence) as store:
+        put_trials(store, trial_specs(project, variants=project.designs.expand(), seeds=(1, 2)), made_record)
+    told = rgss("trade", "--fidelity", "kinematic", "--project", folder)
+
+    assert "cost <= 43,000 EUR" in told.output
+    # Costs are rounded to whole units, and what a step is worth is paid in the cost.
+    assert re.search(r"^payload .* \d+ EUR", told.output.partition("paid in more cost")[2], re.MULTILINE)
+    assert "USD" not in told.output
+    section = rgss("trade", "--fidelity", "kinematic", "--section", "--project", folder).output
+    assert "EUR" in section
+    assert "USD" not in section
+
+
+def test_an_amount_in_another_currency_than_the_catalogue_is_refused(rgss, tmp_path):
+    folder = tmp_path / "project"
+    rgss("init", folder, "--currency", "EUR")
+    catalogue = folder / "designs" / "catalogue.yaml"
+    catalogue.write_text(catalogue.read_text(encoding="utf-8").replace("450 EUR", "450 USD"), encoding="utf-8")
+    told = rgss("check", "--project", folder)
+
+    assert told.status == 2
+    assert "cost: USD is another currency than EUR, and none is converted" in told.output
+    assert told.output.startswith("designs/catalogue.yaml:40:19: error: ")
+
+
+@pytest.mark.parametrize(
+    ("code", "hint"), [("eur", "did you mean EUR?"), ("euro", "give an ISO 4217 code, such as EUR")]
+)
+def test_an_unknown_currency_is_refused(rgss, tmp_path, code, hint):
+    told = rgss("init", tmp_path / "project", "--currency", code)
+
+    assert told.status == 2
+    assert told.complaint == f"rgss: --currency: '{code}' is not the code of a currency ({hint})"
+    assert not (tmp_path / "project").exists()
 
 
 def test_the_files_are_told_as_json(rgss, tmp_path):

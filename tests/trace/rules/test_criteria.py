@@ -280,6 +280,15 @@ def test_money_is_compared_with_its_currency(project, text, agrees):
     assert project.rules() == ([] if agrees else ["trace.contradicting-number"])
 
 
+@pytest.mark.parametrize(
+    ("text", "agrees"), [("at least 43000 EUR", True), ("at least €43k", True), ("at least 43000 USD", False)]
+)
+def test_a_threshold_in_euro_is_compared_with_euro(project, text, agrees):
+    project.change("P", unit="EUR").edit("system.yaml", "800 g", "43000 EUR")
+    project.edit("system.yaml", "at least 0.8 kg", text)
+    assert project.rules() == ([] if agrees else ["trace.contradicting-number"])
+
+
 def test_a_bound_in_a_condition_behind_the_response_is_not_what_is_required(project):
     project.edit("system.yaml", "at least 0.8 kg", "at least 0.8 kg while the load is at most 0.8 kg")
     assert "trace.contradicting-comparison" not in project.rules()

@@ -57,7 +57,8 @@ def _costs(found: RobustnessFindings) -> Iterator[str]:
         return
     winners = found.variants(box.range.overtaken_by)
     then = f"{variants_text(winners)} can win" if winners else "the choice can miss a threshold"
-    moved = [f"{component} at {amount(value, 'USD')}" for component, value in found.corner.items()]
+    unit = box.numbers[0].unit
+    moved = [f"{component} at {amount(value, unit)}" for component, value in found.corner.items()]
     corner = f" (with {', '.join(moved)})" if moved else ""
     yield f"{_ALL} may be off by ±{kept_share(box.range.factor, 2)}; beyond that, {then}{corner}."
     if box.unmoved:
