@@ -23,6 +23,8 @@ MORE_EXAMPLES = (
     ("rgss run 28 --nominal --driver ur --address 192.168.0.10", "what would be sent to a robot; --go sends it"),
 )
 
+_LEAST_SHOWN_M = 1e-6
+
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
@@ -171,7 +173,9 @@ def _distance_from_place(record: Any) -> str:
     releases = sum(phase.metrics.get("release_height_m") is not None for phase in record.phases)
     # An object may be released several times.
     which = "the object" if releases <= 1 else f"of {releases} releases the farthest object"
-    return f": {which} is {number(1e3 * offset, 3)} mm from the place"
+    # A perfect arm places more exactly than anything is measured.
+    shown_mm = "less than 0.001" if 0.0 < offset < _LEAST_SHOWN_M else number(1e3 * offset, 3)
+    return f": {which} is {shown_mm} mm from the place"
 
 
 def _print_chosen_grasps(record: Any) -> None:

@@ -74,5 +74,7 @@ def test_an_object_that_is_released_twice_is_not_two_objects(releases, text):
     phases = [SimpleNamespace(metrics={"release_height_m": 0.003}) for _ in range(releases)]
     record = SimpleNamespace(phases=[SimpleNamespace(metrics={}), *phases], metrics={"place_error_m": 0.002})
     assert _distance_from_place(record) == text
+    record.metrics["place_error_m"] = 7e-11
+    assert _distance_from_place(record) == text.replace("2 mm", "less than 0.001 mm")
     record.metrics["place_error_m"] = None
     assert _distance_from_place(record) == ""
