@@ -69,8 +69,8 @@ def arm_mass_kg(text: str | None) -> float | None:
     return None if text is None else positive_quantity("--mass", text, "kg", example="--mass '20 kg'")
 
 
-def positive_quantity(option: str, text: str, unit: str, *, example: str) -> float:
-    """The quantity above zero that an option gives, in a unit.
+def quantity_of(option: str, text: str, unit: str, *, example: str) -> float:
+    """The quantity that an option gives, in a unit.
 
     Args:
         option: The option.
@@ -79,19 +79,29 @@ def positive_quantity(option: str, text: str, unit: str, *, example: str) -> flo
         example: How it is written, for the hint.
 
     Raises:
-        DefinitionError: It is not a quantity of that unit above zero.
+        DefinitionError: It is not a quantity of that unit.
     """
     from rgss.errors import DefinitionError, QuantityError
-    from rgss.findings import shown
     from rgss.quantities import parse_quantity
 
-    hint = f"write it as {example}"
     try:
-        value = parse_quantity(text, unit)
+        return parse_quantity(text, unit)
     except QuantityError as error:
-        raise DefinitionError(f"{option}: {error.message}", hint=hint) from error
+        raise DefinitionError(f"{option}: {error.message}", hint=f"write it as {example}") from error
+
+
+def positive_quantity(option: str, text: str, unit: str, *, example: str) -> float:
+    """The quantity above zero that an option gives, in a unit; the arguments are those of `quantity_of`.
+
+    Raises:
+        DefinitionError: It is not a quantity of that unit above zero.
+    """
+    from rgss.errors import DefinitionError
+    from rgss.findings import shown
+
+    value = quantity_of(option, text, unit, example=example)
     if value <= 0.0:
-        raise DefinitionError(f"{option} must be greater than zero, got {shown(text)}", hint=hint)
+        raise DefinitionError(f"{option} must be greater than zero, got {shown(text)}", hint=f"write it as {example}")
     return value
 
 

@@ -7,7 +7,8 @@ import ipaddress
 from pathlib import Path
 
 from rgss.cli.driven.real_drivers import REAL_DRIVERS
-from rgss.errors import DefinitionError, QuantityError
+from rgss.cli.options import quantity_of
+from rgss.errors import DefinitionError
 from rgss.findings import shown
 
 DRIVERS = ("simulated", *(one.name for one in REAL_DRIVERS))
@@ -81,14 +82,9 @@ def speed_of(options: argparse.Namespace) -> float:
     Raises:
         DefinitionError: It is not a share above 0 % and at most 100 %.
     """
-    from rgss.quantities import parse_quantity
-
     if options.speed is None:
         return 0.1
-    try:
-        share = parse_quantity(options.speed, "1")
-    except QuantityError as error:
-        raise DefinitionError(f"--speed: {error.message}", hint='write "10 %"') from error
+    share = quantity_of("--speed", options.speed, "1", example='"10 %"')
     if not 0.0 < share <= 1.0:
         raise DefinitionError(f"--speed must be above 0 % and at most 100 %, got {options.speed}")
     return share

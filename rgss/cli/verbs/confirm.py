@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rgss.cli.options import add_replicates, add_study, chosen_project
+from rgss.cli.options import add_replicates, add_study, chosen_project, quantity_of
 
 if TYPE_CHECKING:
     from rgss.confirmation import Confirmation, ConfirmationSetting, Selection
@@ -76,7 +76,8 @@ def run(options: argparse.Namespace) -> int:
     require_engines("'rgss confirm'")
     project = chosen_project(options)
     jobs_of(options)
-    seeds, rate_hz = _seeds(options, project), _rate_hz(options.rate)
+    seeds = _seeds(options, project)
+    rate_hz = None if options.rate is None else quantity_of("--rate", options.rate, "Hz", example='"1000 Hz"')
     settings = confirmation_settings(
         project,
         engines=[Engine(name) for name in options.engine or ENGINES],
@@ -173,15 +174,3 @@ def _seeds(options: argparse.Namespace, project: Project) -> int:
             f"--seeds must be from 1 to {MOST_REPLICATES}, got {options.seeds}", hint="omit it for the replicates"
         )
     return int(options.seeds)
-
-
-def _rate_hz(text: str | None) -> float | None:
-    from rgss.errors import DefinitionError, QuantityError
-    from rgss.quantities import parse_quantity
-
-    if text is None:
-        return None
-    try:
-        return parse_quantity(text, "Hz")
-    except QuantityError as error:
-        raise DefinitionError(f"--rate: {error.message}", hint='write it as "1000 Hz"') from error

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rgss.cli.options import add_evidence_choice, chosen_project
+from rgss.cli.options import add_evidence_choice, chosen_project, positive_quantity
 
 if TYPE_CHECKING:
     from rgss.decision import ScreeningResult
@@ -100,7 +100,9 @@ def run(options: argparse.Namespace) -> int:
         )
     if options.jobs is not None and not options.run:
         raise DefinitionError("--jobs needs --run", hint="a decision from stored trials needs no workers")
-    time_limit = seconds_of(options.time_limit)
+    time_limit = None
+    if options.time_limit is not None:
+        time_limit = positive_quantity("--time-limit", options.time_limit, "s", example='"60 s"')
     independent = () if options.solver_check is None else (independent_run(SolverCheck(options.solver_check)),)
     # Read before anything is computed, since the file may lack the markers of the section.
     text = None if options.into is None else text_with_place(options.into)
@@ -154,26 +156,6 @@ def _print(options: argparse.Namespace, made: StudyDecision, text: str | None) -
         content = with_section(text, decision_section(made)).encode("utf-8")
         write_output(options.into, content, replace_source=True)
         print(f"Wrote the decision into {options.into}.")
-
-
-def seconds_of(text: str | None) -> float | None:
-    """A time limit in seconds; None without one.
-
-    Raises:
-        DefinitionError: It is not a time above 0.
-    """
-    from rgss.errors import DefinitionError, QuantityError
-    from rgss.quantities import parse_quantity
-
-    if text is None:
-        return None
-    try:
-        seconds = parse_quantity(text, "s")
-    except QuantityError as error:
-        raise DefinitionError(f"--time-limit: {error.message}", hint=error.hint or 'write "60 s"') from None
-    if seconds <= 0.0:
-        raise DefinitionError(f"--time-limit must be above 0 s, got {text}", hint='give a time, such as "60 s"')
-    return seconds
 
 
 def _reopened(project: Project, scenario: Scenario, screened: ScreeningResult, store: EvidenceStore) -> tuple[int, ...]:

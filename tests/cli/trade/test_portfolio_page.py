@@ -8,9 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from rgss.api.trade_frames import portfolio_frame
-from rgss.cli.verbs.trade import seconds_of
 from rgss.decision.study_decision import is_settled
-from rgss.errors import DefinitionError
 from rgss.reports.decision.json import portfolio_to_json
 from rgss.reports.decision.report_part import portfolio_sentence
 from rgss.reports.decision.text import certificate_lines, portfolio_lines
@@ -123,11 +121,3 @@ def test_what_is_not_enumerated_is_not_said_to_agree(agreement, words):
     assert first == f"Certificate: best found by HIGHS, gap 0.1; {words}"
     assert check == "Check: second run DISAGREES: no portfolio instead of 0.8."
     assert bool(agreement) is (agreement is Agreement.AGREED)
-
-
-def test_a_time_limit_is_a_time():
-    assert (seconds_of(None), seconds_of("60 s"), seconds_of("2 min")) == (None, 60.0, 120.0)
-    for text in ("60", "fast", "3 kg", "0 s", "-1 s"):
-        with pytest.raises(DefinitionError, match="--time-limit") as error:
-            seconds_of(text)
-        assert error.value.hint

@@ -111,3 +111,20 @@ def test_evidence_that_is_no_number(rgss, copy):
     assert (told.status, told.output) == (2, "")
     assert key[:12] in told.complaint
     assert "NaN" in told.complaint or "damaged" in told.complaint
+
+
+@pytest.mark.parametrize(
+    ("limit", "message"),
+    [
+        ("60", "--time-limit: '60' has no unit"),
+        ("fast", "--time-limit: 'fast' is not a quantity"),
+        ("3 kg", "--time-limit: unit 'kg' does not measure what 's' measures"),
+        ("0 s", "--time-limit must be greater than zero, got '0 s'"),
+        ("-1 s", "--time-limit must be greater than zero, got '-1 s'"),
+    ],
+)
+def test_a_time_limit_is_a_time_above_zero(rgss, limit, message):
+    told = rgss("trade", f"--time-limit={limit}")
+
+    assert (told.status, told.output) == (2, "")
+    assert told.errors == f'rgss: {message} (write it as "60 s")\n'
