@@ -12,7 +12,7 @@ from rgss.decision.robustness import robustness
 from rgss.decision.robustness.effect_findings import StudyEffects
 from rgss.decision.robustness.parts import NotComputed, Part
 from rgss.decision.robustness.robustness import analyse_robustness
-from rgss.decision.study_decision.study_decision import study_decision
+from rgss.decision.study_decision.deciding import Choice, study_decision
 from rgss.errors import TradeoffError
 from rgss.evidence import EvidenceStore
 from rgss.reports.decision.markdown import END, decision_section
@@ -46,8 +46,10 @@ def analysed(with_evidence):
     problem = trade_problem(project, measured)
     decision = choose(project, measured, problem=problem)
 
+    choice = Choice(project=project, measured=measured, problem=problem, decision=decision)
+
     def made(found):
-        return study_decision(project, measured, decision, found, problem=problem, evidence="evidence")
+        return study_decision(choice, found, evidence="evidence")
 
     return made, analyse_robustness(project, measured, decision, problem=problem)
 
