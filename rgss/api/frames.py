@@ -10,6 +10,7 @@ from rgss.api.columns import FRAMES
 from rgss.api.metric_columns import phase_metric_columns, trial_metric_columns
 from rgss.assessment import VariantMeasures, requirements_with_criteria
 from rgss.evidence import Metric, PhaseRecord, PlanningRecord, TrialRecord
+from rgss.requirements import common_attributes
 from rgss.scenes.uncertainty import QUANTITIES, draw_column, object_quantity_of_column
 from rgss.studies import Project
 
@@ -105,16 +106,12 @@ def requirements_frame(project: Project) -> pd.DataFrame:
             "requirement": one.id,
             "group": one.group.value,
             "text": one.text,
-            "rationale": one.rationale,
-            "source": one.source,
+            **common_attributes(one),
             "parent": one.parent,
             "derived_from": ", ".join(one.derived_from),
             "traces": ", ".join(one.traces),
             "satisfied_by": ", ".join(one.satisfied_by),
             "verification": None if one.verification is None else one.verification.value,
-            "priority": one.priority.value,
-            "status": one.status.value,
-            "owner": one.owner,
         }
         criterion = one.criterion
         if criterion is not None:

@@ -82,16 +82,7 @@ def record_after_sweep(project: Project, store: EvidenceStore) -> VerdictRecord:
     A verdict with older evidence keeps its record, so that a change of its requirement or measure remains visible. What
     decides is the evidence, not the sweep: one that has run nothing may follow one that was interrupted.
 
-    Args:
-        project: The project with its study.
-        store: The evidence.
-
-    Returns:
-        All recorded verdicts.
-
-    Raises:
-        DefinitionError: A measure is not defined for a design.
-        EvidenceError: The store or the record is damaged, or the record cannot be written.
+    Arguments, result and exceptions are those of `record_verdicts`.
     """
     recorded = read_record(project.folder)
     due = _due(project, store, recorded.of_study(_key(project)))

@@ -10,12 +10,12 @@ from pydantic import Field
 from rgss.currencies import DOLLAR, currencies_in
 from rgss.designs.components import Catalogue, Component, Role, SourcedValue
 from rgss.designs.fields import ConditionsField, ScalarField
-from rgss.designs.findings import dotted_findings, duplicate_findings, near_hint, unit_findings
+from rgss.designs.findings import DesignFileReader, dotted_findings, duplicate_findings, near_hint, unit_findings
 from rgss.designs.parameters import read_magnitude
 from rgss.designs.set_findings import component_set_findings, role_set_findings
 from rgss.documents import Document, DocumentModel, Identifier, Text, load_document
 from rgss.errors import DocumentError, QuantityError
-from rgss.findings import Finding, shown
+from rgss.findings import shown
 from rgss.quantities import dimension, written_unit
 
 
@@ -62,11 +62,12 @@ def load_catalogue(path: Path, *, label: str | None = None) -> Catalogue:
     return _CatalogueReader(loaded.document, loaded.value).read()
 
 
-class _CatalogueReader:
+class _CatalogueReader(DesignFileReader):
+    """Reader of a component catalogue."""
+
     def __init__(self, document: Document, model: CatalogueModel) -> None:
-        self._document = document
+        super().__init__(document)
         self._model = model
-        self._findings: list[Finding] = []
         self._currency = _currency_of(model.components)
 
     def read(self) -> Catalogue:
@@ -85,9 +86,6 @@ class _CatalogueReader:
         if self._findings:
             raise DocumentError(sorted(self._findings))
         return Catalogue(roles=roles, components=components, document=self._document)
-
-    def _report(self, rule: str, message: str, *location: str | int, hint: str = "", at_key: bool = False) -> None:
-        self._findings.append(self._document.finding(f"design.{rule}", message, location, hint=hint, at_key=at_key))
 
     def _check_role(self, index: int, role: Role) -> None:
         self._findings += dotted_findings(self._document, ("roles", index, "id"), role.id)

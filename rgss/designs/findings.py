@@ -11,6 +11,17 @@ from rgss.errors import QuantityError
 from rgss.findings import Finding
 
 
+class DesignFileReader:
+    """Reader of a design file that collects its findings, so that one error does not hide others."""
+
+    def __init__(self, document: Document) -> None:
+        self._document = document
+        self._findings: list[Finding] = []
+
+    def _report(self, rule: str, message: str, *location: str | int, hint: str = "", at_key: bool = False) -> None:
+        self._findings.append(self._document.finding(f"design.{rule}", message, location, hint=hint, at_key=at_key))
+
+
 def duplicate_findings(
     document: Document, section: Sequence[str | int], entries: Iterable[object], key: str = "id"
 ) -> Iterator[Finding]:

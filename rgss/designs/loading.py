@@ -9,7 +9,7 @@ from rgss.designs.choosing import FilterNames
 from rgss.designs.components import Catalogue
 from rgss.designs.document import DesignSpaceModel, FactorModel, LevelModel, ParameterModel
 from rgss.designs.factors import Factor, Level
-from rgss.designs.findings import dotted_findings, duplicate_findings, near_hint, unit_findings
+from rgss.designs.findings import DesignFileReader, dotted_findings, duplicate_findings, near_hint, unit_findings
 from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterValue
 from rgss.designs.ranges import read_sample, read_span, sample_findings
 from rgss.designs.rules import RuleReader
@@ -20,7 +20,6 @@ from rgss.designs.space import DesignSpace
 from rgss.designs.values import ValueReader
 from rgss.documents import Document, load_document
 from rgss.errors import DocumentError
-from rgss.findings import Finding
 
 LARGEST_SPACE = 100_000
 """Greatest number of combinations of levels of a design space."""
@@ -43,15 +42,14 @@ def load_design_space(path: Path, catalogue: Catalogue, *, label: str | None = N
     return _SpaceReader(loaded.document, loaded.value, catalogue, lines).read()
 
 
-class _SpaceReader:
-    """Reader that continues with the valid parts, so that one error does not hide others."""
+class _SpaceReader(DesignFileReader):
+    """Reader of a design space, continued with its valid parts."""
 
     def __init__(self, document: Document, model: DesignSpaceModel, catalogue: Catalogue, lines: Sequence[str]) -> None:
-        self._document = document
+        super().__init__(document)
         self._model = model
         self._catalogue = catalogue
         self._lines = lines
-        self._findings: list[Finding] = []
         self._values = ValueReader(parameters={}, names={})
 
     def read(self) -> DesignSpace:
@@ -88,9 +86,6 @@ class _SpaceReader:
         if self._findings:
             raise DocumentError(sorted(set(self._findings)))
         return space
-
-    def _report(self, rule: str, message: str, *location: str | int, hint: str = "", at_key: bool = False) -> None:
-        self._findings.append(self._document.finding(f"design.{rule}", message, location, hint=hint, at_key=at_key))
 
     def _find_duplicates(self) -> None:
         document, model = self._document, self._model

@@ -11,7 +11,7 @@ from rgss.designs.constraint_parsing import ConstraintProblem, parse_constraint
 from rgss.designs.constraints import Constraint
 from rgss.designs.design_values import COMPONENT_PREFIX, number_aliases, source_units
 from rgss.designs.document import RuleModel
-from rgss.designs.findings import near_hint, value_hint
+from rgss.designs.findings import DesignFileReader, near_hint, value_hint
 from rgss.designs.parameters import ParameterValue, format_value
 from rgss.designs.values import ValueReader
 from rgss.documents import Document
@@ -27,7 +27,7 @@ class RulesRead:
     findings: tuple[Finding, ...]
 
 
-class RuleReader:
+class RuleReader(DesignFileReader):
     """Reader of the rules of one design space."""
 
     def __init__(
@@ -38,7 +38,7 @@ class RuleReader:
         constants: Mapping[str, ParameterValue],
         lines: Sequence[str] = (),
     ) -> None:
-        self._document = document
+        super().__init__(document)
         self._values = values
         self._names = names
         self._lines = lines
@@ -46,7 +46,6 @@ class RuleReader:
         self._aliases = number_aliases(names.parameters)
         factors = names.factors
         self._spans = {factor.span.parameter: factor.span for factor in factors if factor.span is not None}
-        self._findings: list[Finding] = []
         settings = [constants, *(level.values for factor in factors for level in factor.levels)]
         self._possible: dict[str, list[ParameterValue]] = {}
         for setting in settings:
@@ -62,9 +61,6 @@ class RuleReader:
             if len(self._findings) == known:
                 rules.append(rule)
         return RulesRead(rules=tuple(rules), findings=tuple(self._findings))
-
-    def _report(self, rule: str, message: str, *location: str | int, hint: str = "", at_key: bool = False) -> None:
-        self._findings.append(self._document.finding(f"design.{rule}", message, location, hint=hint, at_key=at_key))
 
     def _rule(self, index: int, model: RuleModel) -> Rule:
         place = ("rules", index)

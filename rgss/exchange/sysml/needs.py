@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TypeVar
 
 from rgss.exchange.sysml.notation import body, declared, documentation, name, real, string
-from rgss.requirements import Criterion, Requirement, RequirementSet, StakeholderNeed
+from rgss.requirements import Criterion, Requirement, RequirementSet, StakeholderNeed, common_attributes
 
 NEED = "Stakeholder requirement"
 REQUIREMENT = "System requirement"
@@ -60,7 +60,7 @@ def _nested(elements: Sequence[Asked], kind: str, lines: Callable[[Asked], Itera
 
 def _need_lines(need: StakeholderNeed) -> Iterator[str]:
     yield documentation(need.text)
-    yield from _attributes({"kind": need.kind.value, **_common(need)})
+    yield from _attributes({"kind": need.kind.value, **common_attributes(need)})
 
 
 def _requirement_lines(requirement: Requirement) -> Iterator[str]:
@@ -69,7 +69,7 @@ def _requirement_lines(requirement: Requirement) -> Iterator[str]:
     yield from _attributes(
         {
             "group": requirement.group.value,
-            **_common(requirement),
+            **common_attributes(requirement),
             "verificationMethod": "" if requirement.verification is None else requirement.verification.value,
             "successCriterion": str(criterion) if criterion is not None else requirement.success,
             "criterionExemption": requirement.criterion_exemption,
@@ -79,16 +79,6 @@ def _requirement_lines(requirement: Requirement) -> Iterator[str]:
     )
     if criterion is not None:
         yield from _constraint(criterion)
-
-
-def _common(element: StakeholderNeed | Requirement) -> dict[str, str | None]:
-    return {
-        "rationale": element.rationale,
-        "source": element.source,
-        "priority": element.priority.value,
-        "status": element.status.value,
-        "owner": element.owner,
-    }
 
 
 def _attributes(values: Mapping[str, str | None]) -> Iterator[str]:

@@ -10,7 +10,7 @@ from rgss.counted import counted
 from rgss.measures import Verdict
 from rgss.reports.trace.report import MatrixPart, TraceReport
 from rgss.reports.trace.tables import matrix_note, tally_in_words
-from rgss.requirements import Behaviour, Block, LinkKind, Requirement, StakeholderNeed
+from rgss.requirements import Behaviour, Block, LinkKind, common_attributes
 from rgss.trace.evidence import VerificationRow
 from rgss.trace.views import end_in_words, estimate_in_words, record_in_words, value_in_words, verdict_in_words
 
@@ -147,7 +147,7 @@ def need_rows(report: TraceReport, *, most: int) -> list[dict[str, Any]]:
             "anchor": f"n-{need.id}",
             "kind": need.kind.value,
             "text": need.text,
-            **_attributes(need),
+            **common_attributes(need),
             "links": _listed_links(
                 ("Contained in", [need.parent] if need.parent else []),
                 ("Answered by", moe.linked_to_row(need.id)),
@@ -230,23 +230,13 @@ def _verification_row(row: VerificationRow) -> dict[str, Any]:
         "verdict_words": verdict_in_words(row.verdict, row.causes),
         "tally": tally_in_words(row),
         "gap": row.has_gap,
-        **_attributes(requirement),
+        **common_attributes(requirement),
         "links": _listed_links(
             ("Contained in", [requirement.parent] if requirement.parent else []),
             ("Derived from", requirement.derived_from),
             ("Traces to", requirement.traces),
             ("Satisfied by", requirement.satisfied_by),
         ),
-    }
-
-
-def _attributes(element: StakeholderNeed | Requirement) -> dict[str, str]:
-    return {
-        "rationale": element.rationale,
-        "source": element.source,
-        "priority": element.priority.value,
-        "status": element.status.value,
-        "owner": element.owner,
     }
 
 
