@@ -14,13 +14,7 @@ if TYPE_CHECKING:
     from rgss.studies.checks.impact_check import impact_findings
     from rgss.studies.checks.light_check import light_body_findings
     from rgss.studies.checks.object_limit_check import object_limit_findings
-    from rgss.studies.checks.scene_texts import (
-        OF_ONE_GRIPPER,
-        closing_texts,
-        instability_texts,
-        no_grasp_texts,
-        remedy,
-    )
+    from rgss.studies.checks.scene_places import ScenePlaces
     from rgss.studies.checks.step_check import check_step_findings, step_findings
     from rgss.studies.checks.strict_check import strict_findings
     from rgss.studies.checks.task_time_check import task_time_findings
