@@ -70,7 +70,12 @@ def enlarged(document: dict[str, Any], count: int, *, seed: int = 1) -> dict[str
         column(weighted, "worth", move=True)
     for factor in large["factors"]:
         column(factor, "level")
-    trials = large["trials"]
+    _repeat_trials(large["trials"], places, generator)
+    return large
+
+
+def _repeat_trials(trials: dict[str, Any], places: list[int], generator: random.Random) -> None:
+    """Give each new variant the trials of the one that it repeats."""
     of_place: dict[int, list[int]] = {}
     for trial, place in enumerate(trials["variant"]):
         of_place.setdefault(place, []).append(trial)
@@ -82,7 +87,6 @@ def enlarged(document: dict[str, Any], count: int, *, seed: int = 1) -> dict[str
     trials["key"] = [f"{generator.getrandbits(48):012x}" for _ in rows]
     trials["timelines"] = {str(one["trial"]): trials["timelines"][str(one["trial"])] for one in trials["notable"]}
     trials["every_timeline"] = False
-    return large
 
 
 def opening_times(page: Path) -> tuple[float, float, float, float]:

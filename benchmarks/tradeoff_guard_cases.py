@@ -301,19 +301,7 @@ def _missed(
         share = np.array([weights[name] for name in NAMES])[:, None]
         score = -((share * short).max(axis=0) + program.augmentation * short.sum(axis=0))
     elif isinstance(program, MinimaxRegret):
-        corners = np.eye(len(NAMES))
-        if problem.weight_bounds.orders:
-            order = [problem.weight_bounds.orders[0].heavier, *(one.lighter for one in problem.weight_bounds.orders)]
-            corners = np.zeros((len(NAMES), len(NAMES)))
-            for count in range(1, len(NAMES) + 1):
-                for name in order[:count]:
-                    corners[count - 1, NAMES.index(name)] = 1.0 / count
-        columns = np.stack([values[name] for name in NAMES])
-        worst = np.full(feasible.shape, -np.inf)
-        for corner in corners:
-            one = corner @ columns
-            worst = np.maximum(worst, (one[feasible].max() if feasible.any() else 0.0) - one)
-        score = -worst
+        score = -_greatest_regret(problem, values, feasible)
     else:
         score = additive
     best = float(score[kept].max()) if kept.any() else math.nan
@@ -323,6 +311,23 @@ def _missed(
         return (best - float(chosen[row])) / max(1.0, abs(best)) if final[row] else None
 
     return missed
+
+
+def _greatest_regret(problem: LevelProblem, values: dict[str, Grid], feasible: NDArray[np.bool_]) -> Grid:
+    """Greatest regret over the corners of the admitted weights."""
+    corners = np.eye(len(NAMES))
+    if problem.weight_bounds.orders:
+        order = [problem.weight_bounds.orders[0].heavier, *(one.lighter for one in problem.weight_bounds.orders)]
+        corners = np.zeros((len(NAMES), len(NAMES)))
+        for count in range(1, len(NAMES) + 1):
+            for name in order[:count]:
+                corners[count - 1, NAMES.index(name)] = 1.0 / count
+    columns = np.stack([values[name] for name in NAMES])
+    worst = np.full(feasible.shape, -np.inf)
+    for corner in corners:
+        one = corner @ columns
+        worst = np.maximum(worst, (one[feasible].max() if feasible.any() else 0.0) - one)
+    return worst
 
 
 def portfolio_case(seed: int) -> PortfolioCase:

@@ -93,19 +93,8 @@ def _run(arguments: Sequence[str] | None, interrupts: Interrupts) -> int:
                 sys.stdout.flush()
         _report_interrupted_import(options)
         return status
-    except DocumentError as error:
-        for finding in error.findings:
-            _print_error(str(finding))
-        _report_interrupted_import(options)
-        return BAD_INPUT
-    except (SimulationError, MotionError, DriverError, StorageError) as error:
-        _print_error(f"rgss: {error}")
-        return RUN_FAILED
     except RgssError as error:
-        if options is not None and error.hint:
-            error.hint = with_sweep_options(error.hint, options)
-        _print_error(f"rgss: {error}")
-        return BAD_INPUT
+        return _report_error(error, options)
     except KeyboardInterrupt:
         return _interrupted(options, interrupts)
     except BrokenPipeError:
@@ -115,10 +104,7 @@ def _run(arguments: Sequence[str] | None, interrupts: Interrupts) -> int:
     except UnicodeEncodeError as error:
         if sys.stdout is None or error.encoding != sys.stdout.encoding:
             raise
-        character = ascii(error.object[error.start])
-        hint = "write it to a file, or set PYTHONIOENCODING=utf-8"
-        _print_error(f"rgss: the output has the character {character}, which {error.encoding} lacks ({hint})")
-        return RUN_FAILED
+        return _report_unencodable(error)
     except OSError as error:
         return _failed_file(error)
     except Exception:
@@ -126,6 +112,30 @@ def _run(arguments: Sequence[str] | None, interrupts: Interrupts) -> int:
             raise
         # What a library made of the interrupt.
         return _interrupted(options, interrupts)
+
+
+def _report_error(error: RgssError, options: argparse.Namespace | None) -> int:
+    """Report bad input or a failed run, and return the exit status."""
+    if isinstance(error, DocumentError):
+        for finding in error.findings:
+            _print_error(str(finding))
+        _report_interrupted_import(options)
+        return BAD_INPUT
+    if isinstance(error, (SimulationError, MotionError, DriverError, StorageError)):
+        _print_error(f"rgss: {error}")
+        return RUN_FAILED
+    if options is not None and error.hint:
+        error.hint = with_sweep_options(error.hint, options)
+    _print_error(f"rgss: {error}")
+    return BAD_INPUT
+
+
+def _report_unencodable(error: UnicodeEncodeError) -> int:
+    """Report a character that standard output cannot encode, and return the exit status."""
+    character = ascii(error.object[error.start])
+    hint = "write it to a file, or set PYTHONIOENCODING=utf-8"
+    _print_error(f"rgss: the output has the character {character}, which {error.encoding} lacks ({hint})")
+    return RUN_FAILED
 
 
 def _failed_file(error: OSError) -> int:

@@ -69,7 +69,7 @@ def arm_mass_kg(text: str | None) -> float | None:
     return None if text is None else positive_quantity("--mass", text, "kg", example="--mass '20 kg'")
 
 
-def quantity_of(option: str, text: str, unit: str, *, example: str) -> float:
+def option_quantity(option: str, text: str, unit: str, *, example: str) -> float:
     """The quantity that an option gives, in a unit.
 
     Args:
@@ -91,7 +91,7 @@ def quantity_of(option: str, text: str, unit: str, *, example: str) -> float:
 
 
 def positive_quantity(option: str, text: str, unit: str, *, example: str) -> float:
-    """The quantity above zero that an option gives, in a unit; the arguments are those of `quantity_of`.
+    """The quantity above zero that an option gives, in a unit; the arguments are those of `option_quantity`.
 
     Raises:
         DefinitionError: It is not a quantity of that unit above zero.
@@ -99,7 +99,7 @@ def positive_quantity(option: str, text: str, unit: str, *, example: str) -> flo
     from rgss.errors import DefinitionError
     from rgss.findings import shown
 
-    value = quantity_of(option, text, unit, example=example)
+    value = option_quantity(option, text, unit, example=example)
     if value <= 0.0:
         raise DefinitionError(f"{option} must be greater than zero, got {shown(text)}", hint=f"write it as {example}")
     return value

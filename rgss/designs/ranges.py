@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from rgss.designs.document import DesignSpaceModel, FactorModel
 from rgss.designs.factors import Factor, Span, exact
-from rgss.designs.findings import near_hint
+from rgss.designs.findings import DesignFileReader, near_hint
 from rgss.designs.parameters import DesignParameter, ParameterKind, format_value
 from rgss.designs.sampling import Sample, SamplingMethod, sample_factors
 from rgss.documents import Document
@@ -31,56 +31,92 @@ def read_span(
     Returns:
         The range, or None with findings.
     """
-    findings: list[Finding] = []
+    return _SpanReader(document, place, model, parameters).read()
 
-    def report(rule: str, message: str, *key: str | int, hint: str, at_key: bool = False) -> None:
-        findings.append(document.finding(f"design.{rule}", message, (*place, *key), hint=hint, at_key=at_key))
 
-    name = model.parameter or ""
-    parameter = parameters.get(name)
-    if parameter is None:
-        hint = near_hint(name, parameters, "known parameters")
-        report("unknown-parameter", f"unknown design parameter {name!r}", "parameter", hint=hint)
-        return None, findings
-    if parameter.kind is ParameterKind.NAME:
-        report("range", f"{name} has names, which have no range", "parameter", hint="write levels")
-        return None, findings
-    counted = parameter.kind is ParameterKind.COUNT
-    written = model.range or ()
-    if len(written) != 2:
-        report("range", f"the range of {name} has {len(written)} ends", "range", hint="write [least, greatest]")
-        return None, findings
-    numbers: list[float | int] = []
-    resolution = model.resolution if model.resolution is not None or not counted else 1
-    if resolution is None:
-        hint = "add the 'resolution' to which values are rounded, such as a hundredth of the range"
-        report("range", f"the range of {name} has no resolution", "range", hint=hint, at_key=True)
-        return None, findings
-    for value, key in ((written[0], ("range", 0)), (written[1], ("range", 1)), (resolution, ("resolution",))):
-        try:
-            number = parameter.read(value)
-        except QuantityError as error:
-            report("value", f"{name}: {error.message}", *key, hint=error.hint)
-            continue
-        if not isinstance(number, str):
-            numbers.append(number)
-    if findings:
-        return None, findings
-    low, high, step = numbers
-    if low >= high:
-        report("range", f"the range of {name} is empty", "range", hint="write [least, greatest]")
-    elif step <= 0:
-        report("range", f"the resolution of {name} must be greater than zero", "resolution", hint="write a step")
-    else:
+class _SpanReader(DesignFileReader):
+    """Reader of the range of one factor."""
+
+    def __init__(
+        self,
+        document: Document,
+        place: Sequence[str | int],
+        model: FactorModel,
+        parameters: Mapping[str, DesignParameter],
+    ) -> None:
+        super().__init__(document)
+        self._place = place
+        self._model = model
+        self._parameters = parameters
+
+    def read(self) -> tuple[Span | None, list[Finding]]:
+        """The range, or None with findings."""
+        parameter = self._parameter()
+        span = None if parameter is None else self._span(parameter)
+        return span, self._findings
+
+    def _parameter(self) -> DesignParameter | None:
+        """The parameter, if it is one that may have a range."""
+        name = self._model.parameter or ""
+        parameter = self._parameters.get(name)
+        if parameter is None:
+            hint = near_hint(name, self._parameters, "known parameters")
+            self._at("unknown-parameter", f"unknown design parameter {name!r}", "parameter", hint=hint)
+        elif parameter.kind is ParameterKind.NAME:
+            self._at("range", f"{name} has names, which have no range", "parameter", hint="write levels")
+            return None
+        return parameter
+
+    def _span(self, parameter: DesignParameter) -> Span | None:
+        name, unit = parameter.id, parameter.unit
+        numbers = self._numbers(parameter)
+        if numbers is None:
+            return None
+        low, high, step = numbers
+        if low >= high:
+            self._at("range", f"the range of {name} is empty", "range", hint="write [least, greatest]")
+            return None
+        if step <= 0:
+            message = f"the resolution of {name} must be greater than zero"
+            self._at("range", message, "resolution", hint="write a step")
+            return None
         steps = (exact(high) - exact(low)) / exact(step)
         whole = max(1, round(steps))
         if abs(steps - whole) <= _TOLERANCE * whole:
-            return Span(parameter=name, unit=parameter.unit, low=low, high=high, steps=whole, counted=counted), []
-        ends = f"{format_value(low, parameter.unit)} to {format_value(high, parameter.unit)}"
-        message = f"{ends} is not a whole number of steps of {format_value(step, parameter.unit)}"
-        where = "range" if model.resolution is None else "resolution"
-        report("range", message, where, hint="make the range a multiple of the resolution")
-    return None, findings
+            counted = parameter.kind is ParameterKind.COUNT
+            return Span(parameter=name, unit=unit, low=low, high=high, steps=whole, counted=counted)
+        ends = f"{format_value(low, unit)} to {format_value(high, unit)}"
+        message = f"{ends} is not a whole number of steps of {format_value(step, unit)}"
+        where = "range" if self._model.resolution is None else "resolution"
+        self._at("range", message, where, hint="make the range a multiple of the resolution")
+        return None
+
+    def _numbers(self, parameter: DesignParameter) -> list[float | int] | None:
+        """Both ends and the resolution; None if one is missing or no value of the parameter."""
+        name, written, resolution = parameter.id, self._model.range or (), self._model.resolution
+        if len(written) != 2:
+            message = f"the range of {name} has {len(written)} ends"
+            self._at("range", message, "range", hint="write [least, greatest]")
+            return None
+        if resolution is None and parameter.kind is ParameterKind.COUNT:
+            resolution = 1
+        if resolution is None:
+            hint = "add the 'resolution' to which values are rounded, such as a hundredth of the range"
+            self._at("range", f"the range of {name} has no resolution", "range", hint=hint, at_key=True)
+            return None
+        numbers: list[float | int] = []
+        for value, key in ((written[0], ("range", 0)), (written[1], ("range", 1)), (resolution, ("resolution",))):
+            try:
+                number = parameter.read(value)
+            except QuantityError as error:
+                self._at("value", f"{name}: {error.message}", *key, hint=error.hint)
+                continue
+            if not isinstance(number, str):
+                numbers.append(number)
+        return None if self._findings else numbers
+
+    def _at(self, rule: str, message: str, *key: str | int, hint: str, at_key: bool = False) -> None:
+        self._report(rule, message, *self._place, *key, hint=hint, at_key=at_key)
 
 
 def sample_findings(document: Document, model: DesignSpaceModel) -> Iterator[Finding]:

@@ -50,7 +50,7 @@ class ContactReader:
         self._scene_names = scene_names
         self._resting: dict[tuple[str, ...], Contacts] = {}
 
-    def contacts(self, standing: Contacts | None = None) -> Contacts:
+    def contacts(self, standing: Contacts | None = None) -> Contacts:  # noqa: C901 - each step of each trial calls it
         """Contacts after the last step.
 
         The arm's base link does not move and so is never reported, wherever it is mounted.

@@ -7,7 +7,7 @@ import ipaddress
 from pathlib import Path
 
 from rgss.cli.driven.real_drivers import REAL_DRIVERS
-from rgss.cli.options import quantity_of
+from rgss.cli.options import option_quantity
 from rgss.errors import DefinitionError
 from rgss.findings import shown
 
@@ -84,7 +84,7 @@ def speed_of(options: argparse.Namespace) -> float:
     """
     if options.speed is None:
         return 0.1
-    share = quantity_of("--speed", options.speed, "1", example='"10 %"')
+    share = option_quantity("--speed", options.speed, "1", example='"10 %"')
     if not 0.0 < share <= 1.0:
         raise DefinitionError(f"--speed must be above 0 % and at most 100 %, got {options.speed}")
     return share

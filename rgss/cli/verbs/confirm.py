@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rgss.cli.options import add_replicates, add_study, chosen_project, quantity_of
+from rgss.cli.options import add_replicates, add_study, chosen_project, option_quantity
 
 if TYPE_CHECKING:
     from rgss.confirmation import Confirmation, ConfirmationSetting, Selection
@@ -77,7 +77,7 @@ def run(options: argparse.Namespace) -> int:
     project = chosen_project(options)
     jobs_of(options)
     seeds = _seeds(options, project)
-    rate_hz = None if options.rate is None else quantity_of("--rate", options.rate, "Hz", example='"1000 Hz"')
+    rate_hz = None if options.rate is None else option_quantity("--rate", options.rate, "Hz", example='"1000 Hz"')
     settings = confirmation_settings(
         project,
         engines=[Engine(name) for name in options.engine or ENGINES],

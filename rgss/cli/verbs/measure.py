@@ -11,6 +11,7 @@ from rgss.cli.options import add_evidence_choice, chosen_project
 
 if TYPE_CHECKING:
     from rgss.assessment import VariantMeasures
+    from rgss.decision import ScreeningResult
     from rgss.studies import Project
 
 HELP = "estimate the measures of every variant from evidence, with verdicts on the requirements"
@@ -46,28 +47,18 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.measured import require_store
     from rgss.cli.output import print_json, shown_path
     from rgss.decision import measure_survivors
-    from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
     from rgss.reports.decision import screening_lines, seeds_sentences
 
     project = chosen_project(options)
-    if options.variant is not None:
-        project.designs.variant(options.variant)
-        if options.record:
-            raise DefinitionError("--record needs all variants", hint="omit --variant")
-    if options.case is not None and options.record:
-        raise DefinitionError("--record needs all trials", hint="omit --case")
+    _check_options(options, project)
     require_store(options, project)
     with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
         recorded = record_verdicts(project, store) if options.record else read_record(project.folder)
         measured, screened = measure_survivors(project, store, recorded=recorded)
     if options.variant is not None:
-        for one in () if screened is None else screened.screened_out:
-            if one.variant == options.variant:
-                raise DefinitionError(
-                    f"variant {one.variant} was screened out: {one.reason}",
-                    hint=f"'--fidelity {screened.screening.fidelity.value}' shows what is known of it",  # type: ignore[union-attr]
-                )
+        if screened is not None:
+            _require_not_screened_out(options.variant, screened)
         measured = tuple(entry for entry in measured if entry.variant.id == options.variant)
     if options.case is not None:
         measured = measured_in_case(project, measured, options.case)
@@ -75,18 +66,44 @@ def run(options: argparse.Namespace) -> int:
         _print_drivers(project, measured, as_json=options.json)
     elif options.json:
         print_json(list(_verdict_rows(measured) if options.verdicts else _measure_rows(measured)))
-    elif options.verdicts:
+    else:
+        _print_measures(options, project, measured)
+        if screened is not None and options.variant is None:
+            print("\n" + "\n".join(screening_lines(screened)))
+        if lines := list(seeds_sentences(sequential_seeds(project, measured))):
+            print("\n" + "\n".join(lines))
+    return 0
+
+
+def _check_options(options: argparse.Namespace, project: Project) -> None:
+    from rgss.errors import DefinitionError
+
+    if options.variant is not None:
+        project.designs.variant(options.variant)
+        if options.record:
+            raise DefinitionError("--record needs all variants", hint="omit --variant")
+    if options.case is not None and options.record:
+        raise DefinitionError("--record needs all trials", hint="omit --case")
+
+
+def _require_not_screened_out(variant: int, screened: ScreeningResult) -> None:
+    from rgss.errors import DefinitionError
+
+    for one in screened.screened_out:
+        if one.variant == variant:
+            raise DefinitionError(
+                f"variant {variant} was screened out: {one.reason}",
+                hint=f"'--fidelity {screened.screening.fidelity.value}' shows what is known of it",
+            )
+
+
+def _print_measures(options: argparse.Namespace, project: Project, measured: Sequence[VariantMeasures]) -> None:
+    if options.verdicts:
         _print_verdicts(project, measured)
     elif options.variant is not None:
         _print_variant(project, measured[0])
     else:
         _print_all(project, measured)
-    if screened is not None and options.variant is None and not (options.json or options.drivers):
-        print("\n" + "\n".join(screening_lines(screened)))
-    lines = [] if options.json or options.drivers else list(seeds_sentences(sequential_seeds(project, measured)))
-    if lines:
-        print("\n" + "\n".join(lines))
-    return 0
 
 
 def _print_drivers(project: Project, measured: Sequence[VariantMeasures], *, as_json: bool) -> None:

@@ -45,64 +45,81 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
             or a supposition is given twice.
         TradeoffError: The weights that follow contradict each other or what was elicited.
     """
-    changed = project
-    changes: list[Change] = []
-    weights: dict[str, float] = {}
-    readings: list[Reading] = []
-    settings: list[SettingChange] = []
-    named: set[str] = set()
+    supposing = _Supposing(project)
     for text in suppositions:
+        supposing.add(text)
+    return supposing.scenario()
+
+
+class _Supposing:
+    """Suppositions that are applied to a project one after another."""
+
+    def __init__(self, project: Project) -> None:
+        self._project = self._changed = project
+        self._changes: list[Change] = []
+        self._weights: dict[str, float] = {}
+        self._readings: list[Reading] = []
+        self._settings: list[SettingChange] = []
+        self._named: set[str] = set()
+
+    def add(self, text: str) -> None:
+        """Apply a supposition."""
         name, value = _split(text)
-        name = _full_name(project, name)
-        if name in {*named, *(change.id for change in changes)}:
+        name = _full_name(self._project, name)
+        if name in {*self._named, *(change.id for change in self._changes)}:
             raise DefinitionError(f"--what-if: {name} is supposed twice", hint="suppose it once")
-        named.add(name)
+        self._named.add(name)
+        if name.partition(".")[0] == READING:
+            reading, self._changed = with_reading(self._changed, name, value)
+            self._readings.append(reading)
+        elif name in model_settings(self._changed):
+            setting, self._changed = with_setting(self._changed, name, value)
+            self._settings.append(setting)
+        elif name == PRICES:
+            prices, self._changed = _prices(self._changed, value)
+            self._changes += prices
+        else:
+            change, self._changed = self._number(name, value)
+            self._changes.append(change)
+
+    def _number(self, name: str, value: str) -> tuple[Change, Project]:
+        """The change of one number, and the project with it; weights are changed together at the end."""
+        changed = self._changed
         kind, _, rest = name.partition(".")
-        if kind == READING:
-            reading, changed = with_reading(changed, name, value)
-            readings.append(reading)
-            continue
-        if name in model_settings(changed):
-            setting, changed = with_setting(changed, name, value)
-            settings.append(setting)
-            continue
-        if name == PRICES:
-            prices, changed = _prices(changed, value)
-            changes += prices
-            continue
         demand, _, field = name.rpartition(".")
         if kind == WEIGHT:
-            change = _weight(project, name, rest, value)
-            weights[rest] = change.after
-        elif kind == VALUE:
-            change, changed = _anchor(changed, name, rest, value)
-        elif kind == SHAPE:
-            change, changed = _curvature(changed, name, value)
-        elif kind in (CATALOGUE, MEASURES):
-            change, changed = _number(changed, name, value)
-        elif name in demand_numbers(changed):
-            change, changed = _demand(changed, name, value)
-        elif field == THRESHOLD:
-            change, changed = _threshold(changed, name, demand, value)
-        else:
-            raise absent_input(changed, name) or _no_input(project, name)
-        changes.append(change)
-    rescaled: tuple[Change, ...] = ()
-    if weights:
-        changed, rescaled = _reweighted(changed, weights)
-    changed = replace(
-        changed,
-        study=replace(changed.study, values=value_anchors(changed.study.trade_off, partial(quantity_of, changed))),
-    )
-    return Scenario(
-        project=changed,
-        changes=tuple(changes),
-        rescaled=rescaled,
-        dropped=_dropped(project, changed),
-        simulated=_simulated(project, changes),
-        readings=tuple(readings),
-        settings=tuple(settings),
-    )
+            change = _weight(self._project, name, rest, value)
+            self._weights[rest] = change.after
+            return change, changed
+        if kind == VALUE:
+            return _anchor(changed, name, rest, value)
+        if kind == SHAPE:
+            return _curvature(changed, name, value)
+        if kind in (CATALOGUE, MEASURES):
+            return _number(changed, name, value)
+        if name in demand_numbers(changed):
+            return _demand(changed, name, value)
+        if field == THRESHOLD:
+            return _threshold(changed, name, demand, value)
+        raise absent_input(changed, name) or _no_input(self._project, name)
+
+    def scenario(self) -> Scenario:
+        """The project under all suppositions, with what they change."""
+        project, changed = self._project, self._changed
+        rescaled: tuple[Change, ...] = ()
+        if self._weights:
+            changed, rescaled = _reweighted(changed, self._weights)
+        anchors = value_anchors(changed.study.trade_off, partial(quantity_of, changed))
+        changed = replace(changed, study=replace(changed.study, values=anchors))
+        return Scenario(
+            project=changed,
+            changes=tuple(self._changes),
+            rescaled=rescaled,
+            dropped=_dropped(project, changed),
+            simulated=_simulated(project, self._changes),
+            readings=tuple(self._readings),
+            settings=tuple(self._settings),
+        )
 
 
 def _reweighted(project: Project, weights: Mapping[str, float]) -> tuple[Project, tuple[Change, ...]]:

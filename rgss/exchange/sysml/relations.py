@@ -39,6 +39,15 @@ class Relations:
 
     def lines(self) -> Iterator[str]:
         """Derivations, satisfactions, refinements, allocations, traces, inclusions, verifications."""
+        yield from self._links()
+        for behaviour in self._requirements.architecture.behaviours:
+            yield from self._performers(behaviour)
+            yield from self._inclusions(behaviour)
+        for requirement in self._requirements.system:
+            if requirement.verification is not None or requirement.id in self._records:
+                yield from self._verification(requirement)
+
+    def _links(self) -> Iterator[str]:
         for link in self._requirements.links:
             source, target = self._name(link.source), self._name(link.target)
             if link.kind is LinkKind.DERIVE:
@@ -53,17 +62,18 @@ class Relations:
                 yield f"#refinement dependency from {source} to {target};"
             elif link.kind is LinkKind.TRACE:
                 yield f"dependency {name(f'trace {link.source} {link.target}')} from {source} to {target};"
-        for behaviour in self._requirements.architecture.behaviours:
-            for node in () if behaviour.flow is None else behaviour.flow.nodes:
-                if node.performer is not None:
-                    yield f"allocate {reference(behaviour.id)}.{name(node.id)} to {self._name(node.performer)};"
-            if behaviour.kind is not BehaviourKind.USE_CASE:
-                for other in behaviour.includes:
-                    head = f"dependency {name(f'include {behaviour.id} {other}')}"
-                    yield f"{head} from {reference(behaviour.id)} to {reference(other)};"
-        for requirement in self._requirements.system:
-            if requirement.verification is not None or requirement.id in self._records:
-                yield from self._verification(requirement)
+
+    def _performers(self, behaviour: Behaviour) -> Iterator[str]:
+        for node in () if behaviour.flow is None else behaviour.flow.nodes:
+            if node.performer is not None:
+                yield f"allocate {reference(behaviour.id)}.{name(node.id)} to {self._name(node.performer)};"
+
+    def _inclusions(self, behaviour: Behaviour) -> Iterator[str]:
+        if behaviour.kind is BehaviourKind.USE_CASE:
+            return  # Written within the use case.
+        for other in behaviour.includes:
+            head = f"dependency {name(f'include {behaviour.id} {other}')}"
+            yield f"{head} from {reference(behaviour.id)} to {reference(other)};"
 
     def _verification(self, requirement: Requirement) -> list[str]:
         text = f"By {requirement.verification.value}." if requirement.verification is not None else ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from rgss.counted import counted
@@ -37,23 +38,8 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         return None
     place = document["variants"]["id"].index(chosen)
     equal = [one for one in decision["ties"] if one != chosen]
-    requirements = [one for one in document["requirements"] if one["measure"]]
-    by_record = [one for one in document["requirements"] if one["id"] in decision["failed_records"]]
-    by_test = [
-        one for one in document["requirements"] if one["id"] in decision["failed_tests"] and one not in by_record
-    ]
-    failed = [*by_test, *by_record]
-    judged = [one for one in requirements if one not in failed]
-    open_ = [one for one in judged if entry_at(one["verdict"], place) in _OPEN]
-    missed = [one for one in judged if entry_at(one["verdict"], place) == "not_met"]
-    units = {measure["id"]: measure for measure in document["measures"]}
-    weights = {measure: one["weight"] or 0.0 for measure, one in units.items()}
-    # Missed and open requirements come first, then those with the greatest weights.
-    ranked = sorted(
-        requirements,
-        key=lambda one: (one not in missed, one not in open_, -weights.get(one["measure"], 0.0), one["id"]),
-    )
-    bullets = [bullet for one in ranked if (bullet := _bullet(one, units, place)) is not None]
+    standing = _standing(document, place)
+    bullets = _bullets(document, place, standing)
     return {
         "chosen": chosen,
         "levels": [
@@ -65,24 +51,72 @@ def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
         # A design of equal value is tied as well, and is not named twice.
         "tied": [one for one in decision["rivals"] if one != chosen and one not in equal],
         "near": [one for one in decision["rivals_by_margin"] if one != chosen and one not in equal],
-        "met": len(judged) - len(open_) - len(missed),
-        "open": [{"id": one["id"], "text": one["text"]} for one in open_],
+        "met": standing.met,
+        "open": [{"id": one["id"], "text": one["text"]} for one in standing.open],
         "missed": [
-            *({"id": one["id"], "text": one["text"]} for one in missed),
-            *({"id": one["id"], "text": f"{one['text']} Its test failed."} for one in by_test),
-            *({"id": one["id"], "text": f"{one['text']} Its verification record says so."} for one in by_record),
+            *({"id": one["id"], "text": one["text"]} for one in standing.missed),
+            *({"id": one["id"], "text": f"{one['text']} Its test failed."} for one in standing.by_test),
+            *(
+                {"id": one["id"], "text": f"{one['text']} Its verification record says so."}
+                for one in standing.by_record
+            ),
         ],
         "bullets": bullets[:MOST_BULLETS],
         "more_limits": max(0, len(bullets) - MOST_BULLETS),
         "changes": list(
             _changes(
                 decision,
-                {name: one["name"] for name, one in units.items()},
+                {one["id"]: one["name"] for one in document["measures"]},
                 is_alone=len(document["variants"]["id"]) == 1,
             )
         ),
         "other_changes": _other_changes(decision["modelling"]["rows"]),
     }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Standing:
+    """Requirements on the choice: the number of met ones, open and missed ones, and those failed by a test or record.
+
+    What a test or a verification record fails is not counted by its verdict.
+    """
+
+    met: int
+    open: list[Mapping[str, Any]]
+    missed: list[Mapping[str, Any]]
+    by_test: list[Mapping[str, Any]]
+    by_record: list[Mapping[str, Any]]
+
+
+def _standing(document: Mapping[str, Any], place: int) -> _Standing:
+    decision, requirements = document["decision"], document["requirements"]
+    by_record = [one for one in requirements if one["id"] in decision["failed_records"]]
+    by_test = [one for one in requirements if one["id"] in decision["failed_tests"] and one not in by_record]
+    verdicts = [
+        (one, entry_at(one["verdict"], place))
+        for one in requirements
+        if one["measure"] and one not in by_test and one not in by_record
+    ]
+    open_ = [one for one, verdict in verdicts if verdict in _OPEN]
+    missed = [one for one, verdict in verdicts if verdict == "not_met"]
+    met = len(verdicts) - len(open_) - len(missed)
+    return _Standing(met=met, open=open_, missed=missed, by_test=by_test, by_record=by_record)
+
+
+def _bullets(document: Mapping[str, Any], place: int, standing: _Standing) -> list[Plain]:
+    """Bullet charts of the limits: missed and open requirements first, then those with the greatest weights."""
+    measures = {measure["id"]: measure for measure in document["measures"]}
+    weights = {measure: one["weight"] or 0.0 for measure, one in measures.items()}
+    ranked = sorted(
+        (one for one in document["requirements"] if one["measure"]),
+        key=lambda one: (
+            one not in standing.missed,
+            one not in standing.open,
+            -weights.get(one["measure"], 0.0),
+            one["id"],
+        ),
+    )
+    return [bullet for one in ranked if (bullet := _bullet(one, measures, place)) is not None]
 
 
 def worst_failure_in_words(document: Mapping[str, Any]) -> Plain | None:

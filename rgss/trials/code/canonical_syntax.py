@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 PROSE = frozenset({"meaning", "phase_meaning"})
@@ -91,24 +92,23 @@ def _write(node: ast.AST, parts: list[str], leave_out: frozenset[ast.stmt], in_f
             continue
         parts.append(name)
         parts.append("=")
-        if isinstance(value, list):
-            if value and isinstance(value[0], ast.stmt):
-                _write_block(value, parts, leave_out, in_function=inside)
-                continue
-            if kind is ast.JoinedStr:
-                value = _joined(value)
-            parts.append("[")
-            for item in value:
-                if isinstance(item, ast.AST):
-                    _write(item, parts, leave_out, inside)
-                else:
-                    parts.append(f"{item!r};")
-            parts.append("]")
-        elif isinstance(value, ast.AST):
-            _write(value, parts, leave_out, inside)
+        if not isinstance(value, list):
+            _write_item(value, parts, leave_out, inside)
+        elif value and isinstance(value[0], ast.stmt):
+            _write_block(value, parts, leave_out, in_function=inside)
         else:
-            parts.append(f"{value!r};")
+            parts.append("[")
+            for item in _joined(value) if kind is ast.JoinedStr else value:
+                _write_item(item, parts, leave_out, inside)
+            parts.append("]")
     parts.append(")")
+
+
+def _write_item(item: Any, parts: list[str], leave_out: frozenset[ast.stmt], in_function: bool) -> None:  # noqa: FBT001
+    if isinstance(item, ast.AST):
+        _write(item, parts, leave_out, in_function)
+    else:
+        parts.append(f"{item!r};")
 
 
 def _joined(values: list[ast.expr]) -> list[ast.expr]:

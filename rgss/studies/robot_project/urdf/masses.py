@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -46,10 +46,28 @@ def complete_masses(root: ET.Element, urdf: Path, *, leave: Sequence[str], mass_
         *_weighed_with_others(root, links, [name for name in lacking if name not in stated], stated),
     ]
     massless = [name for name in loads_without_inertia(root) if name not in gone]
-    if not massless and mass_kg is None:
-        return notes
     if not massless:
+        if mass_kg is None:
+            return notes
         raise DefinitionError("every link of the arm has a mass", hint="leave --mass out, or correct the URDF's masses")
+    stated_kg = sum(stated.values())
+    left_kg = _mass_left(mass_kg, stated_kg, massless, urdf)
+    sharing = [*massless, *(name for name in of_arm if name in standing and name not in stated)]
+    have_shapes = _distribute(left_kg, links, massless, sharing, urdf)
+    rationale = (
+        f"{len(massless)} links have no mass in the URDF. {mass_kg:g} kg of the whole arm are distributed"
+        " over them and the base by the volume of their shapes, as homogeneous bodies: a caution on all torques,"
+        " and on the payload."
+        if have_shapes
+        else f"{', '.join(massless)} have neither a mass nor a shape in the URDF, and weigh "
+        f"{_LEAST_SHARE * left_kg:.3g} kg each: the {stated_kg:g} kg of the other links are kept, not scaled to "
+        f"{mass_kg:g} kg."
+    )
+    return [*notes, Note(about="description", rationale=rationale)]
+
+
+def _mass_left(mass_kg: float | None, stated_kg: float, massless: Sequence[str], urdf: Path) -> float:
+    """Mass that the links with a mass leave of the arm's total."""
     if mass_kg is None:
         shown = ", ".join(massless[:_NAMES_SHOWN]) + (", …" if len(massless) > _NAMES_SHOWN else "")
         links_text = "1 link" if len(massless) == 1 else f"{len(massless)} links"
@@ -57,34 +75,25 @@ def complete_masses(root: ET.Element, urdf: Path, *, leave: Sequence[str], mass_
             f"{urdf.name} has no mass or no inertia for {links_text}: {shown}",
             hint="give the mass of the whole arm, which is distributed by volume: --mass '20 kg'",
         )
-    left = mass_kg - sum(stated.values())
-    if left <= 0.0:
+    if mass_kg <= stated_kg:
         raise DefinitionError(
-            f"--mass is {mass_kg:g} kg, and the links that state a mass weigh {sum(stated.values()):g} kg",
+            f"--mass is {mass_kg:g} kg, and the links that state a mass weigh {stated_kg:g} kg",
             hint="give the mass of the whole arm with its base",
         )
-    sharing = [*massless, *(name for name in of_arm if name in standing and name not in stated)]
+    return mass_kg - stated_kg
+
+
+def _distribute(
+    left_kg: float, links: Mapping[str, ET.Element], massless: Sequence[str], sharing: Sequence[str], urdf: Path
+) -> bool:
+    """Write the masses of links, by their volume among those that share; False if none of these has a shape."""
     solids = {name: link_solid(links[name], lambda file: find_named_file(file, urdf)) for name in sharing}
-    total = sum(solid.volume_m3 for solid in solids.values() if solid is not None)
+    total_m3 = sum(solid.volume_m3 for solid in solids.values() if solid is not None)
     for name in massless:
         solid = solids[name]
-        share = 0.0 if solid is None or total == 0.0 else solid.volume_m3 / total
-        _write(links[name], max(share, _LEAST_SHARE) * left, solid)
-    if total == 0.0:
-        rationale = (
-            f"{', '.join(massless)} have neither a mass nor a shape in the URDF, and weigh {_LEAST_SHARE * left:.3g} kg"
-            f" each: the {sum(stated.values()):g} kg of the other links are kept, not scaled to {mass_kg:g} kg."
-        )
-        return [*notes, Note(about="description", rationale=rationale)]
-    return [
-        *notes,
-        Note(
-            about="description",
-            rationale=f"{len(massless)} links have no mass in the URDF. {mass_kg:g} kg of the whole arm are distributed"
-            " over them and the base by the volume of their shapes, as homogeneous bodies: a caution on all torques,"
-            " and on the payload.",
-        ),
-    ]
+        share = 0.0 if solid is None or total_m3 == 0.0 else solid.volume_m3 / total_m3
+        _write(links[name], max(share, _LEAST_SHARE) * left_kg, solid)
+    return total_m3 != 0.0
 
 
 def _without_inertia(links: dict[str, ET.Element], names: list[str], urdf: Path) -> list[Note]:
