@@ -9,14 +9,13 @@ from dataclasses import replace
 from rgss.designs import DesignVariant, ParameterValue
 from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity
-from rgss.motion import ClockKind, PlanningClock
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Gripper, at_object
 from rgss.scenes.uncertainty import NOTHING_UNCERTAIN
 from rgss.studies.design_settings import GRIPPER, MOUNTING, PLANNER, TIME_LIMIT, default_values
 from rgss.studies.project import Project
 from rgss.studies.trial_values import mounted, values_of, with_values
-from rgss.trials import ControlMode, PlanningSettings, TrialSettings
+from rgss.trials import ControlMode, TrialSettings
 from rgss.trials.pieces import TrialSpec
 
 
@@ -44,21 +43,8 @@ def trial_specs(
 def trial_settings(project: Project) -> TrialSettings:
     """Settings of the study's trials; searches are as long as the longest limit of any design."""
     study = project.study
-    planning = study.planning
     return TrialSettings(
-        planning=PlanningSettings(
-            clock=PlanningClock(
-                kind=ClockKind.COUNTED if planning.counted else ClockKind.WALL, charge_s=planning.charge_per_check_s
-            ),
-            search_limit_s=_longest_limit(project),
-            resolution_rad=planning.resolution_rad,
-            verification_resolution_rad=planning.verification_resolution_rad,
-            on_unverified=planning.on_unverified,
-            simplification_checks=planning.simplification_checks,
-            simplification_limit_s=planning.simplification_limit_s,
-            clearance_m=planning.clearance_m,
-            moves=planning.moves,
-        ),
+        planning=replace(study.planning.settings, search_limit_s=_longest_limit(project)),
         physics=study.physics
         or PhysicsSettings(
             rate_hz=study.rate_hz,

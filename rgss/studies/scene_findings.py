@@ -132,7 +132,7 @@ class _HandProblems:
         if not is_searched:
             return
         wide = [name for misfit, name, _ in misfits if misfit is TOO_WIDE]
-        clearance_m, task = project.study.planning.clearance_m, project.study.task
+        clearance_m, task = project.study.planning.settings.clearance_m, project.study.task
         for step in hand_step_problems(scene, geometry, clearance_m=clearance_m, task=task, friction=friction):
             self.steps.setdefault(step, []).append(file)
         for problem in reach_problems(scene, geometry, clearance_m=clearance_m, task=task, friction=friction):

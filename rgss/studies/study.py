@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
 from rgss.documents import Document, FilePlace, load_document, place_of
@@ -160,7 +160,6 @@ def read_study(
     entry, document = loaded.value, loaded.document
     findings = _file_findings(document, entry, project)
     findings.extend(physics_findings(entry.physics, document, fidelities=entry.fidelity))
-    planning = read_planning(entry.planning, document, findings)
     motion = read_motion(entry.timing, entry.control, document, findings, rate_hz=entry.physics.rate)
     screening = read_screening(entry.fidelity, entry.promotion, document, findings, clock=entry.planning.clock)
     loaded_task = _task(project, entry, findings)
@@ -168,6 +167,7 @@ def read_study(
         findings.extend(step_control_findings(loaded_task, motion.controller, rate_hz=entry.physics.rate))
     program = default_task() if loaded_task is None else loaded_task.program
     moves = read_moves(entry.moves, program, document, findings)
+    planning = read_planning(entry.planning, document, findings, moves=moves)
     regression = read_regression(entry.regression, document, findings, phases=program.phases)
     until_decided = read_until_decided(entry.until_decided, document, findings, replicates=entry.replicates)
     uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings)
@@ -179,7 +179,7 @@ def read_study(
     )
     trade_off = read_trade_off(entry.trade_off, places)
     findings.extend(places.findings)
-    if findings or trade_off is None:
+    if findings or trade_off is None or planning is None:
         raise DocumentError(sorted(findings))
     return StudyDefinition(
         id=entry.study,
@@ -191,7 +191,7 @@ def read_study(
         seed=entry.seed,
         replicates=entry.replicates,
         fidelity=Fidelity(entry.fidelity[-1]),
-        planning=replace(planning, moves=moves),
+        planning=planning,
         task=program,
         task_file=loaded_task,
         motion=motion,

@@ -41,7 +41,8 @@ def test_trials_with_other_physics_are_those_of_confirmations(shipped, store, re
 
 
 def test_trials_of_another_state_of_the_study_are_not(shipped, store, record_of):
-    planning = replace(shipped.study.planning, resolution_rad=0.031)
+    planning = shipped.study.planning
+    planning = replace(planning, settings=replace(planning.settings, resolution_rad=0.031))
     other = replace(shipped, study=replace(shipped.study, planning=planning))
     keys = {put(store, spec, record_of) for spec in specs_with(other)}
     assert confirmation_trials([shipped], store) == frozenset()

@@ -30,8 +30,8 @@ def arm_of(folder, scale):
 @pytest.mark.parametrize("scale", [1.0, 3.0])
 def test_the_tool_moves_no_more_than_twice_the_clearance_between_two_states(tmp_path, scale):
     project, specs = arm_of(tmp_path, scale)
-    planning = project.study.planning
-    step_rad = planning.verification_resolution_rad or planning.resolution_rad
+    planning = project.study.planning.settings
+    step_rad = planning.verified_every_rad
     rng = np.random.default_rng(5)
     for spec in {spec.gripper.geometry.id: spec for spec in specs}.values():
         arm = Arm(spec.scene.robot, spec.gripper.geometry.grasp_centre)

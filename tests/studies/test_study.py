@@ -6,6 +6,7 @@ import pytest
 
 from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
+from rgss.motion import ClockKind
 from rgss.studies.expansion import trial_settings
 from rgss.studies.project import load_project
 from rgss.studies.study import named_file, read_study
@@ -136,15 +137,15 @@ def test_each_move_is_planned_unless_the_study_says_otherwise(edit, folder):
     edit(STUDY, "physics:\n", f"{MOVES}physics:\n")
     project = load_project(folder, STUDY)
 
-    assert [kind.value for kind in was.study.planning.moves] == ["planned"] * 5
-    assert [kind.value for kind in project.study.planning.moves] == [
+    assert [kind.value for kind in was.study.planning.settings.moves] == ["planned"] * 5
+    assert [kind.value for kind in project.study.planning.settings.moves] == [
         "straight",
         "planned",
         "planned",
         "joint",
         "planned",
     ]
-    assert trial_settings(project).planning.moves == project.study.planning.moves
+    assert trial_settings(project).planning.moves == project.study.planning.settings.moves
 
 
 @pytest.mark.parametrize("fidelity", ["kinematic", "dynamic"])
@@ -177,9 +178,9 @@ def test_a_study(folder, shipped):
     )
     assert (study.seed, study.replicates, study.seeds) == (1, 3, (1, 2, 3))
     assert study.fidelity is Fidelity.CONTACT
-    assert study.planning.counted
-    assert study.planning.charge_per_check_s == 0.00025
-    assert study.planning.clearance_m == 0.008
+    assert study.planning.settings.clock.kind is ClockKind.COUNTED
+    assert study.planning.settings.clock.charge_s == 0.00025
+    assert study.planning.settings.clearance_m == 0.008
     assert (study.rate_hz, study.solver_iterations) == (240.0, 50)
     assert [(anchors.measure, anchors.worst, anchors.best) for anchors in study.values] == [
         ("P_max", 0.8, 1.4),

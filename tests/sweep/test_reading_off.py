@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from rgss.evidence import EvidenceStore
+from rgss.motion import PlanningClock
 from rgss.studies import load_project, trial_settings, trial_specs
 from rgss.sweep import StoredSearches, key_of, sweep
 from rgss.trials.pieces import Pieces
@@ -20,10 +21,12 @@ VARIANTS = (28, 36)
 SEEDS = (1, 2)
 
 
-def project_with(**planning):
+def project_with(**settings):
     """The varied world without contact, so that only planning takes time, under another planning section."""
     project = load_project(REPOSITORY).with_fidelity("kinematic")
-    return replace(project, study=replace(project.study, planning=replace(project.study.planning, **planning)))
+    planning = project.study.planning
+    planning = replace(planning, settings=replace(planning.settings, **settings))
+    return replace(project, study=replace(project.study, planning=planning))
 
 
 def limited(specs, limit_s):
@@ -68,7 +71,7 @@ def compared(searched):
 
 @pytest.mark.parametrize("charge_s", [0.0005, 0.00004])
 def test_another_charge(compared, charge_s):
-    read_off, _ = compared(specs_of(project_with(charge_per_check_s=charge_s)))
+    read_off, _ = compared(specs_of(project_with(clock=PlanningClock(charge_s=charge_s))))
     assert read_off >= 1
 
 

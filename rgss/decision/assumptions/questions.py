@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from rgss.decision.assumptions.names import alternative_in_words, name_in_words
 from rgss.decision.what_if import COST, PRICES, assumed_numbers, deciding_readings, model_settings
 from rgss.evidence import Fidelity
+from rgss.motion import ClockKind
 from rgss.studies import Project
 
 _CHARGE = "planning.charge_per_check"
@@ -63,9 +64,10 @@ def questions_of(project: Project) -> tuple[Question, ...]:
 
 def _derived(project: Project) -> Iterator[Question]:
     study, settings = project.study, model_settings(project)
-    if study.planning.counted:
+    clock = study.planning.settings.clock
+    if clock.kind is ClockKind.COUNTED:
         for factor in _CHARGE_FACTORS:
-            charge_ms = 1e3 * factor * study.planning.charge_per_check_s
+            charge_ms = 1e3 * factor * clock.charge_s
             yield Question(about=_CHARGE, alternative=f"{charge_ms:g} ms")
     setting = {parameter.id for parameter in project.designs.parameters if parameter.sets == _LIMIT}
     limits = {float(one.parameters[name]) for one in project.designs.expand() for name in setting}

@@ -19,7 +19,7 @@ _MOST_CHECKS = 1_000_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Quantity:
-    """Quantity of the section ``planning``: field, unit, and True if it may be 0."""
+    """Quantity of the section ``planning``: field of its settings, unit, and True if it may be 0."""
 
     field: str
     unit: str
@@ -27,7 +27,6 @@ class _Quantity:
 
 
 _QUANTITIES = {
-    "charge_per_check": _Quantity(field="charge_per_check_s", unit="s"),
     "resolution": _Quantity(field="resolution_rad", unit="rad"),
     "verification_resolution": _Quantity(field="verification_resolution_rad", unit="rad"),
     "simplification_limit": _Quantity(field="simplification_limit_s", unit="s", may_be_zero=True),
@@ -37,7 +36,14 @@ _QUANTITIES = {
 
 def settings_of_planning(project: Project) -> Iterator[ModelSetting]:
     """The assumptions on planning, in the order of the study's file."""
-    planning = project.study.planning
+    planning = project.study.planning.settings
+    charge = in_words(planning.clock.charge_s, "s")
+    yield ModelSetting(
+        id=CHARGE,
+        value=charge,
+        example=f"{CHARGE}={in_words(2.0 * planning.clock.charge_s, 's')}",
+        changed=partial(_with_charge, project),
+    )
     for key, quantity in _QUANTITIES.items():
         name, value = f"planning.{key}", getattr(planning, quantity.field)
         value = planning.resolution_rad if value is None else value
@@ -59,7 +65,7 @@ def settings_of_planning(project: Project) -> Iterator[ModelSetting]:
         id=name,
         value=planning.on_unverified.value,
         example=f"{name}=fail",
-        changed=lambda text: _with(
+        changed=lambda text: _with_settings(
             project, on_unverified=OnUnverified(one_of("planning.on_unverified", text, ("fail", "repair")))
         ),
     )
@@ -157,6 +163,7 @@ def settings_of_designs(project: Project) -> Iterator[ModelSetting]:
         )
 
 
+CHARGE = "planning.charge_per_check"
 TIME_LIMIT = "planning.time_limit"
 
 
@@ -166,29 +173,41 @@ def _listed(words: list[str]) -> str:
 
 def _with(project: Project, **changes: Any) -> Project:
     planning = replace(project.study.planning, **changes)
-    verification = planning.verification_resolution_rad
-    if verification is not None and verification > planning.resolution_rad:
+    return replace(project, study=replace(project.study, planning=planning))
+
+
+def _with_settings(project: Project, **changes: Any) -> Project:
+    settings = replace(project.study.planning.settings, **changes)
+    verification = settings.verification_resolution_rad
+    if verification is not None and verification > settings.resolution_rad:
         raise DefinitionError(
             "--what-if: a path cannot be verified more coarsely than it is searched for, "
-            f"{in_words(planning.resolution_rad, 'rad')}, got {in_words(verification, 'rad')}",
+            f"{in_words(settings.resolution_rad, 'rad')}, got {in_words(verification, 'rad')}",
             hint="suppose planning.verification_resolution too",
         )
-    return replace(project, study=replace(project.study, planning=planning))
+    return _with(project, settings=settings)
+
+
+def _with_charge(project: Project, text: str) -> Project:
+    clock = replace(project.study.planning.settings.clock, charge_s=quantity_from(CHARGE, text, "s", above=0.0))
+    return _with_settings(project, clock=clock)
 
 
 def _with_quantity(project: Project, name: str, quantity: _Quantity, text: str) -> Project:
     above, least = (None, 0.0) if quantity.may_be_zero else (0.0, None)
-    return _with(project, **{quantity.field: quantity_from(name, text, quantity.unit, above=above, least=least)})
+    return _with_settings(
+        project, **{quantity.field: quantity_from(name, text, quantity.unit, above=above, least=least)}
+    )
 
 
 def _with_count(project: Project, name: str, text: str) -> Project:
-    return _with(project, simplification_checks=count_from(name, text, least=0, most=_MOST_CHECKS))
+    return _with_settings(project, simplification_checks=count_from(name, text, least=0, most=_MOST_CHECKS))
 
 
 def _with_move(project: Project, name: str, index: int, text: str) -> Project:
     kind = MoveKind(one_of(name, text, tuple(one.value for one in MoveKind)))
-    moves = project.study.planning.moves or (MoveKind.PLANNED,) * len(project.study.task.planned)
-    return _with(project, moves=(*moves[:index], kind, *moves[index + 1 :]))
+    moves = project.study.planning.settings.moves or (MoveKind.PLANNED,) * len(project.study.task.planned)
+    return _with_settings(project, moves=(*moves[:index], kind, *moves[index + 1 :]))
 
 
 def _with_parameter(project: Project, planner: str, key: str, text: str) -> Project:

@@ -15,10 +15,12 @@ if TYPE_CHECKING:
 def _write(project: Project, path: Path, evidence: str) -> Mapping[str, int]:
     from rgss.evidence import EvidenceStore
     from rgss.exchange.ompl_database import write_ompl_database
+    from rgss.motion import ClockKind
     from rgss.sweep import planning_runs
     from rgss.trials.code import versions
 
-    planning = project.study.planning
+    planning = project.study.planning.settings
+    is_counted = planning.clock.kind is ClockKind.COUNTED
     with EvidenceStore.open(project.evidence, create=False, label=evidence) as store:
         runs = planning_runs(project, store)
     write_ompl_database(
@@ -29,7 +31,7 @@ def _write(project: Project, path: Path, evidence: str) -> Mapping[str, int]:
         version=versions()["ompl"],
         setup={
             "scene": project.scene.id,
-            "planning clock": f"{planning.charge_per_check_s:g} s a validity check" if planning.counted else "wall",
+            "planning clock": f"{planning.clock.charge_s:g} s a validity check" if is_counted else "wall",
             "resolution": f"{planning.resolution_rad:g} rad",
             "clearance": f"{planning.clearance_m:g} m",
         },

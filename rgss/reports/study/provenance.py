@@ -10,6 +10,7 @@ from rgss.errors import DocumentError
 from rgss.evidence import EvidenceStore, Fidelity
 from rgss.evidence.records import file_digests
 from rgss.figures import exact_figure
+from rgss.motion import ClockKind
 from rgss.reports.plain_numbers import Plain
 from rgss.studies import FOLDERS, Project, StudyDocument, trial_specs
 from rgss.trials.code import versions
@@ -32,7 +33,7 @@ def provenance_of(
     study = project.study
     keys = [key for entry in measured for key in entry.trials]
     first = store.get(min(keys)) if keys else None
-    planning = study.planning
+    planning = study.planning.settings
     return {
         "study": [
             ["study", study.id],
@@ -45,8 +46,8 @@ def provenance_of(
             ["seeds", _seeds(project, measured)],
             ["variants", str(len(measured))],
             ["trials", str(len(keys))],
-            ["planning clock", "counted checks" if planning.counted else "wall"],
-            ["charge for a check", f"{planning.charge_per_check_s * 1e3:g} ms"],
+            ["planning clock", "counted checks" if planning.clock.kind is ClockKind.COUNTED else "wall"],
+            ["charge for a check", f"{planning.clock.charge_s * 1e3:g} ms"],
             ["simplification limit", f"{planning.simplification_limit_s:g} s"],
             ["clearance", f"{planning.clearance_m * 1e3:g} mm"],
             *([] if study.fidelity is Fidelity.KINEMATIC else [["physics steps", f"{study.rate_hz:g} Hz"]]),

@@ -42,7 +42,7 @@ def lack_of_room(project: Project, geometry: GripperGeometry, name: str, frictio
         name: The object.
         friction: Coefficient of the pads.
     """
-    options, clearance_m = project.scene.task.candidates, project.study.planning.clearance_m
+    options, clearance_m = project.scene.task.candidates, project.study.planning.settings.clearance_m
     if options is None or geometry.cup is not None:
         return ""
     workpiece = next(one.workpiece for one in project.scene.objects if one.workpiece.id == name)

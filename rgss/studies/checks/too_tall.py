@@ -61,7 +61,7 @@ def objects_too_tall(geometry: GripperGeometry, project: Project) -> tuple[TooTa
         geometry: The gripper's shape.
         project: The project.
     """
-    found, clearance_m = [], project.study.planning.clearance_m
+    found, clearance_m = [], project.study.planning.settings.clearance_m
     for name, view in gripped_views(project):
         fit = palm_fit(at_object(geometry, view), view)
         if fit is not None and fit.top_m > fit.palm_m - clearance_m:

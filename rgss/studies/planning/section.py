@@ -11,10 +11,11 @@ from pydantic import Field
 
 from rgss.documents import Document, DocumentModel, Identifier, Metres, Radians, Seconds, Text
 from rgss.findings import Finding
-from rgss.motion import OnUnverified, PlannerSettings
+from rgss.motion import ClockKind, OnUnverified, PlannerSettings, PlanningClock
 from rgss.scenes import Robot
 from rgss.studies.planning.declared_planners import PlannerField, planner_problem, read_planners
 from rgss.tasks import MoveKind
+from rgss.trials import PlanningSettings
 
 
 class PlanningEntry(DocumentModel):
@@ -39,63 +40,57 @@ class PlanningChoice:
     """Planning of moves.
 
     Attributes:
-        counted: Whether planning time is counted in validity checks; a wall clock otherwise.
-        charge_per_check_s: Planning time that a validity check is charged with.
-        resolution_rad: Greatest joint step between two states of a motion that a search checks.
-        verification_resolution_rad: Greatest joint step between two checked states of the path that will run; as
-            the search if None.
-        on_unverified: Handling of a path that is not valid at that resolution.
-        simplification_checks: Validity checks that may be spent on looking for shortcuts.
-        simplification_limit_s: Longest time of simplifying a path by the planning clock.
-        clearance_m: Distance that the checked states of planned paths keep; the path that runs keeps a quarter of it.
+        settings: Settings of the planning of trials; `rgss.studies.trial_settings` extends the limit of its searches to
+            the longest of any design.
         planner: The planner where no design sets it; empty if the file has none.
         time_limit_s: Longest planning time of one move where no design sets it; None if the file has none.
         planners: The planners that the file declares, by their names there.
         references: Names of planners that are compared with those of the designs.
-        moves: Kind of each of the planned moves of the task, in their order; all are planned if it is empty.
     """
 
-    counted: bool
-    charge_per_check_s: float
-    resolution_rad: float
-    simplification_checks: int
-    simplification_limit_s: float
-    clearance_m: float
+    settings: PlanningSettings
     planner: str = ""
     time_limit_s: float | None = None
-    verification_resolution_rad: float | None = None
-    on_unverified: OnUnverified = OnUnverified.FAIL
     planners: Mapping[str, PlannerSettings] = field(default_factory=dict)
     references: tuple[str, ...] = ()
-    moves: tuple[MoveKind, ...] = ()
 
     def planner_settings(self, name: str) -> PlannerSettings:
         """The planner of a name: one that the file declares, else that of OMPL."""
         return self.planners.get(name) or PlannerSettings(algorithm=name)
 
 
-def read_planning(planning: PlanningEntry, document: Document, findings: list[Finding]) -> PlanningChoice:
-    """Planning of moves.
+def read_planning(
+    planning: PlanningEntry, document: Document, findings: list[Finding], *, moves: tuple[MoveKind, ...]
+) -> PlanningChoice | None:
+    """Planning of moves; None if a quantity is out of its range.
 
     Args:
         planning: The section.
         document: The file, for positions.
         findings: Collects the problems.
+        moves: Kind of each planned move of the task, in order.
     """
-    findings.extend(_value_findings(planning, document))
+    out_of_range = list(_value_findings(planning, document))
+    findings.extend(out_of_range)
     findings.extend(_planning_findings(planning, document))
     planners = read_planners(planning.planners, document, findings)
-    return PlanningChoice(
-        counted=planning.clock == "counted",
-        charge_per_check_s=planning.charge_per_check,
+    if out_of_range:
+        return None
+    settings = PlanningSettings(
+        clock=PlanningClock(kind=ClockKind(planning.clock), charge_s=planning.charge_per_check),
+        search_limit_s=planning.time_limit or 0.0,
         resolution_rad=planning.resolution,
+        verification_resolution_rad=planning.verification_resolution,
+        on_unverified=OnUnverified(planning.on_unverified),
         simplification_checks=planning.simplification_checks,
         simplification_limit_s=planning.simplification_limit,
         clearance_m=planning.clearance,
+        moves=moves,
+    )
+    return PlanningChoice(
+        settings=settings,
         planner=planning.planner or "",
         time_limit_s=planning.time_limit,
-        verification_resolution_rad=planning.verification_resolution,
-        on_unverified=OnUnverified(planning.on_unverified),
         planners=planners,
         references=planning.references,
     )
@@ -110,9 +105,10 @@ def resolution_findings(planning: PlanningChoice, robot: Robot, document: Docume
         document: The study's file, for positions.
     """
     extent_rad = math.sqrt(math.fsum((joint.upper_rad - joint.lower_rad) ** 2 for joint in robot.joints))
-    if planning.resolution_rad >= extent_rad:
+    resolution_rad = planning.settings.resolution_rad
+    if resolution_rad >= extent_rad:
         message = (
-            f"resolution of {planning.resolution_rad:g} rad is not below the diagonal of the joints' ranges, "
+            f"resolution of {resolution_rad:g} rad is not below the diagonal of the joints' ranges, "
             f"{extent_rad:.3g} rad"
         )
         hint = "such as 0.05 rad; a search checks the states of a motion that far apart"

@@ -64,7 +64,7 @@ def outcome(project, measured, store, about):
 
 def test_the_derived_questions_follow_from_the_study(shipped):
     found = [question.supposition for question in questions_of(shipped)]
-    charge_ms = 1e3 * shipped.study.planning.charge_per_check_s
+    charge_ms = 1e3 * shipped.study.planning.settings.clock.charge_s
     assert found[:2] == [f"planning.charge_per_check={factor * charge_ms:g} ms" for factor in (0.5, 2.0)]
     assert found[2:5] == [f"planning.time_limit={limit} s" for limit in (4, 6, 8)]
     assert "fidelity=kinematic" in found

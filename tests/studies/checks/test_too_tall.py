@@ -19,7 +19,8 @@ def too_tall(shipped):
     geometry = load_gripper_file(REPOSITORY / HAND, project=REPOSITORY).geometry
 
     def find(clearance_m):
-        planning = replace(shipped.study.planning, clearance_m=clearance_m)
+        planning = shipped.study.planning
+        planning = replace(planning, settings=replace(planning.settings, clearance_m=clearance_m))
         return objects_too_tall(geometry, replace(shipped, study=replace(shipped.study, planning=planning)))
 
     return find
