@@ -21,7 +21,7 @@ if TYPE_CHECKING:
         vertices_of,
         with_mesh_files,
     )
-    from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
+    from rgss.scenes.document import RobotDocument, SceneDocument
     from rgss.scenes.frames import NamedFrame
     from rgss.scenes.grasps import (
         RIBS,
@@ -42,11 +42,9 @@ if TYPE_CHECKING:
     from rgss.scenes.gripper import Gripper, GripperDrive, GripperFile, GripperGeometry, Suction, boss_height_m
     from rgss.scenes.gripper_file import load_gripper, load_gripper_file
     from rgss.scenes.hands import (
+        GRIPPER_KINDS,
         FoundPads,
-        LinkageGripperDocument,
         MechanismError,
-        ParallelGripperDocument,
-        VacuumGripperDocument,
         at_object,
         at_opening,
         at_top,

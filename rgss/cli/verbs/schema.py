@@ -33,10 +33,10 @@ DOCUMENTS = (
     "calibration",
     "excitation",
     "gripper",
-    "task",
     "parallel-gripper",
     "vacuum-gripper",
     "linkage-gripper",
+    "task",
     "study",
     "mapping",
 )

@@ -17,6 +17,9 @@ class FingerGripper:
 
     name = "fingers"
     model: type[DocumentModel] = GripperDocument
+    document = "gripper"
+    title = "Gripper"
+    own_key = "azimuths"
 
     def findings(self, entry: GripperDocument, document: Document) -> Iterable[Finding]:
         """Findings about sizes, and about a stroke at which fingers would cross."""

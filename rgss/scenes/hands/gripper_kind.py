@@ -21,6 +21,18 @@ class GripperKind(Protocol):
     def model(self) -> type[DocumentModel]:
         """Model of its files."""
 
+    @property
+    def document(self) -> str:
+        """Name of its files as a kind of document, such as ``vacuum-gripper``."""
+
+    @property
+    def title(self) -> str:
+        """Title of its files, in a few words."""
+
+    @property
+    def own_key(self) -> str:
+        """Required key that only its files have, by which the schema of a file is chosen."""
+
     def findings(self, entry: Any, document: Document) -> Iterable[Finding]:
         """Findings about a file that satisfies the model.
 

@@ -32,6 +32,9 @@ class LinkageGripper:
 
     name = "linkage"
     model = LinkageGripperDocument
+    document = "linkage-gripper"
+    title = "Linkage gripper"
+    own_key = "pads"
 
     def read(self, entry: LinkageGripperDocument, document: Document, *, path: Path, project: Path) -> GripperFile:
         """Gripper described by a file and its URDF.

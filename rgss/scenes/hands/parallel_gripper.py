@@ -45,6 +45,9 @@ class ParallelGripper:
 
     name = "parallel"
     model: type[DocumentModel] = ParallelGripperDocument
+    document = "parallel-gripper"
+    title = "Parallel gripper"
+    own_key = "mountings"
 
     def findings(self, entry: ParallelGripperDocument, document: Document) -> Iterable[Finding]:
         """Findings about sizes, mountings without travel, and a default that is not a mounting."""

@@ -50,6 +50,9 @@ class VacuumGripper:
 
     name = "vacuum"
     model: type[DocumentModel] = VacuumGripperDocument
+    document = "vacuum-gripper"
+    title = "Vacuum gripper"
+    own_key = "cup"
 
     def findings(self, entry: VacuumGripperDocument, document: Document) -> Iterable[Finding]:
         """Findings about sizes, forces and times, a leak that leaves no force, and a cup that cannot be."""

@@ -23,15 +23,7 @@ from rgss.requirements import (
     SystemFile,
     VerificationsFile,
 )
-from rgss.scenes import (
-    CalibrationDocument,
-    GripperDocument,
-    LinkageGripperDocument,
-    ParallelGripperDocument,
-    RobotDocument,
-    SceneDocument,
-    VacuumGripperDocument,
-)
+from rgss.scenes import GRIPPER_KINDS, CalibrationDocument, RobotDocument, SceneDocument
 from rgss.studies.document import StudyDocument
 from rgss.studies.project_folders import REQUIREMENT_PARTS, SINGLE_FILES
 from rgss.tasks import TaskDocument
@@ -111,13 +103,11 @@ DOCUMENT_KINDS = (
     DocumentKind(
         id="excitation", title="Excitation of a robot's joints", model=ExcitationDocument, place="scenes/robots/"
     ),
-    DocumentKind(id="gripper", title="Gripper", model=GripperDocument, place="scenes/grippers/"),
-    DocumentKind(id="task", title="Task", model=TaskDocument, place="scenes/tasks/"),
-    DocumentKind(
-        id="parallel-gripper", title="Parallel gripper", model=ParallelGripperDocument, place="scenes/grippers/"
+    *(
+        DocumentKind(id=kind.document, title=kind.title, model=kind.model, place="scenes/grippers/")
+        for kind in GRIPPER_KINDS.values()
     ),
-    DocumentKind(id="vacuum-gripper", title="Vacuum gripper", model=VacuumGripperDocument, place="scenes/grippers/"),
-    DocumentKind(id="linkage-gripper", title="Linkage gripper", model=LinkageGripperDocument, place="scenes/grippers/"),
+    DocumentKind(id="task", title="Task", model=TaskDocument, place="scenes/tasks/"),
     DocumentKind(id="study", title="Study", model=StudyDocument, place="studies/"),
 )
 
@@ -127,10 +117,7 @@ _BY_KEY: Mapping[str, tuple[tuple[str, str], ...]] = {
     "scenes": (
         ("bodies", "scene"),
         ("joints", "robot"),
-        ("azimuths", "gripper"),
-        ("mountings", "parallel-gripper"),
-        ("cup", "vacuum-gripper"),
-        ("pads", "linkage-gripper"),
+        *((kind.own_key, kind.document) for kind in GRIPPER_KINDS.values()),
         ("servos", "calibration"),
         ("excitation", "excitation"),
         ("steps", "task"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Annotated
+from typing import Annotated, Protocol
 
 from pydantic import Field
 
@@ -22,6 +22,13 @@ from rgss.tasks.steps import Step
 MOST_REPETITIONS = 1000
 Placed = tuple[Step, Location]
 """A step, and its location in the file."""
+
+
+class KindEntry(Protocol):
+    """Entry of a kind of step."""
+
+    def step(self, reader: TaskReader, position: Position) -> Step:
+        """The step, with findings in the reader."""
 
 
 class RepeatEntry(DocumentModel):
@@ -76,13 +83,10 @@ class StepEntry(DocumentModel):
     for_each: ForEachEntry | None = None
 
     @property
-    def stated(self) -> dict[str, Kind]:
+    def stated(self) -> dict[str, KindEntry | RepeatEntry | ForEachEntry]:
         """The stated kinds by key."""
         kinds = {kind: getattr(self, kind) for kind in type(self).model_fields}
         return {kind: one for kind, one in kinds.items() if one is not None}
-
-
-Kind = MoveEntry | GripEntry | ReleaseEntry | NeutralEntry | WaitEntry | CheckEntry | RepeatEntry | ForEachEntry
 
 
 class TaskDocument(DocumentModel):
