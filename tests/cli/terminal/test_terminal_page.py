@@ -13,11 +13,11 @@ import sys
 import termios
 from contextlib import redirect_stdout
 from io import StringIO
-from pathlib import Path
 
 import pytest
 
 from rgss.assessment import measure_variants
+from rgss.cli.main import main
 from rgss.cli.measured_tables import print_measures
 from rgss.cli.output import print_lines, print_table
 from rgss.cli.terminal import TerminalPage
@@ -28,7 +28,6 @@ from rgss.measures import Verdict
 from rgss.reports.plain_text import aligned_table
 from rgss.studies import load_project
 
-PROJECT = Path(__file__).parents[3]
 STYLE = re.compile(r"\x1b\[[0-9;]*m")
 
 
@@ -117,7 +116,16 @@ def test_without_a_terminal_every_line_is_as_it_is(capsys):
     assert capsys.readouterr().out.splitlines() == [long, "a", "─" * 200, "b" * 200]
 
 
-def on_terminal(*words, columns=80, **variables):
+@pytest.fixture(scope="module")
+def project(tmp_path_factory):
+    """A new project, which is small and is only read."""
+    folder = tmp_path_factory.mktemp("new") / "project"
+    with redirect_stdout(StringIO()):
+        assert main(["init", str(folder)]) == 0
+    return folder
+
+
+def on_terminal(project, *words, columns=80, **variables):
     """What a command prints on a terminal of so many columns, and its status."""
     leader, follower = pty.openpty()
     fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 40, columns, 0, 0))
@@ -128,7 +136,7 @@ def on_terminal(*words, columns=80, **variables):
         stdin=follower,
         stdout=follower,
         stderr=follower,
-        cwd=PROJECT,
+        cwd=project,
         env=environment,
     ) as process:
         os.close(follower)
@@ -145,38 +153,38 @@ def on_terminal(*words, columns=80, **variables):
     return process.returncode, said.decode("utf-8").replace("\r\n", "\n")
 
 
-@pytest.mark.parametrize("words", [("variants",), ("trace",), ("trace", "SYS-005"), ("schema",)])
-def test_pages_fit_eighty_columns(words):
-    status, said = on_terminal(*words)
+@pytest.mark.parametrize("words", [("variants",), ("trace",), ("trace", "SYS-2"), ("schema",)])
+def test_pages_fit_eighty_columns(project, words):
+    status, said = on_terminal(project, *words)
     assert status == 0
     assert max(len(STYLE.sub("", line)) for line in said.splitlines()) <= (80 if words != ("schema",) else 200)
 
 
-def test_what_programs_read_and_what_may_be_wide_is_not_broken(tmp_path):
+def test_what_programs_read_and_what_may_be_wide_is_not_broken(project):
     piped = subprocess.run(
-        [sys.executable, "-m", "rgss", "trace"], cwd=PROJECT, capture_output=True, text=True, check=True
+        [sys.executable, "-m", "rgss", "trace"], cwd=project, capture_output=True, text=True, check=True
     ).stdout
     assert max(map(len, piped.splitlines())) > 80
-    wide = STYLE.sub("", on_terminal("trace", "--wide")[1])
+    wide = STYLE.sub("", on_terminal(project, "trace", "--wide")[1])
     assert [line.rstrip() for line in wide.splitlines() if not line.startswith("─")] == [
         line for line in piped.splitlines() if not line.startswith("─")
     ]
-    csv = on_terminal("variants", "--format", "csv")[1]
+    csv = on_terminal(project, "variants", "--format", "csv")[1]
     assert len({line.count(",") for line in csv.splitlines()}) == 1
 
 
-def test_a_long_page_goes_through_the_pager(tmp_path):
+def test_a_long_page_goes_through_the_pager(project, tmp_path):
     file = tmp_path / "page.txt"
     script = tmp_path / "pager"
     script.write_text(f'#!/bin/sh\ncat > "{file}"\n', encoding="utf-8")
     script.chmod(0o755)
-    status, said = on_terminal("trace", RGSS_PAGER=str(script))
+    status, said = on_terminal(project, "trace", RGSS_PAGER=str(script))
     assert (status, said) == (0, "")
     assert "Traceability of the study pick_place" in file.read_text(encoding="utf-8")
 
 
-def test_a_pager_that_is_left_early_ends_the_command():
-    status, said = on_terminal("trace", RGSS_PAGER="head -n 1")
+def test_a_pager_that_is_left_early_ends_the_command(project):
+    status, said = on_terminal(project, "trace", RGSS_PAGER="head -n 1")
     assert (status, said.count("\n")) == (0, 1)
 
 
