@@ -14,6 +14,9 @@ from rgss.quantities import dimension
 _PROSE = frozenset({"a", "are", "as", "at", "has", "in"})
 """Words that are also the names of units, and far more often are just words."""
 
+_NO_UNITS = frozenset({"", "an", "be", "by", "if", "is", "it", "no", "of", "on", "or", "to"})
+"""Short words that follow a number and name no unit: not looked up, since pint takes half a second to start."""
+
 _LENGTHS = frozenset({"foot", "feet", "hectare", "inch", "inches", "meter", "metre", "mile", "yard"})
 _MASSES = frozenset({"gram", "gramme", "lb", "mol", "mole", "ounce", "pound", "ton", "tonne"})
 _VOLUMES = frozenset({"gallon", "liter", "litre"})
@@ -64,7 +67,7 @@ def unit_of(text: str) -> tuple[str, str] | None:
     """
     currency = next((CURRENCIES[match[2]] for match in _CURRENCY.finditer(text)), "")
     unit = _EXPONENT.sub(r"\1^\2", _CURRENCY.sub(_with_code, text.translate(_OF_CHARACTERS)))
-    if unit in _PROSE or not all(map(_is_spelt_out, _WORD.findall(unit))):
+    if unit in _PROSE or unit in _NO_UNITS or not all(map(_is_spelt_out, _WORD.findall(unit))):
         return None
     try:
         dimension(unit)

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from rgss.errors import QuantityError
+from rgss.quantities import dimension
+from rgss.trace.sentences import units
 from rgss.trace.sentences.quantities import quantities_in
 
 
@@ -146,3 +149,12 @@ def test_names_and_symbols_of_units(unit):
     (quantity,) = quantities_in(f"The robot shall hold 2 {unit}.")
 
     assert quantity.text == f"2 {unit}"
+
+
+@pytest.mark.parametrize("word", ["", "an", "be", "by", "if", "is", "it", "no", "of", "on", "or", "to"])
+def test_a_short_word_that_is_no_unit_is_not_looked_up(monkeypatch, word):
+    with pytest.raises(QuantityError):
+        dimension(word)
+    monkeypatch.setattr(units, "dimension", None)
+    units.unit_of.cache_clear()
+    assert units.unit_of(word) is None
