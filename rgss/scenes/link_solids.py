@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -92,9 +94,25 @@ def _about_origin(volume: float, moments: list[float]) -> LinkSolid:
     return LinkSolid(volume_m3=volume, centre_m=np.zeros(3), inertia_m5=np.diag(moments))
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _ScaledMesh:
+    """Mesh with factors along its axes; equal to that of a copy, since a draft is made from copies of its files."""
+
+    sha256: str
+    suffix: str
+    scale: tuple[float, float, float]
+    path: Path = field(compare=False)
+
+
 def _hull(path: Path, scale: tuple[float, float, float]) -> LinkSolid | None:
+    sha256 = hashlib.sha256(path.read_bytes()).hexdigest()
+    return _hull_of(_ScaledMesh(sha256=sha256, suffix=path.suffix.lower(), scale=scale, path=path))
+
+
+@lru_cache(maxsize=64)
+def _hull_of(mesh: _ScaledMesh) -> LinkSolid | None:
     try:
-        corners = mesh_corners(path, scale=scale)
+        corners = mesh_corners(mesh.path, scale=mesh.scale)
     except DefinitionError:
         return None
     import trimesh
