@@ -6,13 +6,17 @@ import itertools
 import json
 import os
 import re
+import shlex
 import subprocess
 import sys
+import tempfile
+from contextlib import ExitStack, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
+from rgss.cli.main import main
 from tests.fixtures.processes import PATIENCE_S
 
 REPOSITORY = Path(__file__).parents[2]
@@ -107,7 +111,9 @@ class Reader:
         self._state = folder / ".reader-is-in"
 
     def run(self, command: str) -> tuple[int, list[str]]:
-        """Run a command as a shell would that goes on from the last one."""
+        """Run a command as a shell would that goes on from the last one; one of rgss alone in this process."""
+        if re.match(r"rgss [^;|>$]*$", command):
+            return self._run_here(shlex.split(command)[1:])
         scripts = Path(sys.executable).parent
         environment = {**os.environ, "PATH": f"{scripts}{os.pathsep}{os.environ['PATH']}", "LC_ALL": "C.UTF-8"}
         wrapped = f'{command}\nstatus=$?; pwd > "{self._state}"; exit $status'
@@ -123,6 +129,26 @@ class Reader:
         )
         self.folder = Path(self._state.read_text(encoding="utf-8").strip())
         return done.returncode, [line.rstrip() for line in done.stdout.splitlines()]
+
+    def _run_here(self, words: list[str]) -> tuple[int, list[str]]:
+        """Run the command line in this process, which has imported what each process has to import."""
+        with ExitStack() as stack:
+            stack.callback(os.chdir, Path.cwd())
+            os.chdir(self.folder)
+            file = stack.enter_context(tempfile.TemporaryFile("w+", encoding="utf-8", buffering=1))
+            # What the engines write goes to the descriptors, and what Python writes to the streams.
+            for descriptor in (1, 2):
+                kept = os.dup(descriptor)
+                stack.callback(os.close, kept)
+                stack.callback(os.dup2, kept, descriptor)
+                os.dup2(file.fileno(), descriptor)
+            for redirect in (redirect_stdout, redirect_stderr):
+                stack.enter_context(redirect(file))
+            status = main(words)
+            file.flush()
+            size = os.fstat(file.fileno()).st_size
+            said = os.pread(file.fileno(), size, 0).decode("utf-8")
+        return status, [line.rstrip() for line in said.splitlines()]
 
     def change(self, step: Step) -> None:
         """Make the change that a block shows to the file that is named before it."""
