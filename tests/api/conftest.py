@@ -12,13 +12,8 @@ import pytest
 
 import rgss
 from rgss.cli.main import main
-from tests.fixtures.shipped_project import copy_project
+from tests.fixtures.shipped_project import copy_project, with_few_designs
 
-SPACE = "designs/grasping_system.yaml"
-LEFT_OUT = (
-    "      - id: trrt\n        sets: {d8: TRRT}\n      - id: stride\n        sets: {d8: STRIDE}\n",
-    "      - id: medium\n        sets: {d9: 6 s}\n      - id: long\n        sets: {d9: 8 s}\n",
-)
 ASKED = {"fidelity": "kinematic", "replicates": 2}
 OPTIONS = ("--fidelity", "kinematic", "--replicates", "2")
 
@@ -26,13 +21,7 @@ OPTIONS = ("--fidelity", "kinematic", "--replicates", "2")
 def copied(to: Path, *, small: bool = False) -> Path:
     """A copy of the shipped project; a small one has 8 designs, of one planner and one limit."""
     copy_project(to)
-    if small:
-        text = (to / SPACE).read_text(encoding="utf-8")
-        for levels in LEFT_OUT:
-            assert text.count(levels) == 1
-            text = text.replace(levels, "")
-        (to / SPACE).write_text(text, encoding="utf-8")
-    return to
+    return with_few_designs(to) if small else to
 
 
 @pytest.fixture

@@ -78,14 +78,14 @@ def test_a_part_that_is_not_computed(analysed, part):
     assert len(set(whole) & set(lines)) > 0.5 * len(set(whole))
 
 
-def test_what_is_not_computed_is_a_finding(monkeypatch, rgss, with_evidence, tmp_path):
+def test_what_is_not_computed_is_a_finding(monkeypatch, rgss, with_little_evidence, tmp_path):
     def fail(*_, **__):
         raise TradeoffError("the solver gave no answer", hint="ask for less")
 
     for name in ("smaa2", "winning_regions", "study_effects"):
         monkeypatch.setattr(robustness, name, fail)
-    told = rgss("trade", "--effects", "--project", with_evidence)
-    report = rgss("report", "--no-film", "--out", tmp_path / "report.html", "--project", with_evidence)
+    told = rgss("trade", "--effects", "--project", with_little_evidence)
+    report = rgss("report", "--no-film", "--out", tmp_path / "report.html", "--project", with_little_evidence)
     line = (
         "Not computed: regions of weights, acceptability and confidence, effects of the factors: the solver gave no "
         "answer. Remedy: ask for less."

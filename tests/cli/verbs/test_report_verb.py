@@ -343,9 +343,9 @@ def test_a_notable_trial_is_run_again_and_filmed(side):
     assert (pictures[0] != pictures[-1]).any()
 
 
-def test_a_folder_whose_name_is_no_utf_8(with_evidence, tmp_path, monkeypatch):
+def test_a_folder_whose_name_is_no_utf_8(with_little_evidence, tmp_path, monkeypatch):
     folder = tmp_path / os.fsdecode(b"caf\xe9")
-    shutil.copytree(with_evidence, folder)
+    shutil.copytree(with_little_evidence, folder)
     monkeypatch.chdir(folder / "studies")
     with redirect_stdout(StringIO()):
         assert main(["report", "--out", str(tmp_path / "report.html"), "--no-film"]) == 0
