@@ -63,7 +63,8 @@ def test_a_real_robot_is_only_rehearsed(rgss, untouched, driver):
     assert f"Driver {driver} at 10 % of the planned speed" in told.output
     assert "start [deg]: shoulder_pan_joint" in told.output
     assert "A rehearsal: nothing was sent." in told.output
-    as_json = rgss("run", 65, "--nominal", "--driver", driver, "--json", "--project", untouched).document
+    whole = ("--speed", "100 %")  # a tenth of the points
+    as_json = rgss("run", 65, "--nominal", "--driver", driver, *whole, "--json", "--project", untouched).document
     assert as_json["outcome"] is None
     assert len(as_json["start_rad"]) == 6
 
@@ -78,9 +79,8 @@ def test_the_driver_knows_the_kind_of_gripper(rgss, monkeypatch, variant, is_vac
         return XarmDriver(address, **options)
 
     monkeypatch.setattr("rgss.drivers.XarmDriver", note)
-    told = rgss(
-        "run", variant, "--study", "studies/lite6_cubes.yaml", "--nominal", "--driver", "xarm", "--project", REPOSITORY
-    )
+    design = (variant, "--study", "studies/lite6_cubes.yaml", "--nominal")
+    told = rgss("run", *design, "--driver", "xarm", "--speed", "100 %", "--project", REPOSITORY)
     assert (told.status, told.errors) == (0, "")
     assert made == [{"joints": 6, "is_vacuum": is_vacuum}]
 
@@ -111,7 +111,8 @@ def test_a_driver_is_refused_for_a_robot_that_is_none_of_its_arms(shipped, drive
 
 @pytest.mark.engine
 def test_a_robot_that_does_not_answer_is_one_line(rgss, untouched):
-    told = rgss("run", 65, "--nominal", "--driver", "ur", "--go", "--address", "127.0.0.1", "--project", untouched)
+    words = ("--driver", "ur", "--speed", "100 %", "--go", "--address", "127.0.0.1")
+    told = rgss("run", 65, "--nominal", *words, "--project", untouched)
     assert told.status == 3
     assert told.errors.splitlines()[-1].startswith("rgss: no RTDE receive interface at 127.0.0.1: ")
 
