@@ -117,7 +117,7 @@ def test_an_interrupt_while_modules_are_imported_is_one_line():
 
 
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
-def test_an_interrupt_at_the_very_end_cuts_off_nothing(name):
+def test_an_interrupt_at_the_very_end_cuts_off_nothing(untouched, name):
     """It comes when the work is done, while the interpreter ends processes and removes temporary files."""
     script = (
         "import atexit, os, signal, sys; from rgss.cli.main import main; "
@@ -126,7 +126,8 @@ def test_an_interrupt_at_the_very_end_cuts_off_nothing(name):
         "own, sys.argv = sys.argv.pop(), ['rgss']; name = own; "
         "status = main(); sys.argv.append(name); sys.exit(status)"
     )
-    ended = subprocess.run([sys.executable, "-c", script, name], capture_output=True, text=True, check=False)
+    command = [sys.executable, "-c", script, name]
+    ended = subprocess.run(command, cwd=untouched, capture_output=True, text=True, check=False)
     assert (ended.returncode, ended.stdout.splitlines()[-1], ended.stderr) == (0, "cleaned up", "")
 
 
