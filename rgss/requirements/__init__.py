@@ -9,6 +9,7 @@ from rgss.requirements.architecture import (
     BlockRelation,
     inherited_blocks,
 )
+from rgss.requirements.attribute_texts import common_attributes
 from rgss.requirements.attributes import (
     NeedKind,
     Priority,
@@ -30,7 +31,6 @@ from rgss.requirements.behaviour import (
     TimingConstraint,
     Transition,
 )
-from rgss.requirements.common_attributes import common_attributes
 from rgss.requirements.comparison import RELATIVE_TOLERANCE, ZERO_TOLERANCE, Comparison
 from rgss.requirements.content import Element, content_digest_of
 from rgss.requirements.criterion import Criterion, CriterionFile, Statistic

@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from rgss.documents import read_document
 from rgss.errors import DefinitionError
 from rgss.quantities import parse_quantity
+from rgss.scenes import GRIPPER_KINDS
 from rgss.studies import FOLDERS
 from rgss.studies.scaffolding import write_scaffold
 from rgss.studies.schemas.document_kinds import DOCUMENT_KINDS, document_kind, key_texts, kind_of
@@ -231,6 +232,15 @@ def test_kinds_of_files():
     assert kind_of("scenes/a.yaml", {"scene": "a", "robot": {}, "bodies": []}).id == "scene"
     assert kind_of("scenes/a.yaml", ["robot"]) is None
     assert kind_of("elsewhere/a.yaml", {"study": "a"}) is None
+
+
+@pytest.mark.parametrize("kind", GRIPPER_KINDS.values(), ids=lambda kind: kind.name)
+def test_a_key_tells_the_files_of_each_kind_of_gripper_apart(kind):
+    others = [one for one in GRIPPER_KINDS.values() if one is not kind]
+
+    assert kind.model.model_fields[kind.own_key].is_required()
+    assert all(kind.own_key not in one.model.model_fields for one in others)
+    assert kind_of("scenes/grippers/a.yaml", {"gripper": "a", kind.own_key: {}}).model is kind.model
 
 
 def test_an_unknown_kind():

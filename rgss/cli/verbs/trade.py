@@ -87,19 +87,11 @@ def run(options: argparse.Namespace) -> int:
     from rgss.decision import choose_portfolio, measure_survivors
     from rgss.decision.study_decision import decide_study
     from rgss.decision.what_if import suppose
-    from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
     from rgss.reports.decision import text_with_place
     from rgss.tradeoff import SolverCheck, independent_run
 
-    if options.into is not None and not options.section:
-        raise DefinitionError("--into needs --section", hint="the section is what goes into the file")
-    if options.section and (options.what_if or options.json):
-        raise DefinitionError(
-            "--section excludes --what-if and --json", hint="omit them: the section shows the study itself"
-        )
-    if options.jobs is not None and not options.run:
-        raise DefinitionError("--jobs needs --run", hint="a decision from stored trials needs no workers")
+    _check_options(options)
     time_limit = None
     if options.time_limit is not None:
         time_limit = positive_quantity("--time-limit", options.time_limit, "s", example='"60 s"')
@@ -138,6 +130,19 @@ def run(options: argparse.Namespace) -> int:
     )
     _print(options, made, text)
     return CLEAN if made.is_final else FINDINGS
+
+
+def _check_options(options: argparse.Namespace) -> None:
+    from rgss.errors import DefinitionError
+
+    if options.into is not None and not options.section:
+        raise DefinitionError("--into needs --section", hint="the section is what goes into the file")
+    if options.section and (options.what_if or options.json):
+        raise DefinitionError(
+            "--section excludes --what-if and --json", hint="omit them: the section shows the study itself"
+        )
+    if options.jobs is not None and not options.run:
+        raise DefinitionError("--jobs needs --run", hint="a decision from stored trials needs no workers")
 
 
 def _print(options: argparse.Namespace, made: StudyDecision, text: str | None) -> None:

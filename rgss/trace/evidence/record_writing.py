@@ -54,12 +54,12 @@ def new_record(
     # East of here it may be tomorrow.
     if day > today + timedelta(days=1):
         raise DefinitionError(f"{day} has not come yet", hint="give the day of the verification, or record it then")
-    told = _line(note, "a note", LONGEST_NOTE, "--note TEXT") if note.strip() else None
+    comment = _line(note, "a note", LONGEST_NOTE, "--note TEXT") if note.strip() else None
     return VerificationRecord(
         result=result,
         by=_line(by, "who verified", LONGEST_NAME, "--by NAME"),
         date=day.isoformat(),
-        note=told,
+        note=comment,
         files=dict(sorted(_stamped(project, name) for name in files)),
         requirement="0" * 64,
     )

@@ -135,7 +135,7 @@ def _steps(
 ) -> Iterator[ChainStep]:
     """Walk depth first, without recursion, with the steps of each element once."""
     order = {relation: index for index, relation in enumerate(Relation)}
-    told: set[str] = {root.id}
+    shown: set[str] = {root.id}
 
     def onward(name: str, by: Relation | None) -> list[Neighbour]:
         allowed = None if by is None else _ONWARD.get(by)
@@ -148,7 +148,7 @@ def _steps(
         depth, parent, step = pending.pop()
         kind = kinds.get(step.id, ThingKind.TRIAL)
         further = onward(step.id, step.relation)
-        repeated = bool(further) and step.id in told
+        repeated = bool(further) and step.id in shown
         yield ChainStep(
             depth=depth,
             relation=step.relation,
@@ -159,5 +159,5 @@ def _steps(
             repeated=repeated,
         )
         if further and not repeated:
-            told.add(step.id)
+            shown.add(step.id)
             pending.extend((depth + 1, step.id, after) for after in further)

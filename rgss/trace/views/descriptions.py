@@ -77,11 +77,11 @@ class Descriptions:
 
     def _verdict(self, name: str) -> str:
         requirement = self._requirements.requirement(name)
-        told = verdict_in_words(self._evidence.verdict(requirement), self._evidence.causes(requirement))
+        words = verdict_in_words(self._evidence.verdict(requirement), self._evidence.causes(requirement))
         if requirement.criterion is not None and self._evidence.shown is not None:
-            told += f" by variant {self._evidence.shown.variant}"
+            words += f" by variant {self._evidence.shown.variant}"
         success = success_criterion(requirement)
-        return f"{told}; asked for: {success}" if success else told
+        return f"{words}; asked for: {success}" if success else words
 
     def _estimate(self, measure: str) -> Estimate | None:
         shown = self._evidence.shown
@@ -93,9 +93,9 @@ class Descriptions:
         if estimate is None:
             return trial.replay_command
         value = trial.values.get(measure)
-        told = UNKNOWN if value is None else value_in_words(value, estimate.unit)
+        words = UNKNOWN if value is None else value_in_words(value, estimate.unit)
         observed = "".join(f"; {name} = {metric_in_words(metric)}" for name, metric in self._metrics(trial, measure))
-        return f"{measure} = {told}; {trial.replay_command}{observed}"
+        return f"{measure} = {words}; {trial.replay_command}{observed}"
 
     def _metrics(self, trial: TrialEvidence, measure: str) -> list[tuple[str, Metric]]:
         """Observations of a trial on which a measure depends."""

@@ -26,8 +26,8 @@ _VERDICTS = {
 
 def verdict_in_words(verdict: Verdict | None, causes: Sequence[StaleCause] = ()) -> str:
     """A verdict in words, with the causes if it is stale."""
-    told = "differs among variants" if verdict is None else _VERDICTS[verdict]
-    return f"{told} ({', '.join(cause.value for cause in causes)})" if causes else told
+    words = "differs among variants" if verdict is None else _VERDICTS[verdict]
+    return f"{words} ({', '.join(cause.value for cause in causes)})" if causes else words
 
 
 def end_in_words(test: TestEvidence) -> str:
@@ -38,12 +38,12 @@ def end_in_words(test: TestEvidence) -> str:
 def record_in_words(found: RecordEvidence) -> str:
     """Result of a person's verification of a requirement, and its state."""
     record = found.record
-    told = f"{verdict_in_words(Verdict(record.result.value))} by {record.by} on {record.date}"
-    told += f" ({', '.join(record.files)})" if record.files else ""
-    told += f": {record.note}" if record.note else ""
+    words = f"{verdict_in_words(Verdict(record.result.value))} by {record.by} on {record.date}"
+    words += f" ({', '.join(record.files)})" if record.files else ""
+    words += f": {record.note}" if record.note else ""
     causes = [f"the {cause.value} has changed" for cause in found.causes if cause is not StaleCause.FILES]
     causes += [f"{name} has changed or is gone" for name in found.changed]
-    return f"stale, since {' and '.join(causes)}: {told}" if causes else told
+    return f"stale, since {' and '.join(causes)}: {words}" if causes else words
 
 
 def value_in_words(value: float | None, unit: str = "1") -> str:
