@@ -104,7 +104,10 @@ def _run(arguments: Sequence[str] | None, interrupts: Interrupts) -> int:
     except UnicodeEncodeError as error:
         if sys.stdout is None or error.encoding != sys.stdout.encoding:
             raise
-        return _report_unencodable(error)
+        character = ascii(error.object[error.start])
+        hint = "write it to a file, or set PYTHONIOENCODING=utf-8"
+        _print_error(f"rgss: the output has the character {character}, which {error.encoding} lacks ({hint})")
+        return RUN_FAILED
     except OSError as error:
         return _failed_file(error)
     except Exception:
@@ -128,14 +131,6 @@ def _report_error(error: RgssError, options: argparse.Namespace | None) -> int:
         error.hint = with_sweep_options(error.hint, options)
     _print_error(f"rgss: {error}")
     return BAD_INPUT
-
-
-def _report_unencodable(error: UnicodeEncodeError) -> int:
-    """Report a character that standard output cannot encode, and return the exit status."""
-    character = ascii(error.object[error.start])
-    hint = "write it to a file, or set PYTHONIOENCODING=utf-8"
-    _print_error(f"rgss: the output has the character {character}, which {error.encoding} lacks ({hint})")
-    return RUN_FAILED
 
 
 def _failed_file(error: OSError) -> int:
