@@ -19,6 +19,7 @@ from rgss.reports.decision.sensitivity_sentences import (
     kept_groups,
     no_rival_clause,
     range_sentence,
+    regret_text,
 )
 from rgss.reports.decision.words import UNKNOWN, amount, ids_text, score, variants_text
 from rgss.reports.plain_numbers import Plain, plain_number
@@ -137,7 +138,7 @@ def _stakeholders(found: Sensitivity) -> Plain | None:
                 "chooses": ids_text(found.variants[row] for row in view.best),
                 "value": score(view.best_value),
                 "accepts": ids_text(found.variants[row] for row in view.accepted),
-                "regret": score(float(view.regrets[agreement.compromise[0]])),
+                "regret": regret_text(view, agreement),
             }
             for view in agreement.views
         ],

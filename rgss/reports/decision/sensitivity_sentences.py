@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from rgss.decision.sensitivity import BentEnd, BentValue, Sensitivity, Tornado
-from rgss.reports.decision.words import amount, moves_text, score, variants_text
-from rgss.tradeoff.robustness import KeptAlternative, KeptFor
+from rgss.reports.decision.words import UNKNOWN, amount, moves_text, score, variants_text
+from rgss.tradeoff.robustness import KeptAlternative, KeptFor, StakeholderAgreement, StakeholderView
 
 _ALL_TOGETHER = "all together"
 
@@ -121,6 +121,10 @@ def agreement_sentences(found: Sensitivity) -> Iterator[str]:
         if accepted
         else f"No design is within {found.accept_within:g} of every stakeholder's best value."
     )
+    yield from _not_judged(found, agreement)
+    if not agreement.compromise:
+        yield "There is no compromise: no feasible variant is known in every measure that stakeholders weigh."
+        return
     compromise = [found.variants[row] for row in agreement.compromise]
     whose = " and ".join(agreement.most_regretful)
     regret = (
@@ -132,6 +136,19 @@ def agreement_sentences(found: Sensitivity) -> Iterator[str]:
     best = max(float(agreement.borda[row]) for row in range(len(found.variants)) if agreement.borda[row] >= 0.0)
     leaders = [found.variants[row] for row in range(len(found.variants)) if agreement.borda[row] >= best - 1e-9]
     yield f"By ranks (mean Borda score {best:.2f}): {variants_text(leaders)}."
+
+
+def regret_text(view: StakeholderView, agreement: StakeholderAgreement) -> str:
+    """A stakeholder's regret of the compromise, or a dash without one."""
+    return score(float(view.regrets[agreement.compromise[0]])) if agreement.compromise else UNKNOWN
+
+
+def _not_judged(found: Sensitivity, agreement: StakeholderAgreement) -> Iterator[str]:
+    """The feasible designs that a stakeholder cannot judge, for which they are not compared over all."""
+    for view in agreement.views:
+        if view.unknown:
+            variants = variants_text([found.variants[row] for row in view.unknown])
+            yield f"{view.name} cannot judge {variants}, of which a measure with a weight is unknown."
 
 
 def _why(found: Sensitivity, one: KeptAlternative) -> str:

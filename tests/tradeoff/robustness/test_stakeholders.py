@@ -57,7 +57,41 @@ def test_one_alternative_is_everybody_s_choice():
     assert found.most_regretful == ("x",)
 
 
+def test_a_design_without_a_weighed_value_is_judged_by_the_others():
+    values = np.array([[1.0, np.nan], [0.8, 0.2], [0.1, 0.9], [np.nan, np.nan]])
+    feasible = np.array([True, True, True, False])
+    people = [("x", np.array([1.0, 0.0])), ("y", np.array([0.5, 0.5])), ("z", np.array([0.0, 1.0]))]
+
+    found = stakeholder_agreement(values, feasible, people, within=0.25)
+
+    assert [view.best for view in found.views] == [(0,), (1, 2), (2,)]
+    assert [view.unknown for view in found.views] == [(), (0,), (0,)]
+    assert found.views[0].accepted == (0, 1)
+    assert np.isnan(found.views[1].regrets[[0, 3]]).all()
+    # Row 1: regrets 0.2, 0, 0.7; row 2: regrets 0.9, 0, 0.
+    assert found.compromise == (1,)
+    assert found.largest_regret == pytest.approx(0.7)
+    assert found.most_regretful == ("z",)
+    assert found.accepted_by_all == ()
+    assert found.borda[1:3] == pytest.approx([0.5, 0.5])
+    assert np.isnan(found.borda[[0, 3]]).all()
+
+
+def test_without_a_design_that_all_can_judge_there_is_no_compromise():
+    values = np.array([[1.0, np.nan], [np.nan, 0.2]])
+    people = [("x", np.array([1.0, 0.0])), ("y", np.array([0.0, 1.0]))]
+
+    found = stakeholder_agreement(values, np.array([True, True]), people, within=0.1)
+
+    assert [view.best for view in found.views] == [(0,), (1,)]
+    assert found.compromise == found.accepted_by_all == found.most_regretful == ()
+    assert np.isnan(found.largest_regret)
+    assert np.isnan(found.borda).all()
+
+
 def test_errors():
+    with pytest.raises(TradeoffError, match="no feasible alternative is known in every measure that 'x' weighs"):
+        stakeholder_agreement(np.array([[np.nan]]), np.array([True]), [("x", np.array([1.0]))], within=0.0)
     values, one = np.array([[0.3]]), [("x", np.array([1.0]))]
     with pytest.raises(TradeoffError, match="no alternative is feasible"):
         stakeholder_agreement(values, np.array([False]), one, within=0.0)

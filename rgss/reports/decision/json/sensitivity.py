@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from rgss.decision.sensitivity import (
     BentEnd,
     BentValue,
@@ -158,7 +160,12 @@ def _agreement(found: Sensitivity, agreement: StakeholderAgreement) -> Plain:
     def ids(rows: Iterable[int]) -> list[int]:
         return [found.variants[row] for row in rows]
 
-    feasible = [row for row in range(len(found.variants)) if not math.isnan(agreement.borda[row])]
+    def known(number: float) -> float | None:
+        return None if math.isnan(number) else float(number)
+
+    judged = [~np.isnan(view.regrets) for view in agreement.views]
+    unknown = {row for view in agreement.views for row in view.unknown}
+    feasible = sorted(unknown.union(np.flatnonzero(np.logical_or.reduce(judged)).tolist()))
     return {
         "accept_within": found.accept_within,
         "views": [
@@ -168,19 +175,20 @@ def _agreement(found: Sensitivity, agreement: StakeholderAgreement) -> Plain:
                 "chooses": ids(view.best),
                 "value": view.best_value,
                 "accepts": ids(view.accepted),
+                "cannot_judge": ids(view.unknown),
             }
             for view in agreement.views
         ],
         "accepted_by_all": ids(agreement.accepted_by_all),
         "compromise": ids(agreement.compromise),
-        "largest_regret": agreement.largest_regret,
+        "largest_regret": known(agreement.largest_regret),
         "most_regretful": list(agreement.most_regretful),
         "designs": [
             {
                 "variant": found.variants[row],
-                "regrets": {view.name: float(view.regrets[row]) for view in agreement.views},
-                "largest_regret": float(agreement.largest_regrets[row]),
-                "borda": float(agreement.borda[row]),
+                "regrets": {view.name: known(view.regrets[row]) for view in agreement.views},
+                "largest_regret": known(agreement.largest_regrets[row]),
+                "borda": known(agreement.borda[row]),
             }
             for row in feasible
         ],

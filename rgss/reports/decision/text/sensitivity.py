@@ -20,6 +20,7 @@ from rgss.reports.decision.sensitivity_sentences import (
     keep_rule,
     kept_groups,
     range_sentence,
+    regret_text,
 )
 from rgss.reports.decision.text.tornado import tornado_lines
 from rgss.reports.decision.words import ids_text, score
@@ -67,7 +68,7 @@ def _stakeholders(found: Sensitivity) -> Iterator[str]:
             ids_text(found.variants[row] for row in view.best),
             score(view.best_value),
             ids_text(found.variants[row] for row in view.accepted),
-            score(float(view.regrets[agreement.compromise[0]])),
+            regret_text(view, agreement),
         ]
         for view in agreement.views
     ]
