@@ -244,9 +244,14 @@ def _reference(standings: Standings) -> str | None:
 
 
 def _goodness(function: ValueFunction, quantities: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Numbers that rise with how good quantities are, also where the value function is level."""
+    """Numbers that rise with how good quantities are, also where the value function is level.
+
+    On both sides of a target the distance from it counts as a share of the range there, as in the value, in units of
+    the wider range.
+    """
     if function.peak is not None:
-        return np.asarray(-np.abs(quantities - function.peak), dtype=np.float64)
+        ranges = np.array([abs(function.ends_at(one)[0] - function.peak) for one in quantities.tolist()])
+        return np.asarray(-np.abs(quantities - function.peak) * (ranges.max() / ranges), dtype=np.float64)
     return quantities if function.more_is_better else -quantities
 
 

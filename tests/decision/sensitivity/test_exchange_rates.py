@@ -136,7 +136,9 @@ def test_the_better_design_is_the_cheapest_of_the_feasible_ones(seed):
     weights = dict.fromkeys(UNITS, 0.25)
     found = priced(designs, weights, limit=limit)
     mine = designs[found.variant]
-    for rate, ahead in zip(found.rates, (lambda q: q, lambda q: -q, lambda q: -abs(q - 1.0)), strict=True):
+    # A target has another range on each side: the value, not the distance, says what is better.
+    to_target = (lambda q: q, lambda q: -q, lambda q: -(1.0 - q) / 0.5 if q < 1.0 else -(q - 1.0) / 1.0)
+    for rate, ahead in zip(found.rates, to_target, strict=True):
         better = [one for one in designs if ahead(designs[one][rate.measure]) > ahead(mine[rate.measure])]
         feasible = [one for one in better if designs[one]["payload"] <= limit]
         among = feasible or better
@@ -213,3 +215,22 @@ def test_a_better_design_that_the_evidence_does_not_separate_is_tied():
     assert cells == ["2: 9 s for +1,000 USD"] * 2 + ["2: 9 s for +1,000 USD, tied"]
     assert "does not separate its value" in exchange_sentences(near)[-1]
     assert "does not separate its value" not in exchange_sentences(apart)[-1]
+
+
+def test_on_both_sides_of_a_target_the_design_of_the_higher_value_is_better():
+    """1.4 and 1.5 are farther from the target of 1 than 0.7 is, and worth more."""
+    function = TargetValue(measure="angle", target=1.0, too_low=0.5, too_high=2.0)
+    designs = {
+        1: {"payload": 2.5, "cost": 30_000.0, "time": 5.0, "angle": 0.7},
+        2: {"payload": 0.5, "cost": 40_000.0, "time": 30.0, "angle": 1.4},
+        3: {"payload": 0.5, "cost": 31_000.0, "time": 30.0, "angle": 1.5},
+    }
+    weights = {"payload": 0.3, "cost": 0.3, "time": 0.3, "angle": 0.1}
+    assert function.value_at(0.7) < function.value_at(1.5) < function.value_at(1.4)
+
+    from_below = {rate.measure: rate.better for rate in priced(designs, weights).rates}["angle"]
+    assert (from_below.variant, from_below.quantity) == (3, 1.5)
+
+    designs[1]["angle"], designs[2]["angle"], designs[3]["angle"] = 1.4, 0.7, 0.75
+    from_above = {rate.measure: rate.better for rate in priced(designs, weights).rates}["angle"]
+    assert from_above is None
