@@ -109,8 +109,8 @@ def test_a_choice_without_rival(tornado):
 def test_designs_that_are_tied_with_the_choice_are_named(tornado):
     near = replace(tornado, tied=(4,))
     assert next(iter(tornado_lines(near))) == (
-        "Tornado: lead of variant 1 over the best other design that is not tied, as variant 4, 0.1000 as it is "
-        "(variant 2)"
+        "Tornado: lead of variant 1 over the best other design that is not tied with it (variant 4 is); as it is, "
+        "0.1000 over variant 2"
     )
     equal = replace(
         tornado, lead=None, rival=None, tied=(3, 4), bars=(bar("weight.b", end(0.4, -0.05), end(0.6, None)),)

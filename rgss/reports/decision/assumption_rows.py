@@ -105,11 +105,12 @@ def _fidelity_sentences(made: StudyDecision) -> Iterator[str]:
             then = "nothing" if one.chosen is None else f"variant {one.chosen}"
             yield f"{other.capitalize()} trials decide otherwise, and choose {then}{why}; {ends}."
         elif gained + lost:
+            meet = f"meet every requirement{' within the tolerance' if made.tolerance else ''}"
             own = f"{one.otherwise_of_choice or 'none'} of these are trials of the chosen design"
             yield (
                 f"{other.capitalize()} trials decide as {here} trials do, although {ends}: {own}. By their estimates "
-                f"{one.feasible} designs meet every requirement in {other} trials, {made.decision.counts.feasible} in "
-                f"{here} trials."
+                f"{one.feasible} designs {meet} in {other} trials, {made.decision.counts.feasible} in {here} "
+                "trials."
             )
             yield from _motion_sentence(one, made.decision.chosen)
             yield from _admitted_sentence(one, made.decision.chosen)

@@ -20,8 +20,13 @@ LEAST_SHOWN = 0.005
 MOST_GROUPS = 10
 
 
-def contender_lines(found: RobustnessFindings) -> Iterator[str]:
-    """The Pareto front, and the acceptability of the variants that come first for some weights."""
+def contender_lines(found: RobustnessFindings, *, tolerance: float) -> Iterator[str]:
+    """The Pareto front, and the acceptability of the variants that come first for some weights.
+
+    Args:
+        found: The robustness of the decision.
+        tolerance: Share of a threshold by which the choice may miss it.
+    """
     yield _front(found)
     weighting = found.analysis.weighting
     if weighting is None:
@@ -33,7 +38,7 @@ def contender_lines(found: RobustnessFindings) -> Iterator[str]:
     titles = ["variants", "Pareto", "weights", "first", "confidence", "feasible", "weight to move"]
     rows = [_row(group, with_noise=weighting.with_noise) for group in groups[:MOST_GROUPS]]
     yield from aligned_table(titles, rows, right=(2, 3, 4, 5, 6))
-    yield from _legend(found, weighting, weighting.acceptability)
+    yield from _legend(found, weighting, weighting.acceptability, tolerance=tolerance)
     if len(groups) > MOST_GROUPS:
         yield f"And {len(groups) - MOST_GROUPS} more that are first in some draws (--json has them)."
 
@@ -73,24 +78,33 @@ def _row(members: list[Contender], *, with_noise: bool) -> list[str]:
     ]
 
 
-def _legend(found: RobustnessFindings, weighting: WeightRobustness, indices: Acceptability) -> Iterator[str]:
+def _legend(
+    found: RobustnessFindings, weighting: WeightRobustness, indices: Acceptability, *, tolerance: float
+) -> Iterator[str]:
     bounded = "the elicited weights" if weighting.elicited else "all weights"
     noise = "and of the evidence" if weighting.with_noise else "alone (without noise)"
     error = max((one.first_error for one in found.contenders), default=0.0)
     shares = max((region.share_error for region in weighting.regions or ()), default=0.0)
-    counted = f" (counted, ± {shares:.2g})" if shares else ""
+    counted = f" (counted, with a standard error of up to {_points(shares)})" if shares else ""
     yield f"weights: share of {bounded} at which they are best by the evidence as it is{counted}"
-    within = "another study of this size" if weighting.with_noise else "by the number of draws"
+    source = "over studies of this size" if weighting.with_noise else "by the number of draws"
     yield (
         f"first: share of {indices.iterations:,} draws of {bounded} {noise} in which none is better "
-        f"({within}: ± {max(error, 1e-4):.2g})"
+        f"(standard error {source}: up to {_points(max(error, 1e-4))})"
     )
     if indices.drawn_by is Drawing.HIT_AND_RUN:
         yield "(weights are drawn by random walks, hit-and-run: uniform up to an error that is tested, not proven)"
     if weighting.with_noise:
         yield "confidence: probability that they are best at their own typical weights"
-        yield f"feasible: probability that they meet every requirement, by {found.analysis.draws:,} posterior draws"
+        within = " within the tolerance of the choice" if tolerance else ""
+        draws = found.analysis.draws
+        yield f"feasible: probability that they meet every requirement{within}, by {draws:,} posterior draws"
     yield from (
         "In other words,",
         *(f"  {meaning}" for meaning in meanings(with_noise=weighting.with_noise)),
     )
+
+
+def _points(share: float) -> str:
+    """A difference of shares, which are printed in per cent."""
+    return f"{100.0 * share:.2g} percentage points"

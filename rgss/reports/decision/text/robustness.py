@@ -26,7 +26,7 @@ def robustness_lines(made: StudyDecision) -> Iterator[str]:
         return
     if not made.is_alone:
         yield from ("", "What nearly won")
-        yield from contender_lines(found)
+        yield from contender_lines(found, tolerance=made.tolerance)
     yield from ("", "What would change it")
     weighting = found.analysis.weighting
     if made.is_alone:

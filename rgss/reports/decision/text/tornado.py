@@ -24,10 +24,11 @@ def tornado_lines(tornado: Tornado) -> Iterator[str]:
     if tornado.lead is None:
         yield f"Tornado: {no_rival_clause(tornado)}."
     else:
-        other = f" that is not tied, as {variants_text(tornado.tied)}," if tornado.tied else ","
+        are = "is" if len(tornado.tied) == 1 else "are"
+        tied = f" that is not tied with it ({variants_text(tornado.tied)} {are})" if tornado.tied else ""
         yield (
-            f"Tornado: lead of variant {tornado.chosen} over the best other design{other} {score(tornado.lead)} as it "
-            f"is (variant {tornado.rival})"
+            f"Tornado: lead of variant {tornado.chosen} over the best other design{tied}; as it is, "
+            f"{score(tornado.lead)} over variant {tornado.rival}"
         )
     drawn = moving[:MOST_BARS] if tornado.has_leads else ()
     yield from _bars(tornado, drawn)
