@@ -4,6 +4,7 @@ Run it from the repository's folder; nothing is simulated:
 
 - ``python benchmarks/calibration.py verdicts [REPETITIONS]``: false "met" and "not met" of means and proportions.
 - ``python benchmarks/calibration.py feasible [REPETITIONS]``: reported probability of feasibility, and the truth.
+- ``python benchmarks/calibration.py choice [REPETITIONS]``: the same of the chosen design; it judges nothing.
 - ``python benchmarks/calibration.py first [REPETITIONS]``: reported standard error of ``first``, and the real one.
 - ``python benchmarks/calibration.py decided [REPETITIONS]``: reported probability of good selection, and the truth.
 - ``python benchmarks/calibration.py``: all of them; 1 if a stated rate is exceeded.
@@ -47,6 +48,7 @@ def main() -> int:
     parts: Mapping[str, Callable[[], bool]] = {
         "verdicts": lambda: verdicts(count or REPETITIONS),
         "feasible": lambda: feasible(count or REPETITIONS),
+        "choice": lambda: choice(count or FEWER_REPETITIONS),
         "first": lambda: first(count or FEWER_REPETITIONS),
         "decided": lambda: decided(count or FEWER_REPETITIONS),
     }
@@ -184,6 +186,52 @@ def feasible(repetitions: int) -> bool:
             kept &= abs(true - reported) <= POINTS
     out.write("\n")
     return kept
+
+
+def choice(repetitions: int) -> bool:
+    """Reported probability that the chosen design keeps its limit on success, beside how often it does.
+
+    The choice is the best by a value without noise of those whose estimates keep the limit. Of few trials no prior is
+    right for all populations, so that nothing is judged.
+    """
+    populations: Mapping[str, tuple[float, Callable[[np.random.Generator, int], Array]]] = {
+        "uniform from 0.5 to 1": (0.9, lambda g, n: g.uniform(0.5, 1.0, n)),
+        "uniform from 0.7 to 1": (0.9, lambda g, n: g.uniform(0.7, 1.0, n)),
+        "uniform from 0.95 to 1": (0.98, lambda g, n: g.uniform(0.95, 1.0, n)),
+        "70 % from 0.9 to 1, rest from 0.3": (
+            0.9,
+            lambda g, n: np.where(g.random(n) < 0.7, g.uniform(0.9, 1.0, n), g.uniform(0.3, 0.9, n)),
+        ),
+        "70 % from 0.93 to 1, rest up to 0.5": (
+            0.9,
+            lambda g, n: np.where(g.random(n) < 0.7, g.uniform(0.93, 1.0, n), g.uniform(0.0, 0.5, n)),
+        ),
+        "all alike, 0.95": (0.9, lambda _, n: np.full(n, 0.95)),
+        "all alike, 0.85": (0.9, lambda _, n: np.full(n, 0.85)),
+    }
+    out = sys.stdout
+    out.write(
+        "| population | limit | designs | n | choices | truly feasible | reported |\n|---|---|---|---|---|---|---|\n"
+    )
+    for name, (limit, population) in populations.items():
+        for designs, count in ((2, 4), (12, 4), (12, 30)):
+            rows = []
+            for run in range(repetitions):
+                generator = np.random.default_rng([run, designs, count])
+                truth = population(generator, designs)
+                worth = generator.random(designs)
+                values = (generator.random((designs, count)) < truth[:, None]).astype(float)
+                kept = values.mean(axis=1) >= limit - 1e-9
+                if kept.any():
+                    chosen = int(np.where(kept, worth, -1.0).argmax())
+                    observed = [ObservedRows(values=values, is_proportion=True)]
+                    (drawn,) = posterior_means(observed, draws=250, generator=generator)
+                    rows.append((truth[chosen] >= limit, (drawn[:, chosen] >= limit).mean()))
+            true, reported = np.mean(rows, axis=0)
+            out.write(f"| {name} | {limit} | {designs} | {count} | {len(rows)} | {true:.2f} | {reported:.2f} |\n")
+            out.flush()
+    out.write("\n")
+    return True
 
 
 def _knowable(population: Callable[[np.random.Generator], Array], count: int) -> tuple[float, float]:

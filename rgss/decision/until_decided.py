@@ -45,6 +45,7 @@ class UntilDecided:
         rule: The stopping rule.
         unsettled: The variants that may be worth more than the choice by the margin.
         forecast: The replicates that would settle it; None if the decision is settled, or nothing chosen.
+        unobserved: The requirements whose measure no trial of any variant observes; none if a variant is chosen.
     """
 
     reason: Reason
@@ -57,6 +58,7 @@ class UntilDecided:
     rule: SequentialRule
     unsettled: tuple[int, ...] = ()
     forecast: Forecast | None = None
+    unobserved: tuple[str, ...] = ()
 
     @property
     def open_requirements(self) -> tuple[str, ...]:
@@ -150,7 +152,17 @@ def replicate_until_decided(
         forecast=None
         if answer.reason is Reason.DECIDED or answer.variant is None
         else forecast(evidence, rule, progress, answer.variant, answer.unsettled),
+        unobserved=() if answer.variant is not None else _unobserved(project, read.measured()),
     )
+
+
+def _unobserved(project: Project, measured: Sequence[VariantMeasures]) -> tuple[str, ...]:
+    """The requirements whose measure no trial of any variant observes."""
+    from rgss.tradeoff.infeasibility import unmeasured_requirements
+    from rgss.tradeoff.problem import tabulated
+
+    problem = trade_problem(project, measured)
+    return unmeasured_requirements(problem, tabulated(problem.alternatives))
 
 
 def trial_twins(project: Project, variants: Sequence[DesignVariant]) -> Mapping[int, int]:

@@ -78,6 +78,18 @@ def test_replicates_go_where_they_can_change_the_decision(shipped, store, runner
     assert f"{result.total} trials in {result.looks} looks" in text
 
 
+def test_requirements_that_no_trial_gives_a_value_are_named(shipped, store, record_of):
+    def run(specs):
+        rows = [(key, record_of(spec, success=False), NONE) for spec, key in zip(specs, keys_of(specs), strict=True)]
+        store.put_many(trials=rows)
+
+    result = replicate_until_decided(shipped, store, run, rule=SequentialRule(pilot=2, batch=2, cap=4, verdict_cap=2))
+
+    assert result.variant is None
+    assert "SYS-005" in result.unobserved
+    assert "SYS-024" not in result.unobserved
+
+
 def test_of_screened_designs_only_the_promoted_are_replicated(shipped, store, runner):
     rule = dataclasses.replace(RULE, budget=300)
     screening = Screening(fidelity=Fidelity.KINEMATIC, promotion=Promotion())

@@ -209,7 +209,8 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
         yield (
             f"At the threshold of {', '.join(one.scarce)}, {counted(made.trials, 'trial')} would have fewer than "
             f"{FEWEST_AT_THRESHOLD:g} failures: so few that {follow} the assumed population of "
-            f"designs. In emulated studies of this kind {were} up to 0.3 too high."
+            f"designs. In emulated studies of this kind {were} from 0.2 too low to 0.4 too high, and 0.8 too high "
+            "where all designs were just below the limit."
         )
     if one.heavy_tailed:
         have = "has" if len(one.heavy_tailed) == 1 else "have"

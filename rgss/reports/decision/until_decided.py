@@ -54,6 +54,12 @@ def open_paragraph(result: UntilDecided, *, command: str) -> str:
 
 
 def _open(result: UntilDecided) -> Iterator[str]:
+    if result.unobserved:
+        yield (
+            f"No trial so far gives a value that {' or '.join(result.unobserved)} limits, so that no variant can be "
+            "chosen. Where trials at this fidelity do not observe it, more of them do not help."
+        )
+        return
     if result.variant is None:
         yield (
             "No variant meets every requirement by its estimates; of "

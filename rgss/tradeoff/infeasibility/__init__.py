@@ -17,6 +17,6 @@ if TYPE_CHECKING:
         find_conflicts,
     )
     from rgss.tradeoff.infeasibility.noise import RESAMPLES, conflict_survival, resampled_tables
-    from rgss.tradeoff.infeasibility.repair import winner_among, with_repairs
+    from rgss.tradeoff.infeasibility.repair import unmeasured_requirements, winner_among, with_repairs
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

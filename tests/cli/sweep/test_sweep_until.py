@@ -217,6 +217,13 @@ def test_what_was_spent_of_the_reserve_is_said():
         ({"reason": Reason.DECIDED}, ""),
         ({"variant": None, "forecast": None, "unsettled": ()}, "No variant meets every requirement by its"),
         (
+            {"variant": None, "forecast": None, "unsettled": (), "unobserved": ("SYS-04", "SYS-07")},
+            (
+                "No trial so far gives a value that SYS-04 or SYS-07 limits, so that no variant can be chosen. Where "
+                "trials at this fidelity do not observe it, more of them do not help. To go on where it stopped, type"
+            ),
+        ),
+        (
             {"forecast": Forecast(rivals={1: None}, requirements={}, accepted=12, trials=None), "unsettled": (1,)},
             (
                 f"{UNPROVEN} that variant 1 is worth at most 0.05 more than variant 2. If trials go on as so far, "
