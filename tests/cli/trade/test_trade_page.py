@@ -191,7 +191,7 @@ def test_one_replicate_is_said(rgss, with_evidence):
     assert "Not analysed: noise: noise cannot be estimated from 1 replicate of each variant" in told.output
     assert "draws of all weights alone (without noise)" in told.output
     # How much another study would differ, and how probable the choice is, cannot be known from it.
-    assert "another study" not in told.output
+    assert "studies of this size" not in told.output
     assert "confidence: " not in told.output
     row = next(line for line in told.output.splitlines() if "extreme" in line)
     assert len(re.findall(r"–", row)) >= 2
