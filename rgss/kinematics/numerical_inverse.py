@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rgss.kinematics.arm import Arm
 from rgss.kinematics.configurations import TOLERANCE, RangeExcess, excesses_of, sorted_distinct, whole_turns
 from rgss.kinematics.description import transform
+from rgss.kinematics.planar_reach import PlanarReach
 from rgss.kinematics.pose_residual import PoseResidual
 from rgss.kinematics.serial_chain import SerialChain
 from rgss.kinematics.sobol_points import sobol_points
@@ -59,6 +60,7 @@ class NumericalInverse:
         self.arm = arm
         self._is_turn_free = is_turn_free
         self._chain = SerialChain(arm)
+        self._reach = PlanarReach(arm)
         self._joints = arm.robot.joints
         self._turns = np.array(arm.robot.whole_turns_are_equal)
         self._lower, self._upper = arm.lower_rad, arm.upper_rad
@@ -79,7 +81,7 @@ class NumericalInverse:
             Joint positions, each of shape (n,), in lexicographic order; isolated configurations with all whole turns
             within the ranges. Empty if none is found.
         """
-        for residual in self._residuals(tool_pose_world):
+        for residual in self._residuals_in_reach(tool_pose_world):
             ends = self._reached(residual, self._starts(_STARTS))
             found = ends if self.is_redundant else [q for end in ends for q in self._turned(end)]
             if found:
@@ -98,7 +100,7 @@ class NumericalInverse:
             solutions of the first starts the one with the least maximum joint difference; None if no start converges.
         """
         near = np.asarray(reference, dtype=float)
-        residuals = self._residuals(tool_pose_world)
+        residuals = self._residuals_in_reach(tool_pose_world)
         starts = np.vstack([near, self._starts(_MOST_TRIED - 1)])
         for residual in residuals:
             first = 0
@@ -129,6 +131,11 @@ class NumericalInverse:
             if found:
                 return found
         return ()
+
+    def _residuals_in_reach(self, pose: Pose) -> tuple[PoseResidual, ...]:
+        """Residuals to descend; none for a pose that no configuration within the ranges can reach."""
+        target = transform(pose)
+        return self._residuals(pose) if self._reach.admits(target.translation, target.rotation[:, 2]) else ()
 
     def _residuals(self, pose: Pose) -> tuple[PoseResidual, ...]:
         target = transform(pose)
