@@ -74,7 +74,7 @@ if TYPE_CHECKING:
         quaternion_of,
         solid_moments,
     )
-    from rgss.scenes.mesh_shapes import is_empty_mesh, mesh_summary, write_convex_parts
+    from rgss.scenes.mesh_shapes import is_empty_mesh, mesh_extent_m, mesh_summary, write_convex_parts
     from rgss.scenes.objects import (
         ObjectPlacement,
         finger_pads,

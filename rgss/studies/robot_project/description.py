@@ -14,14 +14,14 @@ from rgss.documents import read_document
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
 from rgss.kinematics import lasting_contacts
-from rgss.scenes import JointKind, Robot, mesh_summary
+from rgss.scenes import JointKind, Robot
 from rgss.studies.motion import calibrated_at
 from rgss.studies.project import Project
 from rgss.studies.robot_project.holding import weak_joints
+from rgss.studies.robot_project.mesh_problems import LARGEST_LENGTH_M, mesh_problems
 from rgss.studies.robot_project.reach import SAMPLES
-from rgss.studies.robot_project.urdf import LARGEST_HULL_RATIO
 
-_LARGEST_LENGTH_M, _LARGEST_MASS_KG = 10.0, 1000.0
+_LARGEST_MASS_KG = 1000.0
 _LARGEST_ANGLE_RAD = 30.0
 _LEAST_MASS_KG_M = 0.3
 _LIMITS = (("joints.torque", "effort", "effort"), ("joints.speed", "velocity", "velocity"))
@@ -144,7 +144,7 @@ def description_findings(
     stated = tuple(_limits(root, robot, _subjects(assumed, kept=True)))
     lacking = (*_lengths(root), *_masses(root), *_limits(root, robot, _subjects(assumed, kept=False)))
     lacking += (*_ranges(root, robot), *_placeholder_masses(root, robot))
-    for name, rule, message, hint in (*lacking, *stated, *_meshes(root, urdf)):
+    for name, rule, message, hint in (*lacking, *stated, *mesh_problems(root, urdf)):
         at = next((number for number, line in enumerate(lines, start=1) if f'"{name}"' in line), 1)
         noted = rule in _NOTES or (name, rule, message, hint) in stated
         severity = Severity.INFO if noted else Severity.WARNING
@@ -161,7 +161,7 @@ def _lengths(root: ET.Element) -> Iterator[tuple[str, str, str, str]]:
                 if element.tag == "axis" or key not in element.attrib:
                     continue
                 largest = max((abs(float(word)) for word in element.get(key, "").split()), default=0.0)
-                if largest > _LARGEST_LENGTH_M:
+                if largest > LARGEST_LENGTH_M:
                     yield name, "robot.units", f"{name} has a length of {largest:g} m: are these millimetres?", hint
 
 
@@ -237,41 +237,3 @@ def _ranges(root: ET.Element, robot: Robot) -> Iterator[tuple[str, str, str, str
         elif kinds[name] is JointKind.REVOLUTE and max(abs(lower), abs(upper)) > _LARGEST_ANGLE_RAD:
             message = f"joint {name} has a range from {lower:g} to {upper:g} rad: are these degrees?"
             yield name, "robot.units", message, "a URDF is in metres and radians"
-
-
-def _meshes(root: ET.Element, urdf: Path) -> Iterator[tuple[str, str, str, str]]:
-    for link in root.findall("link"):
-        for mesh in link.findall("collision/geometry/mesh"):
-            name = mesh.get("filename", "")
-            x, y, z = (float(word) for word in mesh.get("scale", "1 1 1").split())
-            path = mesh_path(name, urdf)
-            if path is None:
-                continue
-            try:
-                found = mesh_summary(path, scale=(x, y, z))
-            except DefinitionError as error:
-                yield name, "robot.mesh", error.message, error.hint
-                continue
-            if max(found.extent_m) > _LARGEST_LENGTH_M:
-                message = f"the mesh {name} is {max(found.extent_m):g} m long: is it in millimetres?"
-                yield name, "robot.units", message, 'write scale="0.001 0.001 0.001"'
-            if not found.is_closed:
-                yield name, "robot.open-mesh", f"the mesh {name} is not closed", "its hull is simulated all the same"
-            elif found.hull_ratio > LARGEST_HULL_RATIO and math.isfinite(found.hull_ratio):
-                yield (
-                    name,
-                    "robot.concave-mesh",
-                    f"the mesh {name} is concave: its hull has {found.hull_ratio:.2f} times its volume",
-                    "write 'collision: decompose' in the robot file if the arm comes near to itself or to the scene",
-                )
-
-
-def mesh_path(name: str, urdf: Path) -> Path | None:
-    """The file of a mesh that a checked URDF names; None where it is none."""
-    rest = name.removeprefix("package://")
-    package, _, below = rest.partition("/")
-    candidates = [urdf.parent / rest]
-    if rest != name:
-        for folder in urdf.resolve().parents:
-            candidates += [folder / package / below] + ([folder / below] if folder.name == package else [])
-    return next((path for path in candidates if path.is_file()), None)
