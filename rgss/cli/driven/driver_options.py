@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import ipaddress
+import socket
 from pathlib import Path
 
 from rgss.cli.driven.real_drivers import REAL_DRIVERS
@@ -55,7 +56,7 @@ def check_driver(options: argparse.Namespace, *, has_pictures: bool) -> None:
     elif options.go and not options.address:
         raise DefinitionError(f"--driver {options.driver} --go needs --address", hint="give the controller's address")
     if options.address is not None:
-        _check_address(options.address)
+        _check_address(options.address, is_used=bool(options.go))
     if options.recording is not None and options.driver != "simulated" and not options.go:
         raise DefinitionError("a rehearsal measures nothing to record", hint="--recording needs --go")
     if options.gripper_output is not None and (options.driver != "ur" or not 0 <= options.gripper_output <= 7):
@@ -63,9 +64,13 @@ def check_driver(options: argparse.Namespace, *, has_pictures: bool) -> None:
     speed_of(options)
 
 
-def _check_address(address: str) -> None:
-    """Refuse numbers that are no IP address: resolvers fill in missing ones, so that another robot would move."""
-    if not set(address.strip()) <= set("0123456789."):
+def _check_address(address: str, *, is_used: bool) -> None:
+    """Refuse numbers that are no IPv4 address, and names without one before the rehearsal of a run that uses them.
+
+    Resolvers fill in missing numbers, so that another robot would move.
+    """
+    if ":" in address or not set(address.strip()) <= set("0123456789."):
+        _check_name(address, is_used=is_used)
         return
     try:
         ipaddress.IPv4Address(address)
@@ -74,6 +79,32 @@ def _check_address(address: str) -> None:
             f"--address must be a name or four numbers from 0 to 255, got {shown(address)}",
             hint="such as 192.168.0.10, without leading zeros",
         ) from error
+
+
+def _check_name(address: str, *, is_used: bool) -> None:
+    """Refuse IPv6 addresses, which the SDKs do not open, and unknown names."""
+    if ":" in address:
+        what = "an IPv6 address" if _is_ipv6(address) else "a port or a URL"
+        raise DefinitionError(
+            f"--address must be a name or an IPv4 address, got {what}: {shown(address)}",
+            hint="give the address alone, such as 192.168.0.10; each driver has its ports",
+        )
+    if not is_used:
+        return
+    try:
+        socket.getaddrinfo(address, None, socket.AF_INET)
+    except (OSError, UnicodeError) as error:
+        raise DefinitionError(
+            f"--address: no IPv4 address of {shown(address)} is found", hint="check its spelling and the network"
+        ) from error
+
+
+def _is_ipv6(address: str) -> bool:
+    try:
+        ipaddress.IPv6Address(address.strip("[]"))
+    except ValueError:
+        return False
+    return True
 
 
 def speed_of(options: argparse.Namespace) -> float:

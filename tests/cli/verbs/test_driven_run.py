@@ -162,6 +162,18 @@ def test_the_folder_of_a_recording_is_asked_for_before_the_robot(rgss, untouched
             "--address must be a name or four numbers from 0 to 255, got '192.168.10' (such as 192.168.0.10",
         ),
         (("--driver", "xarm", "--address", " 10.0.0.7"), "--address must be a name or four numbers from 0 to 255"),
+        (
+            ("--driver", "xarm", "--address", "fe80::1"),
+            "--address must be a name or an IPv4 address, got an IPv6 address: 'fe80::1' (give the address alone",
+        ),
+        (
+            ("--driver", "ur", "--address", "192.168.0.10:30004"),
+            "--address must be a name or an IPv4 address, got a port or a URL: '192.168.0.10:30004'",
+        ),
+        (
+            ("--driver", "ur", "--address", "robot.invalid", "--go"),
+            "--address: no IPv4 address of 'robot.invalid' is found (check its spelling and the network)",
+        ),
         (("--driver", "ur", "--recording", "a.csv"), "a rehearsal measures nothing to record"),
         (("--driver", "xarm", "--gripper-output", "1"), "--gripper-output must be from 0 to 7 and is for --driver ur"),
         (("--driver", "ur", "--gripper-output", "8"), "--gripper-output must be from 0 to 7"),
