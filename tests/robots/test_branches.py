@@ -86,3 +86,31 @@ def test_a_finger_that_follows_one_with_two_joints_is_a_hand(draft):
     drafted = draft(CLEAN.replace("</robot>", f"{fingers}</robot>"))
     assert [joint.name for joint in drafted.robot.joints] == [f"joint_{number}" for number in range(1, 7)]
     assert drafted.arm.rods == ()
+
+
+def test_a_finger_that_follows_both_joints_of_another_is_a_hand_whatever_its_name(draft):
+    other = follower("flange", "left", "right_joint_1") + follower("left_1", "tip", "right_joint_2")
+    drafted = draft(CLEAN.replace("</robot>", f"{branch('flange', 2, 'right')}{other}</robot>"))
+    assert [joint.name for joint in drafted.robot.joints] == [f"joint_{number}" for number in range(1, 7)]
+    assert (drafted.arm.hands, drafted.arm.rods) == (("flange_palm",), ())
+
+
+def frame(parent, name):
+    return (
+        f'<link name="{name}"/><joint name="{name}_mount" type="fixed"><origin xyz="0.05 0 0.01"/>'
+        f'<parent link="{parent}"/><child link="{name}"/></joint>'
+    )
+
+
+@pytest.mark.parametrize(
+    ("frames", "end"),
+    [
+        (("camera_link", "Camera_Depth_frame"), "flange"),
+        (("probe", "camera_link"), "probe"),
+        (("ft_frame", "tool0"), "tool0"),
+        (("ft_frame", "other_frame"), "ft_frame"),
+    ],
+)
+def test_an_arm_does_not_end_at_its_camera_and_at_the_frame_of_the_tool_if_one_is_named(draft, frames, end):
+    text = "".join(frame("flange", name) for name in frames)
+    assert draft(CLEAN.replace("</robot>", f"{text}</robot>")).arm.flange == end

@@ -25,6 +25,12 @@ from rgss.studies.robot_project.urdf.rods import NO_FINGER, grips, joints_in_a_r
 _LONGER_BY = 3
 """Joints by which the arm is longer than what else turns on one of its links; fingers of a hand differ by fewer."""
 
+_SEEING = ("camera", "optical", "depth", "lidar", "laser", "imu_")
+"""Words of frames of sensors, at which no gripper is mounted."""
+
+_ENDING = ("flange", "tool", "tcp", "effector", "eef", "ee_link")
+"""Words of the frame that carries a gripper, where the last link has several."""
+
 _DEFAULT_RANGE = (-3.141592653589793, 3.141592653589793)
 
 
@@ -212,10 +218,10 @@ def _last_link(root: ET.Element, below: Mapping[str, list[ET.Element]]) -> str:
         return next((name for name in reversed(rigid) if name not in shaped), rigid[0])
     while True:
         children = [end_of(joint, "child") for joint in below.get(link, ())]
-        frames = [child for child in children if not _has_shape(root, child)]
+        frames = [child for child in children if not _has_shape(root, child) and not _is_named(child, _SEEING)]
         if not frames:
             return link
-        link = frames[0]
+        link = next((child for child in frames if _is_named(child, _ENDING)), frames[0])
 
 
 def _ways(link: str, below: Mapping[str, list[ET.Element]]) -> list[ET.Element]:
@@ -239,6 +245,10 @@ def _leads_to_movable(link: str, below: Mapping[str, list[ET.Element]]) -> bool:
         joint.get("type") != "fixed" or _leads_to_movable(end_of(joint, "child"), below)
         for joint in below.get(link, ())
     )
+
+
+def _is_named(link: str, words: Sequence[str]) -> bool:
+    return any(word in link.casefold() for word in words)
 
 
 def _has_shape(root: ET.Element, name: str) -> bool:

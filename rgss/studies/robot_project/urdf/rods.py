@@ -10,6 +10,9 @@ from rgss.scenes import end_of
 NO_FINGER = 2
 """Joints in a row from which a branch may be a part of the arm."""
 
+_SPATIAL = 3
+"""Joints that bring a hand to a point in space."""
+
 _GRIPPING = ("gripper", "jaw", "finger", "claw")
 
 
@@ -19,7 +22,8 @@ def without_rods(
     """The ways on which something else moves than what follows the arm's joints; all where there is none.
 
     Joints of the arm are those before the link, and those on a way with two joints in a row, unless it is named for
-    what grips: fingers may follow one that has two joints.
+    what grips: fingers may follow one that has two joints. Beyond three joints a branch that follows each joint of the
+    longest one, in their order, is a finger beside a finger: no rod follows the wrist of an arm.
 
     Args:
         ways: Joints of one link that move, or lead to one that does.
@@ -31,7 +35,21 @@ def without_rods(
     if longest is None or joints_in_a_row(longest, below) < NO_FINGER or any(map(grips, _movable(longest, below))):
         return kept or list(ways)
     arm = [*joints, *_movable(longest, below)]
-    return [way for way in kept if way is longest or not _is_rod(way, below, arm)]
+    is_hand = _driven_before(joints, below) >= _SPATIAL
+    rods = [way for way in kept if way is not longest and _is_rod(way, below, arm)]
+    return [way for way in kept if way not in rods or (is_hand and _mirrors(way, longest, below))]
+
+
+def _driven_before(joints: Collection[str], below: Mapping[str, list[ET.Element]]) -> int:
+    """Number of the driven joints among some."""
+    each = (joint for ways in below.values() for joint in ways if joint.get("name") in joints)
+    return sum(joint.get("type") != "fixed" and joint.find("mimic") is None for joint in each)
+
+
+def _mirrors(way: ET.Element, longest: ET.Element, below: Mapping[str, list[ET.Element]]) -> bool:
+    """Whether the joints of a branch follow those of another one by one."""
+    mimics = [one.find("mimic") for one in _movable(way, below).values()]
+    return [None if mimic is None else mimic.get("joint") for mimic in mimics] == list(_movable(longest, below))
 
 
 def grips(name: str) -> bool:
