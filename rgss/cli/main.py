@@ -15,7 +15,7 @@ from pathlib import Path
 from types import ModuleType
 
 from rgss.cli.command_parser import BAD_INPUT, CommandParser
-from rgss.cli.options import with_sweep_options
+from rgss.cli.options import with_given_options
 from rgss.cli.safe_output import safe_output
 from rgss.cli.termination import Interrupts
 from rgss.errors import DocumentError, DriverError, MotionError, RgssError, SimulationError, StorageError
@@ -49,6 +49,7 @@ VERBS = (
 _OBJECTS_BETWEEN_COLLECTIONS = 50_000
 CLEAN, FINDINGS, RUN_FAILED, INTERRUPTED = 0, 1, 3, 130
 
+_FAILURES_OF_A_RUN = (SimulationError, MotionError, DriverError, StorageError)
 _UNWRITABLE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
@@ -124,13 +125,10 @@ def _report_error(error: RgssError, options: argparse.Namespace | None) -> int:
             _print_error(str(finding))
         _report_interrupted_import(options)
         return BAD_INPUT
-    if isinstance(error, (SimulationError, MotionError, DriverError, StorageError)):
-        _print_error(f"rgss: {error}")
-        return RUN_FAILED
     if options is not None and error.hint:
-        error.hint = with_sweep_options(error.hint, options)
+        error.hint = with_given_options(error.hint, options)
     _print_error(f"rgss: {error}")
-    return BAD_INPUT
+    return RUN_FAILED if isinstance(error, _FAILURES_OF_A_RUN) else BAD_INPUT
 
 
 def _failed_file(error: OSError) -> int:
@@ -144,7 +142,7 @@ def _failed_file(error: OSError) -> int:
         _print_error("rgss: the current folder no longer exists (go into one that does)")
         return BAD_INPUT
     if isinstance(error, PermissionError) and error.filename is not None:
-        path = os.fsdecode(error.filename)
+        path = _denying(Path(os.fsdecode(error.filename)))
         _print_error(f"rgss: {path} may not be read or written (change its permissions)")
         return BAD_INPUT
     if error.filename is not None and is_disk_failure(error):
@@ -279,6 +277,11 @@ def _has_current_folder() -> bool:
     except FileNotFoundError:
         return False
     return True
+
+
+def _denying(path: Path) -> Path:
+    """The outermost folder of a file that may not be entered, else the file."""
+    return next((each for each in reversed(path.parents) if each.is_dir() and not os.access(each, os.X_OK)), path)
 
 
 def _discard_output() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import shlex
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
 
 STUDY_HELP = "the study, by its file or its name (default: pick_place, or the only one)"
 FIDELITIES = ("kinematic", "dynamic", "contact")
+_EVIDENCE_COMMAND = re.compile("(?<=')rgss evidence(?: (?:verify --mend|verify|merge|gc --apply|gc))?(?=[' ])")
 
 
 def add_study(parser: argparse.ArgumentParser) -> None:
@@ -167,7 +169,16 @@ def sweep_command(options: argparse.Namespace) -> str:
 
 def with_sweep_options(hint: str, options: argparse.Namespace) -> str:
     """A hint that names ``rgss sweep`` with the options that select the trials of a command."""
-    return hint.replace("'rgss sweep'", f"'{shlex.join(sweep_words(options, 'fidelity', 'replicates'))}'")
+    return hint.replace("'rgss sweep'", f"'{sweep_command(options)}'")
+
+
+def with_given_options(hint: str, options: argparse.Namespace) -> str:
+    """A hint whose commands have the options of the present one: what selects its trials, and its project."""
+    hint = with_sweep_options(hint, options)
+    if getattr(options, "project", None) is None:
+        return hint
+    project = shlex.quote(str(options.project))
+    return _EVIDENCE_COMMAND.sub(lambda command: f"{command[0]} --project {project}", hint)
 
 
 def chosen_project(options: argparse.Namespace) -> Project:

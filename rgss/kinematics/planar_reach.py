@@ -129,7 +129,7 @@ class PlanarReach:
         along = float(plane.axis @ pitch.axis) * plane.axis
         cosine, sine = float((pitch.axis - along) @ moved), float(np.cross(plane.axis, pitch.axis) @ moved)
         amplitude = math.hypot(cosine, sine)
-        if amplitude < least:
+        if amplitude <= least:
             return None
         share = (constant - float(along @ moved)) / amplitude
         if abs(share) > 1.0 + _ANGLE_TOLERANCE_RAD**2 / 2:

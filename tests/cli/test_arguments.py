@@ -171,6 +171,14 @@ def test_a_study_is_meant_by_its_name(rgss, folder):
     assert far.complaint.startswith("rgss: there is no study 'zzz' (studies: ")
 
 
+def test_a_study_that_is_a_circle_of_links_is_not_its_own_suggestion(rgss, folder):
+    (folder / "studies" / "self.yaml").symlink_to("self.yaml")
+    told = rgss("variants", "self", "--project", folder)
+
+    assert told.status == 2
+    assert told.complaint.startswith("studies/self.yaml:1:1: error: cannot be read: Too many levels of symbolic links")
+
+
 def test_the_only_study_needs_no_name(rgss, folder):
     for path in (folder / "studies").glob("*.yaml"):
         if path.name != "straight_moves.yaml":

@@ -46,6 +46,17 @@ def test_damaged_rows_are_told(rgss, with_evidence, folder, tmp_path):
     assert told.output.endswith(f"1 damaged row of {other} left out.\n")
 
 
+def test_hints_name_the_project_that_was_given(rgss, with_evidence, folder):
+    shutil.copytree((with_evidence / EVIDENCE).parent, (folder / EVIDENCE).parent)
+    connection = sqlite3.connect(folder / EVIDENCE, isolation_level=None)
+    connection.execute("UPDATE trials SET record = x'00' WHERE variant = 3 AND seed = 1")
+    connection.close()
+    told = rgss("measure", "--project", folder)
+
+    assert told.status == 2
+    assert f"run 'rgss evidence verify --mend --project {folder}' to remove it" in told.errors
+
+
 def test_what_is_no_other_store_is_refused(rgss, with_evidence, folder):
     own = with_evidence / EVIDENCE
     told = rgss("evidence", "merge", own, "--project", with_evidence)

@@ -36,6 +36,7 @@ def merge_evidence(options: argparse.Namespace, store: EvidencePlace) -> int:
                 "pieces": found.pieces,
                 "present": found.present,
                 "left_out": found.left_out,
+                "unproven": found.unproven,
             }
         )
     else:
@@ -43,4 +44,9 @@ def merge_evidence(options: argparse.Namespace, store: EvidencePlace) -> int:
         print(f"{added} added to {store.label}; {found.present} of {other} were there already.")
         if found.left_out:
             print(f"{counted(found.left_out, 'damaged row')} of {other} left out.")
+        if found.unproven:
+            print(
+                f"{counted(found.unproven, 'piece')} of {other} left out: it has no trial, which would state the "
+                "numerics with which they were computed."
+            )
     return FINDINGS if found.left_out else CLEAN

@@ -15,6 +15,7 @@ from rgss.evidence.store.connection import Database, translated_errors
 from rgss.evidence.store.contents import TrialName, trial_names
 from rgss.evidence.store.creation import require_content
 from rgss.evidence.store.ledger import Total, recorded, require_ledger, write_ledger
+from rgss.evidence.store.permissions import refusal_of
 from rgss.evidence.store.place import place_of
 from rgss.evidence.store.schema import prepare, require_sound_pages
 from rgss.evidence.store.tables import FAILURES, INPUTS, PIECES, TRIALS
@@ -113,11 +114,12 @@ def collect_garbage(
     """
     path = place_of(path, label=label)
     require_content(path, label=label)
-    with translated_errors(label):
+    refusal = refusal_of(path)
+    with translated_errors(label, path=path):
         connection = connecting.connect(path)
-    database = Database(connection, label)
+    database = Database(connection, label, refusal)
     try:
-        with translated_errors(label):
+        with translated_errors(label, path=path):
             prepare(connection, label)
             require_sound_pages(connection, label)
             require_ledger(database)
@@ -154,7 +156,7 @@ def _lock_exclusively(database: Database) -> None:
         database.connection.execute("PRAGMA journal_mode = DELETE")
     except sqlite3.OperationalError as error:
         if "locked" not in str(error):
-            with translated_errors(database.name):
+            with database.translated_errors():
                 raise
         raise EvidenceError(
             f"another process has the evidence store {database.name} open", hint="wait until the sweep has finished"

@@ -14,6 +14,7 @@ from typing import Any
 
 from rgss.errors import EvidenceError, StorageError
 from rgss.evidence.records import LARGEST_TEXT
+from rgss.evidence.store.permissions import Refusal, refusal_of
 from rgss.evidence.store.transactions import transaction
 
 BUSY_TIMEOUT_S = 30.0
@@ -46,6 +47,9 @@ _OUTSIDE = ("locked", "full", "disk I/O")
 _OUTSIDE_LATER = (*_OUTSIDE, "readonly", "unable to open")
 """External causes of failure after the file could be opened and written."""
 
+_MAYBE_REFUSED = ("readonly", "unable to open", "disk I/O")
+"""SQLite's messages where permissions may be the reason."""
+
 _NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EMFILE, errno.ENFILE)
 SPACE_HINT = "free space on the disk, or raise the limit; earlier entries are stored"
 
@@ -58,9 +62,17 @@ class Database:
         name: The file's name in messages.
     """
 
-    def __init__(self, connection: sqlite3.Connection, name: str) -> None:
+    def __init__(self, connection: sqlite3.Connection, name: str, refusal: Refusal | None = None) -> None:
+        """Use an open file.
+
+        Args:
+            connection: The connection.
+            name: The file's name in messages.
+            refusal: What its permissions refused before it was opened; a disk that becomes read-only later has failed.
+        """
         self.connection = connection
         self.name = name
+        self._refusal = refusal
 
     def one(self, statement: str, values: Iterable[object] = ()) -> Row | None:
         """First row of a query; None if there is none."""
@@ -102,7 +114,7 @@ class Database:
 
     def translated_errors(self) -> AbstractContextManager[None]:
         """Context that translates SQLite errors after the file was opened."""
-        return translated_errors(self.name, outside=_OUTSIDE_LATER)
+        return translated_errors(self.name, outside=_OUTSIDE_LATER, refusal=self._refusal)
 
 
 def is_writable(path: Path) -> bool:
@@ -177,23 +189,32 @@ def problem_of(error: Exception) -> str:
 
 
 @contextmanager
-def translated_errors(name: str, *, outside: Sequence[str] = _OUTSIDE, folder: Path | None = None) -> Iterator[None]:
+def translated_errors(
+    name: str, *, outside: Sequence[str] = _OUTSIDE, path: Path | None = None, refusal: Refusal | None = None
+) -> Iterator[None]:
     """Context that translates SQLite errors into errors of rgss.
 
     Args:
         name: The file's name in messages.
         outside: External causes of failure, by SQLite's messages.
-        folder: The folder of a file to be opened, whose errors SQLite does not explain.
+        path: A file to be opened, whose errors SQLite does not explain.
+        refusal: What the permissions of an open file refused when it was opened.
 
     Raises:
         StorageError: The disk is full or fails, or another process locks the file.
-        EvidenceError: For any other error of SQLite.
+        EvidenceError: For any other error of SQLite, such as permissions.
     """
     try:
         yield
     except PROBLEMS as error:
         problem = problem_of(error)
-        obstacle = _obstacle(folder) if folder is not None and "unable to open" in problem else None
+        if any(phrase in problem for phrase in _MAYBE_REFUSED):
+            refusal = refusal_of(path) if path is not None else refusal
+            if refusal is not None:
+                raise EvidenceError(
+                    f"the evidence store {name} cannot be used: {refusal.problem}", hint=refusal.hint
+                ) from error
+        obstacle = _obstacle(path.parent) if path is not None and "unable to open" in problem else None
         if obstacle is not None:
             raise StorageError(
                 f"the evidence store {name} cannot be used: {os.strerror(obstacle)}", hint=SPACE_HINT

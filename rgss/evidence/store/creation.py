@@ -58,7 +58,7 @@ def _make_and_link(path: Path, label: str) -> None:
         _remove(left)
     part = path.with_name(f".{path.name}.{os.getpid()}-{secrets.token_hex(4)}.{_ENDING}")
     try:
-        with translated_errors(label, folder=path.parent):
+        with translated_errors(label, path=path):
             connection = connect(part)
             try:
                 make(connection)

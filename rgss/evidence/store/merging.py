@@ -32,12 +32,14 @@ class Merged:
         pieces: Number of added pieces.
         present: Number of trials and pieces that were there.
         left_out: Number of rows of the other store that are damaged, or whose named inputs are.
+        unproven: Number of its pieces that are not added, since no trial states with which numerics they were computed.
     """
 
     trials: int
     pieces: int
     present: int
     left_out: int
+    unproven: int
 
 
 def merge(store: EvidenceStore, other: EvidenceStore) -> Merged:
@@ -58,14 +60,19 @@ def merge(store: EvidenceStore, other: EvidenceStore) -> Merged:
         _require_alike_numerics(store, other)
         for table in (PIECES, TRIALS):
             _require_same_contents(store, other, table)
-        counts = {table.name: _added(store, other, table) for table in (INPUTS, PIECES, TRIALS, FAILURES)}
-        rows = sum(total.rows for total in recorded(other.database.connection).values())
+        totals = recorded(other.database.connection)
+        # The provenance of a trial has the numerics, that of a piece has not.
+        unproven = 0 if totals[TRIALS.name].rows else totals[PIECES.name].rows
+        tables = (INPUTS, *(() if unproven else (PIECES,)), TRIALS, FAILURES)
+        counts = {PIECES.name: (0, 0), **{table.name: _added(store, other, table) for table in tables}}
+        rows = sum(total.rows for total in totals.values()) - unproven
     (trials, valid_trials), (pieces, valid_pieces) = counts[TRIALS.name], counts[PIECES.name]
     return Merged(
         trials=trials,
         pieces=pieces,
         present=valid_trials + valid_pieces - trials - pieces,
         left_out=rows - sum(valid for _, valid in counts.values()),
+        unproven=unproven,
     )
 
 

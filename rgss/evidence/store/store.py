@@ -29,6 +29,7 @@ from rgss.evidence.records import (
 from rgss.evidence.store.connection import Database, Row, connect, is_of_disk, is_writable, translated_errors
 from rgss.evidence.store.creation import create_store, require_content
 from rgss.evidence.store.ledger import require_ledger
+from rgss.evidence.store.permissions import refusal_of
 from rgss.evidence.store.place import place_of
 from rgss.evidence.store.schema import prepare, require_present, require_sound_pages
 from rgss.evidence.store.tables import FAILURES, INPUTS, PIECES, TRIALS, Table, brief
@@ -94,12 +95,13 @@ class EvidenceStore:
 
     @classmethod
     def _opened(cls, path: Path, name: str, *, read_only: bool) -> EvidenceStore:
-        with translated_errors(name, folder=path.parent):
+        refusal = refusal_of(path)
+        with translated_errors(name, path=path):
             connection = connect(path, read_only=read_only)
             try:
                 (require_present if read_only else prepare)(connection, name)
                 require_sound_pages(connection, name)
-                database = Database(connection, name)
+                database = Database(connection, name, refusal)
                 require_ledger(database)
                 return cls(database, path)
             except BaseException:

@@ -13,6 +13,7 @@ from rgss.errors import EvidenceError
 from rgss.evidence.records import StoredTrial
 from rgss.evidence.store.connection import PROBLEMS, Database, connect, is_writable, problem_of, translated_errors
 from rgss.evidence.store.ledger import differences, write_ledger
+from rgss.evidence.store.permissions import refusal_of
 from rgss.evidence.store.place import place_of
 from rgss.evidence.store.salvaging import copy_rows, numbered_row, readable_rows, row_numbers
 from rgss.evidence.store.schema import prepare, require_own_schema, require_present
@@ -83,7 +84,7 @@ def verify(path: Path, *, label: str) -> Verification:
     path = place_of(path, label=label)
     if not path.exists():
         raise EvidenceError(f"there is no evidence in {label}", hint="run the sweep first")
-    with translated_errors(label), _opened(path, label) as (connection, problem):
+    with translated_errors(label, path=path), _opened(path, label) as (connection, problem):
         if connection is None:
             return Verification(damages=(_pages(problem),), sound={}, orphaned_pieces=0, orphaned_inputs=0)
         # A sweep that stores meanwhile also removes rows, namely failures.
@@ -208,8 +209,9 @@ def remove_damaged_rows(path: Path, *, label: str) -> int:
         EvidenceError: The file cannot be written, or its pages are damaged.
     """
     tables = {table.what: table for table in TABLES}
-    with translated_errors(label):
-        database = Database(connect(path), label)
+    refusal = refusal_of(path)
+    with translated_errors(label, path=path):
+        database = Database(connect(path), label, refusal)
     try:
         with database.transaction():
             found = _Check(database, "").verification()
@@ -244,7 +246,7 @@ def salvage(path: Path, verification: Verification, to: Path, *, label: str) -> 
     if to.exists():
         raise EvidenceError(f"{to} already exists", hint="move it away first")
     damaged_rows = {(damage.what, damage.row) for damage in verification.damages}
-    with translated_errors(label), _opened(path, label) as (damaged, _):
+    with translated_errors(label, path=path), _opened(path, label) as (damaged, _):
         if damaged is None:
             hint = "move it and the files beside it that begin with its name, and run the sweep again"
             raise EvidenceError(f"nothing of {label} can be read", hint=hint)

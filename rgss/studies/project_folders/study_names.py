@@ -68,9 +68,10 @@ def _unnamed(project: Path) -> tuple[Path, str]:
 
 def _by_name(project: Path, name: str) -> tuple[Path, str]:
     label = f"{_STUDIES}/{name}{_SUFFIX}"
-    if (project / label).is_file():
-        return project / label, label
     known = [Path(one).stem for one in _labels(project)]
+    # What is no file, such as a circle of links, is reported with its name where it is read.
+    if name in known:
+        return project / label, label
     near = difflib.get_close_matches(name, known, n=1)
     hint = f"did you mean {near[0]!r}?" if near else f"studies: {', '.join(known) or 'none'}"
     raise DefinitionError(f"there is no study {name!r}", hint=hint)

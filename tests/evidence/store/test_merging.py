@@ -87,6 +87,17 @@ def test_trials_of_other_numerics_are_refused(two, put):
     assert len(store) == 1
 
 
+def test_pieces_of_unknown_numerics_are_left_out(two, put, key):
+    """Those of a sweep that was ended before its first trial."""
+    store, other = two
+    put(store, 1)
+    other.put_many(pieces=[Piece(digest=key("path"), kind=PieceKind.PLAN, text="0")])
+
+    found = merge(store, other)
+    assert (found.trials, found.pieces, found.present, found.left_out, found.unproven) == (0, 0, 0, 0, 1)
+    assert store.has_pieces([key("path")]) == set()
+
+
 def test_damaged_rows_of_the_other_store_are_left_out(two, put, key, change, tmp_path):
     store, other = two
     for number in (1, 2, 3):

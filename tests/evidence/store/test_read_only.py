@@ -63,8 +63,7 @@ def test_who_puts_something_into_it_is_refused(frozen, record, provenance, key):
         assert variants(store) == [0, 1, 2]
 
     assert str(caught.value) == (
-        "the evidence store it cannot be used: attempt to write a readonly database "
-        "(choose a file and a folder that can be written)"
+        "the evidence store it cannot be used: it may not be written (you can change its permissions)"
     )
 
 

@@ -29,7 +29,6 @@ class BusyConnection:
 @pytest.fixture(autouse=True)
 def short_waits(monkeypatch):
     monkeypatch.setattr(schema, "_PAUSE_S", 0.001)
-    monkeypatch.setattr(connecting, "BUSY_TIMEOUT_S", 0.01)
 
 
 def test_switching_to_write_ahead_logging_waits_for_its_turn():
@@ -38,7 +37,8 @@ def test_switching_to_write_ahead_logging_waits_for_its_turn():
     assert connection.calls == 4
 
 
-def test_switching_gives_up_in_the_end():
+def test_switching_gives_up_in_the_end(monkeypatch):
+    monkeypatch.setattr(connecting, "BUSY_TIMEOUT_S", 0.01)
     with pytest.raises(sqlite3.OperationalError, match="database is locked"):
         schema._log_ahead(BusyConnection(refusals=1000))
 

@@ -159,8 +159,8 @@ def test_a_folder_that_cannot_be_written_is_named(as_ordinary_user):
         finally:
             Path(folder).chmod(0o755)
     assert message == (
-        "the evidence store evidence.sqlite cannot be used: unable to open database file "
-        "(check that it is a file in a folder that can be written)"
+        f"the evidence store evidence.sqlite cannot be used: its folder {Path(folder).name} may not be written "
+        "(you can change its permissions)"
     )
 
 
@@ -172,8 +172,7 @@ def test_a_file_that_cannot_be_written_is_named(as_ordinary_user, record, proven
         with pytest.raises(EvidenceError) as caught, EvidenceStore.open(path, label="evidence.sqlite") as store:
             store.put(key(1), record(), provenance)
     assert str(caught.value) == (
-        "the evidence store evidence.sqlite cannot be used: attempt to write a readonly database "
-        "(choose a file and a folder that can be written)"
+        "the evidence store evidence.sqlite cannot be used: it may not be written (you can change its permissions)"
     )
 
 
