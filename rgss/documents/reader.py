@@ -21,7 +21,7 @@ from rgss.documents.refusals import end_of, refusal
 from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity
 
-LARGEST_FILE_BYTES = 8 * 1024 * 1024
+LARGEST_FILE_BYTES = 16 * 1024 * 1024
 
 _LONGEST_KEPT = 256 * 1024
 """Characters of a text up to which its document is kept for the next time."""

@@ -53,7 +53,6 @@ _KINDS: Mapping[Callable[[int], bool], str] = {
     stat.S_ISBLK: "a device",
 }
 _MESH = re.compile(r"filename\s*=\s*[\"'](?:package://)?([^\"']+)[\"']")
-_LARGEST = 8 * 1024 * 1024
 
 
 def unread_findings(project: Path) -> tuple[Finding, ...]:
@@ -238,7 +237,7 @@ def _texts_of(path: Path) -> Iterator[str]:
         yield from _strings(_data(path))
     elif path.suffix.lower() in (".urdf", ".xacro"):
         try:
-            if path.stat().st_size <= _LARGEST:
+            if path.stat().st_size <= LARGEST_FILE_BYTES:
                 yield from _MESH.findall(path.read_text(encoding="utf-8", errors="replace"))
         except OSError:
             return

@@ -93,10 +93,10 @@ FILES = [
     STUDY,
 ]
 
-LARGE = 10 * 1024 * 1024
+LARGE = 20 * 1024 * 1024
 TEXTS = {
-    "10 MB of nested lists": ("[" * (LARGE // 2) + "]" * (LARGE // 2), "is too large: at most 8 MiB are read"),
-    "10 MB of indented lists": ("- " * (LARGE // 2), "is too large: at most 8 MiB are read"),
+    "20 MB of nested lists": ("[" * (LARGE // 2) + "]" * (LARGE // 2), "is too large: at most 16 MiB are read"),
+    "20 MB of indented lists": ("- " * (LARGE // 2), "is too large: at most 16 MiB are read"),
     "deeply nested lists": ("[" * 100_000 + "]" * 100_000, "nested more than 40 deep"),
     "no YAML": ("study:\n\t- [", "not valid YAML"),
     "a list": ("- 1\n- 2\n", "a mapping is expected"),

@@ -78,8 +78,8 @@ def test_not_utf_8(write, content, line, column):
     assert (finding.line, finding.column) == (line, column)
 
 
-def test_ten_megabytes_of_nested_lists(write, monkeypatch):
-    path = write(b"[" * 10_000_000)
+def test_twenty_megabytes_of_nested_lists(write, monkeypatch):
+    path = write(b"[" * 20_000_000)
 
     def never(*_):
         raise AssertionError("what is too large was parsed")
@@ -87,12 +87,12 @@ def test_ten_megabytes_of_nested_lists(write, monkeypatch):
     monkeypatch.setattr(reader, "Composer", never)
     finding = only_finding(path)
 
-    assert (finding.rule, finding.message) == ("document.size", "is too large: at most 8 MiB are read")
+    assert (finding.rule, finding.message) == ("document.size", "is too large: at most 16 MiB are read")
 
 
 @pytest.mark.parametrize("opening", [b"[", b"- ", b"{a: ", b"? ", b"{"])
 def test_as_many_nested_as_the_size_allows(write, opening, monkeypatch):
-    path = write(opening * (8 * 1024 * 1024 // len(opening)))
+    path = write(opening * (16 * 1024 * 1024 // len(opening)))
 
     depths, compose = [], Composer._compose_node
 
@@ -110,6 +110,6 @@ def test_as_many_nested_as_the_size_allows(write, opening, monkeypatch):
 
 
 def test_largest_size_is_read(write):
-    path = write(b"a: " + b"x" * (8 * 1024 * 1024 - 3))
+    path = write(b"a: " + b"x" * (16 * 1024 * 1024 - 3))
 
-    assert len(read_document(path).data["a"]) == 8 * 1024 * 1024 - 3
+    assert len(read_document(path).data["a"]) == 16 * 1024 * 1024 - 3

@@ -38,13 +38,13 @@ def test_six_megabytes_of_nested_lists_are_refused(write):
 
     (finding,) = findings_of(path)
 
-    assert finding.message == "holds more than 250000 values"
+    assert finding.message == "holds more than 500000 values"
     assert (finding.rule, finding.hint) == ("document.values", "divide it into several files")
 
 
 def test_as_many_values_as_are_allowed(write):
     assert len(read_document(write("[" + "1," * (MOST_VALUES - 1) + "]")).data) == MOST_VALUES - 1
-    with pytest.raises(DocumentError, match="holds more than 250000 values"):
+    with pytest.raises(DocumentError, match="holds more than 500000 values"):
         read_document(write("[" + "1," * MOST_VALUES + "]"))
 
 

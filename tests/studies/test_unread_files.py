@@ -118,7 +118,7 @@ NO_DOCUMENTS = {
     "folder": (os.mkdir, "it is a folder, not a file"),
     "dangling link": (lambda path: path.symlink_to("nowhere.yaml"), "it is a link to what is not there"),
     "circle": (lambda path: path.symlink_to(path.name), "it is a circle of links"),
-    "three gigabytes": (_large, "it is larger than the 8 MiB that are read"),
+    "three gigabytes": (_large, "it is larger than the 16 MiB that are read"),
 }
 
 
