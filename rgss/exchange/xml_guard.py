@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import codecs
+import re
 from xml.parsers import expat
 
 from rgss.errors import DocumentError
@@ -12,8 +14,35 @@ DEEPEST_NESTING = 250
 MOST_ELEMENTS = 4_000_000
 
 
+_UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+_LATIN = ("iso-8859-1", "iso-8859-15", "latin1", "windows-1252")
+_DECLARED = re.compile(rb"""\s*<\?xml\s[^>]*?\bencoding\s*=\s*["']([A-Za-z0-9._-]+)["']""")
+_ENCODING = re.compile(r"""(<\?xml\s[^>]*?\bencoding\s*=\s*["'])[A-Za-z0-9._-]+(?=["'])""")
+
+
 class _RefusedError(Exception):
     """The XML has a refused construct."""
+
+
+def in_utf8(content: bytes, file: str) -> bytes:
+    """XML in UTF-8, from one in UTF-16 or in a Latin encoding that it declares; any other content is unchanged.
+
+    Args:
+        content: The whole file.
+        file: Its name in messages.
+
+    Raises:
+        DocumentError: It is not in its encoding.
+    """
+    declared = _DECLARED.match(content)
+    name = "utf-16" if content.startswith(_UTF16) else declared[1].decode("ascii").lower() if declared else ""
+    if name != "utf-16" and name not in _LATIN:
+        return content
+    try:
+        text = content.decode(name)
+    except UnicodeDecodeError:
+        raise DocumentError([problem(file, "encoding", f"is not in its encoding {name!r}")]) from None
+    return _ENCODING.sub(r"\g<1>UTF-8", text, count=1).encode("utf-8", "surrogatepass")
 
 
 def require_plain_xml(content: bytes, file: str) -> None:

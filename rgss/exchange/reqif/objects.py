@@ -159,7 +159,13 @@ class ObjectReader:
         texts: dict[str, PlainText] = {}
         for value in each.attributes:
             if value.definition_ref not in stated:
-                raise UnsoundObjectError(f"the object {each.identifier!r} has a value of no attribute of its type")
+                if is_ours:
+                    # Its absence would empty the attribute.
+                    raise UnsoundObjectError(f"the object {each.identifier!r} has a value of no attribute of its type")
+                message = f"a value of the object {each.identifier!r} is of no attribute of its type, and not imported"
+                where = int(getattr(value.xml_node, "sourceline", None) or line)
+                self.omissions.lost.append((where, message))
+                continue
             if value.definition_ref in texts:
                 raise UnsoundObjectError(f"the object {each.identifier!r} has two values of one attribute")
             texts[value.definition_ref] = self._text(value)

@@ -22,7 +22,7 @@ from rgss.exchange.reqif.relations import Parent, RelationReader, parent_of
 from rgss.exchange.reqif.structure import structure_problems
 from rgss.exchange.reqif.unread import unread_notes
 from rgss.exchange.reqif.vocabulary import MEASURE
-from rgss.exchange.xml_guard import require_plain_xml
+from rgss.exchange.xml_guard import in_utf8, require_plain_xml
 from rgss.findings import Severity
 
 _PREFIXED_ROOT = re.compile(r"\s*(?:<\?xml\s.*?\?>)?\s*<(?P<prefix>[A-Za-z_][\w.-]*):REQ-IF\b[^>]*>", re.DOTALL)
@@ -108,13 +108,11 @@ def _contents(opened: Sequence[_OpenFile], names: ForeignNames) -> list[Content]
             parents = {**reader.containment(), **parents}
             for place, others in reader.links().items():
                 links[place] = list(dict.fromkeys((*links.get(place, ()), *others)))
-        findings = [problem(one.file, "relation", each, line=line) for line, each in reader.broken]
-        if findings:
-            raise refusal_of(findings)
     return [_content(one, reader, parents, links) for one, reader in zip(opened, relations, strict=True)]
 
 
 def _opened(content: bytes, file: str, context: _Context) -> _OpenFile:
+    content = in_utf8(content, file)
     require_plain_xml(content, file)
     bundle = _parsed(content, file)
     core = getattr(bundle.core_content, "req_if_content", None)

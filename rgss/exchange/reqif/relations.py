@@ -81,10 +81,11 @@ class RelationReader:
         """Number of relations that are not imported, by the identifier of their type."""
         self._fitting: dict[str, Counter[str]] = {}
         """Number of these relations that each meaning would take, by the identifier of their type."""
-        self.broken: list[tuple[int, str]] = []
-        """Line and message of each relation to a missing object."""
+        self._dangling: set[str] = set()
+        """Identifiers of the types of relations that name a missing object; all if that of a type is missing."""
         self.lost: list[tuple[int, str]] = []
-        """Line and message of each further position of an element in the hierarchy after its first."""
+        """Line and message of each further position of an element in the hierarchy after its first, and of what names
+        a missing object."""
 
     @property
     def type_names(self) -> tuple[str, ...]:
@@ -99,7 +100,8 @@ class RelationReader:
         """
         found: dict[str, bool] = {}
         for each, name in self._types.items():
-            is_whole = not self._left[each] or each == relation_type_identifier(relation_name(name) or "")
+            is_own = each == relation_type_identifier(relation_name(name) or "")
+            is_whole = each not in self._dangling and (is_own or not self._left[each])
             for meaning in self._meanings(name):
                 attribute = meaning.removeprefix(OF_TARGET)
                 found[attribute] = found.get(attribute, True) and is_whole
@@ -123,7 +125,8 @@ class RelationReader:
             line = int(getattr(each.xml_node, "sourceline", None) or 1)
             if kind is None or missing:
                 what = f"object {missing[0]!r}" if missing else f"type {each.relation_type_ref!r}"
-                self.broken.append((line, f"the relation {each.identifier!r} names the {what}, which does not exist"))
+                self.lost.append((line, f"the relation {each.identifier!r} is not imported: the {what} does not exist"))
+                self._dangling.update(self._types if kind is None else {each.relation_type_ref})
                 continue
             source, target = self._objects.get(each.source), self._objects.get(each.target)
             if self._mapped.links_of(kind) == () or _is_implied(relation_name(kind), source):
@@ -151,8 +154,7 @@ class RelationReader:
             line = int(getattr(node.xml_node, "sourceline", None) or 1)
             _require_names(node.spec_object)
             if node.spec_object not in self._all:
-                message = f"the hierarchy names the object {node.spec_object!r}, which does not exist"
-                self.broken.append((line, message))
+                self.lost.append((line, f"the hierarchy names the object {node.spec_object!r}, which does not exist"))
             here = self._objects.get(node.spec_object)
             if here is not None and around is not None and here.part is around.part and here.part is not None:
                 first = found.setdefault(here.id, around.id)

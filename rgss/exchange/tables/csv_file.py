@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
 import io
 import re
@@ -27,6 +28,7 @@ from rgss.exchange.tables.heads import (
 )
 from rgss.findings import Finding, shown
 
+_UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _DIVIDERS = (",", ";", "\t")
 _STATED_DIVIDER = re.compile(r'"?sep=([,;\t])"?\r?\n', re.IGNORECASE)
 """First line that states the separator to Excel."""
@@ -64,20 +66,24 @@ def read_csv(path: Path, foreign: ForeignTable | None = None) -> Content:
     """Read requirements from CSV; the columns may be in any order.
 
     Args:
-        path: The file, in UTF-8, with commas, semicolons or tabs as separators.
+        path: The file, in UTF-8 or UTF-16, with commas, semicolons or tabs as separators.
         foreign: What is known of a table of another tool; None for one of rgss, which has every column.
 
     Raises:
-        DocumentError: The file cannot be read, is not UTF-8 or not CSV, or has other columns.
+        DocumentError: The file cannot be read, is not in its encoding or not CSV, or has other columns.
     """
     file = str(path)
     content = read_bytes(path)
+    is_utf16 = content.startswith(_UTF16)
     try:
-        text = content.decode("utf-8-sig")
+        # As Excel saves a "Unicode text".
+        text = content.decode("utf-16" if is_utf16 else "utf-8-sig")
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
         hint = "save it as CSV UTF-8"
-        raise DocumentError([problem(file, "encoding", "is not UTF-8", line=line, hint=hint)]) from None
+        raise DocumentError(
+            [problem(file, "encoding", f"is not UTF-{16 if is_utf16 else 8}", line=line, hint=hint)]
+        ) from None
     stated = _STATED_DIVIDER.match(text)
     divider = stated[1] if stated else _divider(text)
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=divider, strict=True)

@@ -18,7 +18,7 @@ from rgss.exchange.attributes import ATTRIBUTES, Form, Part
 from rgss.exchange.content import Content, Row
 from rgss.exchange.files import LARGEST_FILE_BYTES, problem, read_bytes
 from rgss.exchange.foreign_names import ForeignNames
-from rgss.exchange.tables.cell_comments import cell_comments
+from rgss.exchange.tables.cell_comments import cell_comments, cell_links
 from rgss.exchange.tables.foreign_rows import ForeignRows, ForeignTable
 from rgss.exchange.tables.formatted_cells import FormattedCell, SheetReader, escaped_text
 from rgss.exchange.tables.heads import (
@@ -94,9 +94,10 @@ def read_excel(path: Path, foreign: ForeignTable | None = None) -> Content:
             sheets = _sheets(file, workbook.sheetnames, is_foreign=foreign is not None)
             for name, part in sheets.items():
                 sheet = SheetReader(workbook, name)
-                found = _rows(read, sheet, name, part)
+                found = list(_rows(read, sheet, name, part))
+                written = {(row.line, row.columns[key]): text for row in found for key, text in row.cells.items()}
                 rows += found if taken is None else (each for row in found for each in taken.element(file, row))
-                read.losses += _commented(file, content, sheet.path, name)
+                read.losses += _beside_text(file, content, sheet.path, name, written)
     except DocumentError:
         raise
     except Exception:  # noqa: BLE001, RUF100 - a damaged workbook breaks openpyxl in many ways
@@ -233,14 +234,21 @@ def _merged(
             yield problem(file, "merged", message, line=rows[0], column=first_column, hint=hint)
 
 
-def _commented(file: str, content: bytes, path: str, sheet: str) -> Iterator[Finding]:
-    """A loss for each comment of a cell: a reviewer's words are not imported."""
+def _beside_text(
+    file: str, content: bytes, path: str, sheet: str, written: Mapping[tuple[int, int], str]
+) -> Iterator[Finding]:
+    """A loss for each comment of a cell, and for each link whose address its text does not have."""
     from openpyxl.utils.cell import coordinate_to_tuple
 
     for cell, text in cell_comments(content, path):
         line, column = coordinate_to_tuple(cell)
         message = f"sheet {sheet!r}: the comment on cell {cell} is not imported: {shown(text)}"
         yield _loss(file, message, line, column)
+    for cell, target in cell_links(content, path):
+        line, column = coordinate_to_tuple(cell)
+        if target.removeprefix("mailto:") not in written.get((line, column), ""):
+            message = f"sheet {sheet!r}: the link of cell {cell} is not imported: {shown(target)}"
+            yield _loss(file, message, line, column)
 
 
 def _write_sheet(sheet: Any, part: Part, rows: list[Row]) -> None:

@@ -178,6 +178,17 @@ def test_a_comment_on_a_cell_is_reported_as_lost(read):
     assert (loss.line, loss.severity.value) == (2, "warning")
 
 
+def test_a_link_on_a_cell_is_reported_as_lost_unless_its_text_is_the_address(read):
+    def change(sheet):
+        sheet.cell(2, column_of(sheet, "text")).hyperlink = "https://example.org/spec#4"
+        source = sheet.cell(2, column_of(sheet, "source"))
+        source.value = source.hyperlink = "https://example.org/norm"
+
+    (loss,) = read(change).losses
+    assert loss.message.startswith("sheet 'system': the link of cell ")
+    assert loss.message.endswith("is not imported: 'https://example.org/spec#4'")
+
+
 def test_a_sheet_without_comments_loses_nothing(read):
     assert read(lambda _: None).losses == ()
 

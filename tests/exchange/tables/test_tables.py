@@ -190,6 +190,16 @@ def test_a_csv_that_is_wrong_is_one_line_each(project, tmp_path, refused, old, n
     assert all(line.startswith(f"{path}:") and "\n" not in line for line in lines)
 
 
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
+def test_a_unicode_text_of_excel_is_read(project, tmp_path, refused, encoding):
+    path = tmp_path / "t.csv"
+    path.write_bytes(("\ufeff" + csv_text(project.content)).encode(encoding))
+    assert project.compare(read_csv(path)) == ()
+    path.write_bytes(path.read_bytes()[:-1])
+    (line,) = refused(read_csv, path)
+    assert "is not UTF-16 (save it as CSV UTF-8)" in line
+
+
 @pytest.mark.parametrize(
     ("change", "complaint"),
     [

@@ -20,20 +20,24 @@ _BEFORE_NUMBERS = phrases("""
 _CLEAR_BEFORE = {"rather": ("than",), "normally": ("open", "closed")}
 _VAGUE = phrases("""
     a couple of, a few, a lot of, a number of, acceptable, adequate, adequately, allowable, almost, almost
-    always, ample, ancillary, appropriate, appropriately, approximate, approximately, as usual, as well as
-    possible, comfortable, comfortably, commonly, considerable, considerably, convenient, conveniently,
-    customary, cutting-edge, decent, desirable, easy to *, effective, effectively, efficient, efficiently,
-    effortless, effortlessly, elegant, elegantly, environmentally friendly, ergonomic, ergonomically, excessive,
-    excessively, expandable, extremely, fairly, flexible, flexibly, frequently, generally, good enough,
+    always, ample, ancillary, applicable codes, applicable directives, applicable laws, applicable legislation,
+    applicable norms, applicable regulations, applicable rules, applicable standards, appropriate,
+    appropriately, approximate, approximately, as usual, as well as possible, clear and concise, clear and
+    understandable, clear indication, clear instructions, clear message, clear messages, clearly, comfortable,
+    comfortably, commonly, considerable, considerably, convenient, conveniently, customary, cutting-edge,
+    decent, desirable, easy to *, effective, effectively, efficient, efficiently, effortless, effortlessly,
+    elegant, elegantly, environmentally friendly, ergonomic, ergonomically, excessive, excessively, existing
+    equipment, existing infrastructure, existing interfaces, existing software, existing systems, existing
+    tools, expandable, extremely, fairly, flexible, flexibly, frequently, generally, generic, good enough,
     good-quality, graceful, gracefully, high-quality, ideal, in most cases, inadequate, infrequently,
     insignificant, insufficient, intuitive, intuitively, largely, legible, legibly, lots of, maintainable, many,
     meaningful, moderate, modern, more or less, most of the time, mostly, nearly, negligible, normally,
     numerous, occasionally, often, operator-friendly, plenty of, proficient, properly, quite, rarely, rather,
-    realistic, realistically, reasonable, reasonably, relevant, satisfactory, seamless, seamlessly, seldom,
-    sensible, sensibly, several, significant, significantly, simple to *, some, somewhat, state of the art,
-    substantial, substantially, sufficient, sufficiently, suitable, suitably, timely, tolerable, typical,
-    typically, undue, unduly, unreasonable, unreasonably, user-friendly, usual, usually, various, versatile,
-    very, with ease, without difficulty, world-class
+    realistic, realistically, reasonable, reasonably, relevant, routine, routinely, satisfactory, seamless,
+    seamlessly, seldom, sensible, sensibly, several, significant, significantly, simple to *, some, somewhat,
+    state of the art, substantial, substantially, sufficient, sufficiently, suitable, suitably, timely,
+    tolerable, typical, typically, undue, unduly, unreasonable, unreasonably, user-friendly, usual, usually,
+    various, versatile, very, with ease, without difficulty, world-class
 """)
 _NUMBER_NEXT = re.compile(r"\.?\s*[~±]?[$€£¥]?\d")
 # Behind a number it is the sign of a range.
@@ -88,6 +92,10 @@ RULES: tuple[SentenceRule, ...] = (
             "The panel shall be Simple to Learn.",
             "The cell shall use STATE OF THE ART sensors.",
             "The gripper shall hold SEVERAL cups.",
+            "The cell shall comply with all applicable standards.",
+            "The cell shall connect to existing systems.",
+            "The panel shall clearly show the state of the arm.",
+            "The panel shall give a clear indication of the fault.",
         ),
         passing=(
             "The gripper shall close to a firm grasp.",
@@ -96,6 +104,8 @@ RULES: tuple[SentenceRule, ...] = (
             "The joint shall rotate about the vertical axis.",
             "The arm shall use a finger rather than a hook.",
             "The cell shall use a normally closed valve.",
+            "The arm shall keep clear of the shelf.",
+            "The hand shall have a clear opening of 90 mm.",
         ),
     ),
 )
