@@ -68,6 +68,13 @@ def test_what_is_no_other_store_is_refused(rgss, with_evidence, folder):
         2,
         f"rgss: there is no store {missing} (name the file of another store)\n",
     )
+    told = rgss("evidence", "merge", with_evidence, "--project", folder)
+    assert (told.status, told.errors) == (
+        2,
+        f"rgss: {with_evidence} is a folder, not a store (its store is {own})\n",
+    )
+    told = rgss("evidence", "merge", folder / "studies", "--project", folder)
+    assert told.errors.endswith("is a folder, not a store (name the file of another store)\n")
     assert rgss("evidence", "merge", folder / "studies" / "pick_place.yaml", "--project", folder).status == 2
     # Nothing was made of it.
     assert not (folder / EVIDENCE).exists()

@@ -15,10 +15,15 @@ def merge_evidence(options: argparse.Namespace, store: EvidencePlace) -> int:
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
     from rgss.evidence.store import merge
+    from rgss.studies import EVIDENCE
 
     other = shown_path(options.file)
     if not options.file.exists():
         raise DefinitionError(f"there is no store {other}", hint="name the file of another store")
+    if options.file.is_dir():
+        inside = options.file / EVIDENCE
+        hint = f"its store is {shown_path(inside)}" if inside.is_file() else "name the file of another store"
+        raise DefinitionError(f"{options.file} is a folder, not a store", hint=hint)
     if store.path.exists() and store.path.samefile(options.file):
         raise DefinitionError(f"{other} is the store of this project", hint="name another store")
     with (
