@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from importlib import resources
 from pathlib import Path
@@ -10,13 +10,21 @@ from pathlib import Path
 from rgss.currencies import DOLLAR
 from rgss.documents import read_document
 from rgss.errors import DefinitionError
-from rgss.studies.schemas import DOCUMENT_KINDS, SCHEMAS, cannot_write, kind_of, schema_reference, with_header
+from rgss.studies.schemas import (
+    DOCUMENT_KINDS,
+    SCHEMAS,
+    DocumentKind,
+    cannot_write,
+    kind_of,
+    schema_reference,
+    with_header,
+)
 
 
 def scaffold_texts() -> Mapping[str, str]:
     """The files of a new project: name relative to its folder, and text."""
     texts = {name.replace("gitignore", ".gitignore"): text for name, text in _packaged()}
-    return {**texts, **{f"{SCHEMAS}/{kind.schema_file}": kind.schema_text() for kind in DOCUMENT_KINDS}}
+    return {**texts, **schema_texts(DOCUMENT_KINDS)}
 
 
 def in_currency(texts: Mapping[str, str], currency: str) -> Mapping[str, str]:
@@ -24,11 +32,17 @@ def in_currency(texts: Mapping[str, str], currency: str) -> Mapping[str, str]:
     return {name: text if name.startswith(SCHEMAS) else text.replace(DOLLAR, currency) for name, text in texts.items()}
 
 
-def write_scaffold(folder: Path, *, currency: str = DOLLAR) -> tuple[str, ...]:
+def schema_texts(kinds: Iterable[DocumentKind]) -> Mapping[str, str]:
+    """The schemas of kinds of documents in a project: name relative to its folder, and text."""
+    return {f"{SCHEMAS}/{kind.schema_file}": kind.schema_text() for kind in kinds}
+
+
+def write_scaffold(folder: Path, kinds: Sequence[DocumentKind] = (), *, currency: str = DOLLAR) -> tuple[str, ...]:
     """Write a new project into a folder, which is made if it is not there.
 
     Args:
         folder: The folder; what is in it already stays as it is.
+        kinds: Further kinds of documents whose schemas it gets.
         currency: Code of the currency of its amounts, which are the same in each.
 
     Returns:
@@ -39,7 +53,7 @@ def write_scaffold(folder: Path, *, currency: str = DOLLAR) -> tuple[str, ...]:
             written.
         StorageError: The disk is full or fails; then nothing is written.
     """
-    texts = in_currency(scaffold_texts(), currency)
+    texts = {**in_currency(scaffold_texts(), currency), **schema_texts(kinds)}
     write_new_files(folder, {name: text.encode("utf-8") for name, text in texts.items()})
     return tuple(texts)
 

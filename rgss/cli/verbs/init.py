@@ -55,7 +55,6 @@ def run(options: argparse.Namespace) -> int:
     from rgss.currencies import is_currency
     from rgss.errors import DefinitionError
     from rgss.findings import printable, shown
-    from rgss.studies import write_scaffold
 
     folder: Path = options.folder
     if options.project is not None:
@@ -74,8 +73,7 @@ def run(options: argparse.Namespace) -> int:
         upper = options.currency.upper()
         hint = f"did you mean {upper}?" if is_currency(upper) else "give an ISO 4217 code, such as EUR"
         raise DefinitionError(f"--currency: {shown(options.currency)} is not the code of a currency", hint=hint)
-    made = (write_scaffold(folder, currency=options.currency), ()) if options.robot is None else _robot_files(options)
-    files, notes = made
+    files, notes = _new_files(options) if options.robot is None else _robot_files(options)
     if options.json:
         print_json({"folder": str(folder), "files": list(files), "assumed": list(notes)})
         return CLEAN
@@ -92,10 +90,18 @@ def run(options: argparse.Namespace) -> int:
     return CLEAN
 
 
+def _new_files(options: argparse.Namespace) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    from rgss.exchange import MAPPING_KIND
+    from rgss.studies import write_scaffold
+
+    return write_scaffold(options.folder, [MAPPING_KIND], currency=options.currency), ()
+
+
 def _robot_files(options: argparse.Namespace) -> tuple[tuple[str, ...], tuple[str, ...]]:
     from rgss.cli.options import arm_mass_kg, xacro_arguments
     from rgss.cli.terminal import stage_progress
     from rgss.engines import require_engines
+    from rgss.exchange import MAPPING_KIND
     from rgss.studies.robot_project import write_robot_project
 
     require_engines("rgss init --robot")
@@ -109,6 +115,7 @@ def _robot_files(options: argparse.Namespace) -> tuple[tuple[str, ...], tuple[st
             gripper=options.gripper,
             xacro=xacro_arguments(options.xacro),
             currency=options.currency,
+            kinds=[MAPPING_KIND],
             on_stage=on_stage,
         )
     return written.files, tuple(note.rationale for note in written.notes)

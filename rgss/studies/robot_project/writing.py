@@ -35,7 +35,8 @@ from rgss.studies.robot_project.reach import SAMPLES, greatest_travel_m
 from rgss.studies.robot_project.robot_text import robot_text
 from rgss.studies.robot_project.unfit_shapes import UnfitShapesError, is_any_mesh_concave
 from rgss.studies.robot_project.urdf import INSTALL, NO_ARGUMENTS, Note, can_decompose
-from rgss.studies.scaffolding import in_currency, scaffold_texts, write_new_files
+from rgss.studies.scaffolding import in_currency, scaffold_texts, schema_texts, write_new_files
+from rgss.studies.schemas import DocumentKind
 
 _MOST_AXES, _MOST_CELLS = 3, 4
 # Greatest angle from the vertical, in a sampled configuration, of an axis that an arm may turn down.
@@ -67,6 +68,7 @@ def write_robot_project(
     gripper: Path | None = None,
     xacro: Mapping[str, str] = NO_ARGUMENTS,
     currency: str = DOLLAR,
+    kinds: Sequence[DocumentKind] = (),
     on_stage: Callable[[str], None] | None = None,
 ) -> RobotProject:
     """Write a new project round the arm of a URDF into a folder, which is made if it is not there.
@@ -84,6 +86,7 @@ def write_robot_project(
             where None.
         xacro: Arguments, if one of them is a xacro.
         currency: Code of the currency of its amounts, which are the same in each.
+        kinds: Further kinds of documents whose schemas it gets.
         on_stage: Called with the name of each stage of the search, which may take minutes, before it begins.
 
     Raises:
@@ -116,8 +119,9 @@ def write_robot_project(
             except UnfitShapesError:
                 raise error from None
         names = tuple(sorted(path.relative_to(project).as_posix() for path in project.rglob("*") if path.is_file()))
-        write_new_files(folder, {name: (project / name).read_bytes() for name in names})
-    return RobotProject(files=names, notes=notes)
+        schemas = {name: text.encode("utf-8") for name, text in schema_texts(kinds).items()}
+        write_new_files(folder, {**{name: (project / name).read_bytes() for name in names}, **schemas})
+    return RobotProject(files=tuple(sorted({*names, *schemas})), notes=notes)
 
 
 def _write_files(

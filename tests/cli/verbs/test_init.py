@@ -20,7 +20,7 @@ def test_a_new_project_is_sound(rgss, tmp_path):
     told = rgss("init", folder)
 
     assert (told.status, told.errors) == (0, "")
-    assert told.output.splitlines()[0].startswith(f"A project of 33 files is in {folder}/; its README.md")
+    assert told.output.splitlines()[0].startswith(f"A project of 34 files is in {folder}/; its README.md")
     assert [line.strip().partition("  ")[0] for line in told.output.splitlines()[2:]] == [
         f"cd '{folder}'",
         "rgss check",
@@ -31,6 +31,15 @@ def test_a_new_project_is_sound(rgss, tmp_path):
     assert (checked.status, checked.errors) == (0, "")
     assert ": 0 findings" in checked.output
     assert len(load_project(folder).designs.expand()) == 4
+
+
+def test_it_has_the_schema_of_every_document(rgss, tmp_path):
+    """That of a mapping file among them, which no file of a new project is."""
+    rgss("init", tmp_path / "project")
+    rgss("schema", "--out", tmp_path / "schemas")
+    written = {path.name: path.read_bytes() for path in (tmp_path / "schemas").iterdir()}
+    assert {path.name: path.read_bytes() for path in (tmp_path / "project" / "schemas").iterdir()} == written
+    assert "mapping.schema.json" in written
 
 
 def test_its_page_has_a_place_for_the_decision(rgss, tmp_path):
@@ -129,7 +138,7 @@ def test_a_second_time(rgss, tmp_path):
 
     assert told.status == 2
     assert told.complaint == (
-        f"rgss: {tmp_path}/README.md and 32 more are there already, and nothing is overwritten (name a new folder)"
+        f"rgss: {tmp_path}/README.md and 33 more are there already, and nothing is overwritten (name a new folder)"
     )
 
 
