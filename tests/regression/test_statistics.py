@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from rgss.regression.mcnemar import critical_worsenings, discordance_p_value, wo
 from rgss.regression.paired import DRAWS, PairedMean
 
 
+@cache
 def _mid_p(worse, better):
     if worse + better == 0:
         return 1.0
@@ -37,9 +39,9 @@ def test_the_p_value_is_the_greatest_probability_of_what_is_as_extreme(worse, be
     outcomes = [(b, c) for b in range(seeds + 1) for c in range(seeds + 1 - b)]
     extreme = [(b, c) for b, c in outcomes if _mid_p(b, c) <= _mid_p(worse, better) * (1 + 1e-9)]
     rows = np.array([(b, c, seeds - b - c) for b, c in extreme])
-    greatest = max(
-        stats.multinomial.pmf(rows, seeds, [rate / 2, rate / 2, 1 - rate]).sum() for rate in np.linspace(0.01, 1, 100)
-    )
+    rates = np.linspace(0.01, 1, 100)[:, None]
+    chances = np.stack([rates / 2, rates / 2, 1 - rates], axis=-1)
+    greatest = stats.multinomial.pmf(rows, seeds, chances).sum(axis=1).max()
     assert ours == pytest.approx(greatest, abs=2e-4)
     assert ours >= greatest - 1e-9
 
