@@ -11,10 +11,10 @@ OPEN = re.compile(r"are open \(by ([^)]*)\)")
 
 
 @pytest.fixture
-def changed(with_evidence, tmp_path, rgss):
+def changed(with_little_evidence, tmp_path, rgss):
     """The project with recorded verdicts, and a requirement whose text changed since."""
     project = tmp_path / "project"
-    shutil.copytree(with_evidence, project)
+    shutil.copytree(with_little_evidence, project)
     assert rgss("measure", "--project", project, "--record").status == 0
     reword(project)
     return project
@@ -67,9 +67,9 @@ def test_a_decision_without_a_choice_names_the_remedy_too(changed, rgss):
     assert "'rgss measure --record' gives verdicts by the stored evidence." in said
 
 
-def test_remedies_of_another_study_than_the_default_one_name_it(with_evidence, tmp_path, rgss):
+def test_remedies_of_another_study_than_the_default_one_name_it(with_little_evidence, tmp_path, rgss):
     project = tmp_path / "project"
-    shutil.copytree(with_evidence, project)
+    shutil.copytree(with_little_evidence, project)
     (project / "studies" / "pick_place.yaml").rename(project / "studies" / "cups.yaml")
     assert rgss("measure", "cups", "--project", project, "--record").status == 0
     reword(project)
