@@ -11,10 +11,15 @@ from rgss.cli.verbs.report import _planners
 from rgss.evidence import EvidenceStore
 from rgss.studies import load_project, trial_specs
 from tests.cli.conftest import made_record
-from tests.fixtures.shipped_project import copy_project
+from tests.fixtures.shipped_project import DESIGN_SPACE, copy_project
 from tests.fixtures.stored_trials import put_trials
 
 STUDY = "studies/pick_place.yaml"
+PLANNED_ALIKE = (
+    "      - id: standard\n        sets: {d2: 0.3 kg, d3: 0.4 kg}\n",
+    "      - id: slow\n        sets: {d7: 0.5 m/s}\n",
+)
+"""Levels that make more designs, whose searches are those of the others."""
 
 
 @pytest.fixture(scope="module")
@@ -28,6 +33,11 @@ def quick(tmp_path_factory):
     )
     text = re.sub(r"^replicates: .*$", "replicates: 2", text, flags=re.MULTILINE)
     (folder / STUDY).write_text(text, encoding="utf-8")
+    space = (folder / DESIGN_SPACE).read_text(encoding="utf-8")
+    for level in PLANNED_ALIKE:
+        assert space.count(level) == 1
+        space = space.replace(level, "")
+    (folder / DESIGN_SPACE).write_text(space, encoding="utf-8")
     project = load_project(folder)
     with EvidenceStore.open(project.evidence) as store:
         put_trials(store, trial_specs(project), made_record)
