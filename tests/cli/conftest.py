@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import json
 import subprocess
 import sys
+from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,6 +26,7 @@ from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.trials.metrics import METRICS
 from tests.fixtures.eight_states import PLANNED_PHASES, Phase
+from tests.fixtures.made_once import made_once
 from tests.fixtures.shipped_project import copy_project, with_few_designs
 from tests.fixtures.stored_trials import put_trials
 
@@ -90,6 +93,18 @@ def with_evidence(tmp_path_factory) -> Path:
 def with_little_evidence(tmp_path_factory) -> Path:
     """The same with 8 designs, of which a page is made in a third of the time; no test changes it."""
     return _filled(with_few_designs(copy_project(tmp_path_factory.mktemp("with-little-evidence"))))
+
+
+@pytest.fixture(scope="session")
+def trade_as_json(with_evidence, tmp_path_factory) -> Told:
+    """What ``rgss trade --json`` says of the project with evidence; made once for all processes of a run."""
+    with made_once(tmp_path_factory, "trade of made evidence.json") as path:
+        if not path.exists():
+            with redirect_stdout(io.StringIO()) as output, redirect_stderr(io.StringIO()) as errors:
+                status = main(["trade", "--json", "--project", str(with_evidence)])
+            said = {"status": status, "output": output.getvalue(), "errors": errors.getvalue()}
+            path.write_text(json.dumps(said), encoding="utf-8")
+        return Told(**json.loads(path.read_text(encoding="utf-8")))
 
 
 def _filled(folder: Path) -> Path:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 import shutil
 from pathlib import Path
@@ -22,15 +21,14 @@ REPOSITORY = Path(__file__).parents[3]
 
 
 @pytest.fixture(scope="module")
-def page(request, with_evidence):
+def page(request, with_evidence, trade_as_json):
     """The whole page of the shipped study with made evidence, effects included, and its document."""
     from rgss.cli.main import main
 
     capture = request.getfixturevalue("capsys_module")
     assert main(["trade", "--effects", "--project", str(with_evidence)]) == 0
-    text = capture()
-    assert main(["trade", "--json", "--project", str(with_evidence)]) == 0
-    return text, json.loads(capture())
+    assert trade_as_json.status == 0
+    return capture(), trade_as_json.document
 
 
 @pytest.fixture(scope="module")

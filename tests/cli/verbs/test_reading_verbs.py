@@ -170,20 +170,6 @@ def test_measure_shows_what_is_missing(rgss, with_evidence):
     assert {row["n"] for row in told.document if row["measure"] == "S"} == {3}
 
 
-@pytest.fixture(scope="module")
-def kept():
-    """What was printed for one test and is looked at by another."""
-    return {}
-
-
-@pytest.fixture
-def trade_as_json(rgss, with_evidence, kept):
-    """The document of the trade-off of the made evidence."""
-    if "trade" not in kept:
-        kept["trade"] = rgss("trade", "--json", "--project", with_evidence)
-    return kept["trade"]
-
-
 @pytest.mark.verifies("SYS-038")
 def test_trade_as_json(trade_as_json):
     told, document = trade_as_json, trade_as_json.document
