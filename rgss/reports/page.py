@@ -19,6 +19,9 @@ _WHOLE = re.compile(r"(?<![\w-])(?:--[a-z][a-z-]*|[A-Z][A-Z0-9]*(?:-[A-Z0-9]+)*-
 The page's script has the same expression (``WHOLE`` in ``study/core.js``).
 """
 
+_BREAKS = re.compile(r"(?<=\w)(?:[_/]|\.(?=[^\W\d]))(?=\w)|[^\W_]{24}(?=[^\W_])")
+"""End of a part of a long id; a part without an end of its own has one after 24 characters."""
+
 
 def render_page(
     template: str,
@@ -64,6 +67,7 @@ def render_page(
         finalize=lambda value: visible(value) if type(value) is str else value,
     )
     environment.filters["whole_options"] = lambda text: Markup(options_to_html(text))  # noqa: S704 - it is escaped
+    environment.filters["breakable"] = lambda text: Markup(breakable_to_html(text))  # noqa: S704 - it is escaped
     own = [_text("page/page.js"), *([_text("page/diagram_pages.js")] if context.get("drawings") else []), *scripts]
     return environment.get_template(template).render(
         style=Markup(_text("page/page.css") + "".join(styles)),  # noqa: S704 - this package's own files
@@ -79,6 +83,16 @@ def render_page(
 def options_to_html(text: str) -> str:
     """A text as HTML in which no line breaks within an option or an id, such as ``--what-if`` or ``SYS-3``."""
     return _WHOLE.sub(r'<span class="option">\g<0></span>', escape(visible(text)))
+
+
+def breakable_to_html(text: str) -> str:
+    """A text as HTML whose long ids break at the ends of their parts; options and ids of requirements are whole."""
+    parts = re.split(f"({_WHOLE.pattern})", visible(text))
+    # Every second part is whole.
+    return "".join(
+        f'<span class="option">{escape(part)}</span>' if place % 2 else _BREAKS.sub(r"\g<0><wbr>", escape(part))
+        for place, part in enumerate(parts)
+    )
 
 
 def script_hash(script: str) -> str:

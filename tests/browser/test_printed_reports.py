@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import copy
 import dataclasses
 import re
 
@@ -58,6 +59,44 @@ def test_parts_that_fit_together_share_a_page(reader, lone_study, tmp_path):
         assert len(set(reader.script(f"return {left}"))) == 1
     finally:
         reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+
+
+_LINE_ENDS = """
+const ends = [];
+for (const head of document.querySelectorAll('.sheet tbody th')) {
+  const walker = document.createTreeWalker(head, NodeFilter.SHOW_TEXT);
+  let before = '', top = null;
+  while (walker.nextNode()) for (let place = 0; place < walker.currentNode.length; place += 1) {
+    const range = document.createRange();
+    range.setStart(walker.currentNode, place);
+    range.setEnd(walker.currentNode, place + 1);
+    const box = range.getBoundingClientRect();
+    if (top !== null && box.top > top + 4) ends.push(before);
+    [before, top] = [walker.currentNode.data[place], box.top];
+  }
+}
+return ends;
+"""
+
+
+def test_long_ids_break_at_the_ends_of_their_parts(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    for one in document["measures"]:
+        one["name"] = f"mean_time_of_one_whole_transfer.of_the_left_arm_of_{one['id']}"
+    for one in document["parameters"]:
+        one["name"] = "x" * 60
+        one["values"] = ["a level with a name of many words that takes a lot of room"] * len(document["variants"]["id"])
+    file = tmp_path / "report.html"
+    file.write_text(board_to_html(document), encoding="utf-8")
+    reader.driver.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride", {"width": 1040, "height": 700, "deviceScaleFactor": 1, "mobile": False}
+    )
+    reader.driver.get(file.as_uri())
+    ends = reader.script(_LINE_ENDS)
+    assert "_" in ends
+    # A part that is longer than any word is broken too, rather than cut by the edge of the paper.
+    assert set(ends) <= {"_", ".", " ", ":", "x"}
+    assert reader.script("return document.documentElement.scrollWidth") <= 1040
 
 
 def test_a_caution_is_whole_where_there_is_room(study):

@@ -11,7 +11,7 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible_throughout
-from rgss.reports.page import options_to_html, render_page, script_hash, template_text
+from rgss.reports.page import breakable_to_html, options_to_html, render_page, script_hash, template_text
 from rgss.reports.study import embedded_json, packed_json, parted
 from rgss.reports.study_page import plotting_library
 
@@ -103,6 +103,16 @@ def test_a_browser_cannot_break_an_id_at_its_hyphen():
     assert options_to_html("open (by SYS-2, SYS-030), an A-1-B, UTF-8-like") == (
         'open (by <span class="option">SYS-2</span>, <span class="option">SYS-030</span>), an A-1-B, UTF-8-like'
     )
+
+
+def test_a_long_id_breaks_at_the_ends_of_its_parts():
+    text = f"t_mean.of<b> SYS-030 --what-if 0.25 a/b {'x' * 30}"
+    html = breakable_to_html(text)
+    assert html == (
+        't_<wbr>mean.<wbr>of&lt;b&gt; <span class="option">SYS-030</span> <span class="option">--what-if</span> 0.25 '
+        f"a/<wbr>b {'x' * 24}<wbr>{'x' * 6}"
+    )
+    assert html.replace("<wbr>", "") == options_to_html(text)
 
 
 def test_a_browser_cannot_break_an_option_between_its_hyphens():
