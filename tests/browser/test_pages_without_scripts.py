@@ -23,6 +23,14 @@ return {
 };
 """
 
+# Links that can be seen and pressed, whose target cannot be seen.
+_LOST = """
+return Array.from(document.querySelectorAll('main a[href^="#"]'))
+  .filter((one) => one.getClientRects().length && getComputedStyle(one).pointerEvents !== 'none')
+  .filter((one) => document.getElementById(decodeURIComponent(one.hash.slice(1)))?.closest('.scripted') !== null)
+  .map((one) => one.hash);
+"""
+
 
 @pytest.mark.parametrize("width", [1440, 1024, 390])
 def test_without_scripts_a_report_shows_the_decision_and_says_what_is_missing(reader, study, tmp_path, width):
@@ -44,3 +52,4 @@ def test_without_scripts_a_report_shows_the_decision_and_says_what_is_missing(re
     assert set(found["linked"]) <= set(found["shown"])
     assert "JavaScript, which this page contains, is off." in reader.text("#without-scripts")
     assert reader.script("return document.getElementById('glance').innerText").startswith("Variant ")
+    assert reader.script(_LOST) == []
