@@ -112,15 +112,7 @@ def mesh_summary(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1
 
 
 def mesh_extent_m(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1.0)) -> float:
-    """Greatest extent of a mesh along an axis of its frame in m.
-
-    Args:
-        path: Its file.
-        scale: Factors along its axes.
-
-    Raises:
-        DefinitionError: The file is not a mesh.
-    """
+    """Greatest extent of a mesh along an axis of its frame in m; the arguments are those of `mesh_summary`."""
     return float(max(read_mesh(path, scale).extents))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 import shutil
 import subprocess
@@ -46,7 +47,12 @@ class Pager:
     def start(self) -> TextIO:
         """Start the process; returns its input stream."""
         self._process = subprocess.Popen(  # noqa: S603 - the program that the user asks for
-            self._command, stdin=subprocess.PIPE, encoding="utf-8", errors="replace"
+            self._command,
+            stdin=subprocess.PIPE,
+            encoding="utf-8",
+            errors="replace",
+            # In another locale `less` would show the bytes of what is no ASCII.
+            env={"LESSCHARSET": "utf-8", **os.environ},
         )
         return cast("TextIO", self._process.stdin)
 

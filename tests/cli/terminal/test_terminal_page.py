@@ -183,6 +183,15 @@ def test_a_long_page_goes_through_the_pager(project, tmp_path):
     assert "Traceability of the study pick_place" in file.read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize(("own", "told"), [({}, "utf-8"), ({"LESSCHARSET": "latin1"}, "latin1")])
+def test_less_is_told_the_encoding_of_a_page_in_any_locale(project, tmp_path, own, told):
+    script = tmp_path / "pager"
+    script.write_text('#!/bin/sh\ncat > /dev/null\necho "in $LESSCHARSET"\n', encoding="utf-8")
+    script.chmod(0o755)
+    _, said = on_terminal(project, "trace", RGSS_PAGER=str(script), LC_ALL="C", **own)
+    assert f"in {told}" in said
+
+
 def test_a_pager_that_is_left_early_ends_the_command(project):
     status, said = on_terminal(project, "trace", RGSS_PAGER="head -n 1")
     assert (status, said.count("\n")) == (0, 1)
