@@ -81,6 +81,12 @@ _SCRIPTED = (
 )
 """Sections that a script fills; without scripts the page leaves them out, and says so."""
 
+_COMPARING = ("explore", "pareto", "distributions", "compare", "acceptability", "effects")
+"""Sections that compare variants; the report of a study with one variant hides them."""
+
+_RANKING = ("weights", "acceptability")
+"""Sections that rank feasible variants; the report hides them where no variant is feasible."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class TrialPictures:
@@ -141,6 +147,7 @@ def study_report_to_html(
         '"use strict";\nconst rgssReport = (data, later) => {\n' + "\n".join(map(template_text, SCRIPTS)) + "\n};\n"
     )
     glance, plain = first_screen_content(document), embedded_json(document)
+    hidden = _hidden_sections(document)
     packed = len(plain) > LARGEST_PLAIN
     first, later = parted(document) if packed else (document, {})
     has_replays = any(one.player is not None for one in pictures)
@@ -166,7 +173,10 @@ def study_report_to_html(
         glance_picture=chosen_picture(document["decision"]["chosen"], pictures),
         comparison=comparison_rows(document),
         compared_trials=compared_trials(document),
-        report_sections=_SECTIONS[1:] if glance is None else _SECTIONS,
+        report_sections=[
+            (name, section) for name, section in _SECTIONS if name not in hidden and (name != "glance" or glance)
+        ],
+        hidden=hidden,
         scripted=_SCRIPTED,
         pictures=[_picture(one) for one in pictures],
         worst_failure=next((place for place, one in enumerate(pictures) if one.worst), None),
@@ -180,6 +190,13 @@ def study_report_to_html(
         share=share_in_words,
         **trace_context(trace, drawings=drawings, drawings_notice=drawings_notice),
     )
+
+
+def _hidden_sections(document: Mapping[str, Any]) -> set[str]:
+    """Sections that have no use in a study of one variant, or of none that is feasible."""
+    variants, ranks = document["variants"], document["decision"]["acceptability"] is not None
+    compares = len(variants["id"]) > 1
+    return {*(() if compares else _COMPARING), *(() if ranks or any(variants["feasible"]) else _RANKING)}
 
 
 def plotting_library() -> str:

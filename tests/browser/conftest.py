@@ -202,6 +202,9 @@ def large_page(study, tmp_path_factory) -> Path:
     return file
 
 
+SHOWN_PLOTS = "Array.from(document.querySelectorAll('.plot')).filter((one) => !one.closest('[hidden]'))"
+
+
 class Reader:
     """A browser with a page open."""
 
@@ -231,14 +234,11 @@ class Reader:
 
     def see_all_plots(self) -> None:
         """Scroll through the page until every plot is drawn or says that there is nothing to draw."""
-        count = self.script("return document.querySelectorAll('.plot').length")
+        count = self.script(f"return {SHOWN_PLOTS}.length")
         for place in range(count):
-            self.script("document.querySelectorAll('.plot')[arguments[0]].scrollIntoView()", place)
-            self.until("return document.querySelectorAll('.plot')[arguments[0]].children.length > 0", place)
-        self.until(
-            "return Array.from(document.querySelectorAll('.plot'))"
-            ".every((one) => one.querySelector('.main-svg, p') !== null)"
-        )
+            self.script(f"{SHOWN_PLOTS}[arguments[0]].scrollIntoView()", place)
+            self.until(f"return {SHOWN_PLOTS}[arguments[0]].children.length > 0", place)
+        self.until(f"return {SHOWN_PLOTS}.every((one) => one.querySelector('.main-svg, p') !== null)")
 
     def text(self, selector: str) -> str:
         """The text of an element."""

@@ -193,11 +193,19 @@ def test_of_one_variant_nothing_is_compared(reader, lone_study, tmp_path):
     reader.see_all_plots()
 
     assert reader.text("#shown") == "The one variant is shown"
-    assert reader.text("#compare-note") == "The study has one variant, and none to compare it with."
-    assert not reader.driver.find_element(By.ID, "compare-choice").is_displayed()
-    assert not reader.driver.find_element(By.ID, "variant-compare").is_displayed()
-    across, up = reader.script("return ['pareto-x', 'pareto-y'].map((id) => document.getElementById(id).value)")
-    assert across != up
+    # What compares variants is neither shown nor listed nor found.
+    compares = ("explore", "pareto", "distributions", "compare", "acceptability", "effects")
+    for one in (*compares, "variant-compare", "clear"):
+        assert not reader.driver.find_element(By.ID, one).is_displayed()
+    assert not {f"#{one}" for one in compares} & set(
+        reader.script("return Array.from(document.querySelectorAll('#contents a, a.skip'), (one) => one.hash)")
+    )
+    reader.script(
+        "const field = document.getElementById('find'); field.value = 'acceptability';"
+        "field.dispatchEvent(new Event('input')); "
+    )
+    reader.until("return document.getElementById('found-count').textContent !== ''")
+    assert not reader.script("return document.querySelector('#found a[href=\"#acceptability-title\"]')")
     sensitivity = reader.text("#sensitivity")
     assert "has no feasible rival" in sensitivity
     assert "over the best other design" not in sensitivity

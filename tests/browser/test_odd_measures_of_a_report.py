@@ -170,3 +170,46 @@ def test_a_name_of_eighty_characters_without_a_blank_stays_in_its_place(reader, 
         " one.getBoundingClientRect().right - one.parentElement.getBoundingClientRect().right).filter((by) => by > 1)"
     )
     assert beyond == []
+
+
+_LEGENDS = """
+return Array.from(document.querySelectorAll('.plot.js-plotly-plot'))
+  .filter((one) => one.querySelector('.legend .bg') && one.checkVisibility())
+  .map((one) => {
+    const tops = Array.from(one.querySelectorAll('.draglayer .nsewdrag'), (each) => each.getBoundingClientRect().top);
+    const legend = one.querySelector('.legend .bg').getBoundingClientRect();
+    return [one.id, legend.bottom - Math.min(...tops), one.getBoundingClientRect().top - legend.top];
+  });
+"""
+
+
+@pytest.mark.parametrize(("before", "after"), [(390, 1440), (1440, 390)])
+def test_no_legend_covers_a_plot_whose_window_changed_its_width(reader, page, before, after):
+    reader.open(page, width=before)
+    reader.see_all_plots()
+    reader.driver.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride", {"width": after, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    )
+    reader.until(
+        "return Array.from(document.querySelectorAll('.plot.js-plotly-plot'))"
+        ".every((one) => Math.abs(one._fullLayout.width - one.clientWidth) < 4)"
+    )
+    found = reader.script(_LEGENDS)
+    assert len(found) > 5
+    for name, over, outside in found:
+        assert over <= 0, name
+        # The room above a plot is no larger than its legend needs.
+        assert outside == pytest.approx(-13, abs=3), name
+
+
+def test_marks_of_one_kind_have_a_legend(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    count = len(document["variants"]["id"])
+    document["variants"] |= {"feasible": [0] * count, "pareto": [None] * count, "rank": [None] * count}
+    document["decision"] |= {"chosen": None, "runner_up": None}
+    reader.open(_written(document, study, tmp_path))
+    _seen(reader, "pareto")
+    assert (
+        reader.script("return document.querySelector('#pareto-plot .legend')?.textContent") == "infeasible by estimates"
+    )
+    assert reader.text("#pareto-note").startswith("No variant is feasible by its estimates")

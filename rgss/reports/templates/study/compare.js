@@ -6,12 +6,10 @@ const startCompare = () => {
   const best = variants.id.map((_, place) => place).filter((place) => known(variants.rank[place])).sort((one, other) => variants.rank[one] - variants.rank[other]).slice(0, 2);
   const first = best.length === 2 ? best : [0, 1].filter((place) => place < total);
   field.value = [...new Set([placeOf.get(data.decision.chosen) ?? first[0], placeOf.get(data.decision.runner_up) ?? first[1], ...first])].slice(0, 2).map((place) => variants.id[place]).join(", ");
-  // One variant has none to be compared with.
-  const alone = total < 2;
-  field.form.hidden = byId("variant-compare").hidden = alone;
-  if (alone) {
+  // One variant has none to be compared with: the section is hidden.
+  byId("variant-compare").hidden = byId("clear").hidden = total < 2;
+  if (total < 2) {
     field.value = "";
-    note.textContent = "The study has one variant, and none to compare it with.";
     return;
   }
   const wanted = () => [...new Set(field.value.split(/[\s,;]+/).filter(Boolean))];

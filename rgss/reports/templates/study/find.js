@@ -76,7 +76,7 @@ const everything = () => {
   const place = placeOf.get(data.decision.chosen ?? variants.id[0]) ?? 0;
   for (const head of document.querySelectorAll("main :is(h2, h3)")) {
     const section = head.id || head.closest("section, figure")?.id;
-    if (section && !head.closest("#variant-evidence")) add("Sections", textIn(head), "", `#${section}`);
+    if (section && !head.closest("#variant-evidence, [hidden]")) add("Sections", textIn(head), "", `#${section}`);
   }
   for (const one of data.requirements) {
     const verdict = VERDICTS[at(one.verdict, place)][1];

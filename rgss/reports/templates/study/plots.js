@@ -25,9 +25,17 @@ const layoutOf = (more) => {
     ...Object.fromEntries(Object.entries(rest).map(([name, one]) => [name, /^[xy]axis\d/.test(name) ? axis(one) : one])), xaxis: axis(xaxis), yaxis: axis(yaxis),
   };
 };
+// The library places a legend by its size in the layout before: of a width that is new, it is laid out twice.
+const layOut = (host, change) => {
+  if (!host.classList.contains("js-plotly-plot")) return;
+  Plotly.relayout(host, change);
+  Plotly.redraw(host);
+};
 // make() → {traces, layout}, or null if there is nothing to draw; bySize: whether its traces depend on the plot's width.
 const plot = (id, make, { bySize = false } = {}) => {
   const host = byId(`${id}-plot`);
+  // A section without a use in this study is hidden, and has no picture.
+  if (host.closest("[hidden]")) return () => {};
   let near = false, stale = true, offer = () => {}, drawnWidth = 0;
   const draw = (always = false) => {
     stale = true;
@@ -50,7 +58,7 @@ const plot = (id, make, { bySize = false } = {}) => {
     host.style.minHeight = "0";
     host.style.height = height;
     Plotly.react(host, made.traces, layoutOf({ ...made.layout, height: undefined }), {
-      responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"], displayModeBar: false,
+      displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"], displayModeBar: false,
     });
     if (grown) Plotly.Plots.resize(host);
     if (!host.dataset.linked) {
@@ -68,13 +76,16 @@ const plot = (id, make, { bySize = false } = {}) => {
   }, { rootMargin: "300px" }).observe(host);
   const redraw = () => draw();
   onShown(redraw);
-  if (bySize) {
-    let waiting = 0;
-    new ResizeObserver(() => {
-      clearTimeout(waiting);
-      waiting = setTimeout(() => { if (host.clientWidth && host.clientWidth !== drawnWidth) draw(); }, 100);
-    }).observe(host);
-  }
+  let waiting = 0;
+  new ResizeObserver(() => {
+    clearTimeout(waiting);
+    waiting = setTimeout(() => {
+      if (!host.clientWidth || host.clientWidth === drawnWidth) return;
+      if (bySize) draw();
+      drawnWidth = host.clientWidth;
+      layOut(host, { autosize: true });
+    }, 100);
+  }).observe(host);
   offer = downloadsFor(host, id, { csv: true, svg: async () => {
     if (stale) draw(true);
     if (!host.classList.contains("js-plotly-plot")) throw new Error(`plot ${id} has nothing to draw`);
@@ -173,6 +184,7 @@ const startMeasures = () => {
 
 // ---------------------------------------------------------------------- Pareto scatter
 const startPareto = () => {
+  if (!variants.feasible.some(Boolean)) byId("pareto-note").textContent = "No variant is feasible by its estimates, and so there is no front.";
   const across = byId("pareto-x"), up = byId("pareto-y");
   for (const select of [across, up]) options(select, effectiveness.map((measure) => [measure.id, `${measure.id}: ${measure.name}`]));
   const spread = effectiveness.filter((measure) => varies(measure) && measure.weight !== null);
@@ -201,7 +213,7 @@ const startPareto = () => {
         hovertext: mine.map((group) => namesOf(group) + `<br>${plotText(`${horizontal.id}: ${together(horizontal, group)}`)}<br>${plotText(`${vertical.id}: ${together(vertical, group)}`)}`) });
     }
     const axis = (measure) => ({ title: { text: plotText(withBetter(measure)) }, ...scaleOf(places.map((place) => at(measure.value, place)), measure) });
-    return { traces, layout: { xaxis: axis(horizontal), yaxis: axis(vertical) } };
+    return { traces, layout: { showlegend: true, xaxis: axis(horizontal), yaxis: axis(vertical) } };
   }, { bySize: true });
   for (const select of [across, up]) select.addEventListener("change", redraw);
   onShown(tableIn("pareto-table", {

@@ -35,11 +35,6 @@ const redrawAll = () => {
   for (const { redraw } of drawings) redraw();
 };
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawAll);
-// The library places a legend by its size in the layout before: of a width that is new, it is laid out twice.
-const layOut = (host, change) => {
-  if (!host.classList.contains("js-plotly-plot")) return;
-  for (let time = 0; time < 2; time += 1) Plotly.relayout(host, change);
-};
 addEventListener("beforeprint", () => {
   // The page's own script has opened the closed details, but their events come too late for printing.
   for (const refresh of refreshers) refresh();

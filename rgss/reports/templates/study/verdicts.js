@@ -26,13 +26,15 @@ const verdictCell = (requirement, place) => {
   const figure = element("span", {}, badge, " ", number);
   return element("span", { class: "judged" }, figure, ...(spread ? [" ", element("span", { class: "small" }, `(${spread})`)] : []));
 };
+// A limit is not divided: a line ends before its sign.
+const wholeLimit = (criterion) => criterion.replace(/([<>=]=?) (\S+)(?: (\S+))?$/, (_, ...parts) => parts.slice(0, 3).filter(Boolean).join("\u00a0"));
 const verdictsTable = () => tableIn("verdict-table", {
   label: "Verdicts of the shown variants",
   columns: [
     ...variantColumns,
     valueColumn,
     ...data.requirements.map((requirement) => ({
-      head: element("span", {}, element("span", { class: "id" }, requirement.id), element("br"), element("span", { class: "small" }, requirement.criterion)),
+      head: element("span", {}, element("span", { class: "id" }, requirement.id), element("br"), element("span", { class: "small" }, wholeLimit(requirement.criterion))),
       title: requirement.text,
       number: true,
       cell: (place) => verdictCell(requirement, place),
