@@ -96,7 +96,7 @@ def search(monkeypatch):
     seen = []
 
     def install(*, also_parts_fail=False):
-        def write(project, tool_axis, draft, draft_gripper, *, on_stage):
+        def write(project, tool_axis, draft, draft_gripper, currency, *, on_stage):
             drafted = draft(tool_axis="z")
             meshes = sorted(path.name for path in project.rglob("*.stl"))
             seen.append(meshes)

@@ -178,7 +178,7 @@ def test_rows_that_were_deleted_are_told_by_every_command_until_they_are_mended(
         assert (told.status, told.output) == (2, "")
         assert told.complaint.endswith(
             " was changed outside rgss: table trials: 216 rows were stored, 215 are present "
-            "(run 'rgss evidence verify' to see the damage, and with --mend to keep the valid rows)"
+            f"(run 'rgss evidence verify --project {spoilt}' to see the damage, and with --mend to keep the valid rows)"
         )
     told = rgss("evidence", "verify", "--project", spoilt)
     assert told.status == 1
@@ -262,13 +262,16 @@ def test_an_export_of_a_study_has_its_trials_alone(rgss, spoilt, tmp_path):
     assert exported("studies/pick_place.yaml") == (
         [
             f"215 trials written to {target}",
-            "1 more has no evidence yet; 'rgss sweep studies/pick_place.yaml' makes it.",
+            f"1 more has no evidence yet; 'rgss sweep studies/pick_place.yaml --project {spoilt}' makes it.",
         ],
         215,
     )
     assert exported("--replicates", "4")[1] == 216
     assert exported("--fidelity", "kinematic") == (
-        [f"0 trials written to {target}", "216 more have no evidence yet; 'rgss sweep --fidelity kinematic' makes it."],
+        [
+            f"0 trials written to {target}",
+            f"216 more have no evidence yet; 'rgss sweep --project {spoilt} --fidelity kinematic' makes it.",
+        ],
         0,
     )
     told = rgss("evidence", "export", "--json", target, "studies/pick_place.yaml", "--project", spoilt).document

@@ -162,13 +162,15 @@ def test_other_versions_are_named_even_if_the_bits_are_the_same(capsys, folder, 
 @pytest.mark.engine
 def test_the_fidelity_tells_trials_of_a_variant_and_seed_apart(capsys, folder, key):
     edit(folder, "studies/pick_place.yaml", "fidelity: kinematic", "fidelity: contact")
-    assert refused(capsys, folder, TRIAL) == "there is no trial '65/2' in the evidence (run 'rgss sweep' first)"
+    sweep = f"rgss sweep --project {folder}"
+    assert refused(capsys, folder, TRIAL) == f"there is no trial '65/2' in the evidence (run '{sweep}' first)"
     assert replay(folder, TRIAL, "--fidelity", "kinematic") == 0
     assert replay(folder, key) == 0
 
 
 def test_what_names_no_trial_is_bad_input(capsys, folder):
-    assert refused(capsys, folder, "66/2") == "there is no trial '66/2' in the evidence (run 'rgss sweep' first)"
+    sweep = f"rgss sweep --project {folder}"
+    assert refused(capsys, folder, "66/2") == f"there is no trial '66/2' in the evidence (run '{sweep}' first)"
     assert refused(capsys, folder, "abc") == "'abc' names no trial (give 6 digits of its key or more, or 28/1)"
     assert refused(capsys, folder, "a/b") == "'a/b' names no trial (write a variant and a seed, such as 28/1)"
 
@@ -187,7 +189,7 @@ def test_a_trial_of_another_study_is_not_compared_with_this_one(capsys, folder, 
     (folder / "studies" / "other.yaml").write_text(other, encoding="utf-8")
     assert refused(capsys, folder, TRIAL, "--study", "other") == (
         "there is no trial '65/2' of studies/other.yaml in the evidence, only of studies/pick_place.yaml "
-        "(run 'rgss sweep other' first)"
+        f"(run 'rgss sweep other --project {folder}' first)"
     )
 
 
