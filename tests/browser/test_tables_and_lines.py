@@ -52,6 +52,13 @@ def _waits_for_whole_rows(reader, selector):
     reader.until(f"return document.querySelector('{selector}[data-more]') !== null")
 
 
+@pytest.mark.parametrize("width", [1440, 1366])
+def test_the_choice_and_the_runner_up_are_seen_whole_beside_the_reasons(reader, page, width):
+    reader.open(page, width=width)
+    box = "document.querySelector('.columns > .scroll:has(.compared)')"
+    assert reader.script(f"return {box}.scrollWidth - {box}.clientWidth") <= 1
+
+
 @pytest.mark.parametrize("width", [1440, 1024, 390])
 def test_a_table_ends_with_a_whole_row_and_says_that_it_goes_on(reader, page, width):
     reader.open(page, width=width)
