@@ -105,7 +105,7 @@ RULES: tuple[SentenceRule, ...] = (
             "The arm shall use a finger rather than a hook.",
             "The cell shall use a normally closed valve.",
             "The arm shall keep clear of the shelf.",
-            "The hand shall have a clear opening of 90 mm.",
+            "The hand shall have a clear opening of at least 90 mm.",
         ),
     ),
 )
