@@ -41,6 +41,7 @@ class AssumptionOutcome:
             study.
         otherwise_of_choice: Number of these that are trials of the study's choice.
         excluded_by: Requirements by which the study's evidence excludes the other choice.
+        missed_by_choice: Requirements that the study's choice misses under the alternative.
         in_motion: For another fidelity, the trials of the study that fail in motion.
         admitted: For another fidelity, the designs that only its trials admit.
         reason: Reason for a missing answer; empty if there is one, or if trials are missing.
@@ -59,6 +60,7 @@ class AssumptionOutcome:
     otherwise: tuple[int, int] = (0, 0)
     otherwise_of_choice: int = 0
     excluded_by: tuple[str, ...] = ()
+    missed_by_choice: tuple[str, ...] = ()
     in_motion: MotionFailures | None = None
     admitted: AdmittedDesigns | None = None
     reason: str = ""
@@ -158,10 +160,16 @@ def _outcome(
         read_off=found.read_off,
         otherwise=(len(after - before), len(before - after)),
         otherwise_of_choice=sum(variant == decision.chosen for variant, _ in before ^ after),
-        excluded_by=next((one.requirements for one in decision.infeasible if one.variant == other.chosen), ()),
+        excluded_by=_missed_by(other.chosen, decision),
+        missed_by_choice=_missed_by(former, other),
         in_motion=in_motion,
         admitted=admitted,
     )
+
+
+def _missed_by(variant: int | None, decision: Decision) -> tuple[str, ...]:
+    """The requirements by which a decision excludes a variant."""
+    return next((one.requirements for one in decision.infeasible if one.variant == variant), ())
 
 
 def _lacking(other: Decision, question: Question) -> str:

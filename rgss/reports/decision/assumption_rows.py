@@ -42,10 +42,10 @@ def assumption_rows(made: StudyDecision) -> tuple[AssumptionRow, ...]:
                 one.taken_as or UNKNOWN,
                 one.question.alternative,
                 _choice(one),
-                _change(one),
+                _change(one, made.decision.chosen),
             ),
             changes=None if one.is_same is None else not one.is_same,
-            sentence=_sentence(one),
+            sentence=_sentence(one, made.decision.chosen),
         )
         for one in made.assumptions
     )
@@ -162,20 +162,22 @@ def _choice(one: AssumptionOutcome) -> str:
     return f"variant {one.chosen}{f' ({others} as good)' if others else ''}, {one.feasible} feasible"
 
 
-def _sentence(one: AssumptionOutcome) -> str:
+def _sentence(one: AssumptionOutcome, former: int | None) -> str:
     if one.is_same is None:
         return ""
     question, others = one.question, ids_text(tuple(variant for variant in one.ties if variant != one.chosen))
     as_good = f", and {others} as good" if others else ""
     then = "no variant is feasible" if one.chosen is None else f"variant {one.chosen} is chosen{as_good}"
-    return f"{question.title}: {question.instead} instead of {one.before}. Then {then}."
+    misses = f"; variant {former} misses {' and '.join(one.missed_by_choice)}" if one.missed_by_choice else ""
+    return f"{question.title}: {question.instead} instead of {one.before}. Then {then}{misses}."
 
 
-def _change(one: AssumptionOutcome) -> str:
+def _change(one: AssumptionOutcome, former: int | None) -> str:
     if one.is_same is None:
         return UNKNOWN
     if one.is_unseparated:
         return f"not shown: variant {one.chosen} is not separated from the choice"
     if one.is_same:
         return "no"
-    return "yes, to nothing" if one.chosen is None else f"yes, to variant {one.chosen}"
+    misses = f", as {former} misses {' and '.join(one.missed_by_choice)}" if one.missed_by_choice else ""
+    return f"yes, to {'nothing' if one.chosen is None else f'variant {one.chosen}'}{misses}"

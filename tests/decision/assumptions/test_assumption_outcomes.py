@@ -158,7 +158,10 @@ def test_an_alternative_under_which_the_choice_fails_changes_it(evidence, filled
 
     assert found.is_same is False
     assert found.chosen not in {None, *decision.ties}
-    assert f"yes, to variant {found.chosen}" in text
+    # A design that fails every trial misses what is required of its success.
+    missed = " and ".join(found.missed_by_choice)
+    assert "SYS-024" in found.missed_by_choice
+    assert f"yes, to variant {found.chosen}, as {decision.chosen} misses {missed}" in text
     assert f"Kinematic trials decide otherwise, and choose variant {found.chosen}" in text
     assert "The choice depends on “Fidelity of the trials” (fidelity)." in text
     rows = decision_part(made)["modelling"]["rows"]
@@ -169,7 +172,7 @@ def test_an_alternative_under_which_the_choice_fails_changes_it(evidence, filled
         "cells": ["fidelity", "dynamic", "kinematic", *rows[0]["cells"][3:]],
         "changes": True,
         "sentence": "Fidelity of the trials: kinematic instead of dynamic. "
-        f"Then variant {found.chosen} is chosen{as_good}.",
+        f"Then variant {found.chosen} is chosen{as_good}; variant {decision.chosen} misses {missed}.",
     }
     assert f"| `fidelity` | dynamic | kinematic | {rows[0]['cells'][3]} | {rows[0]['cells'][4]} |" in decision_section(
         made

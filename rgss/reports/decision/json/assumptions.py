@@ -19,6 +19,7 @@ def modelling_assumption_to_json(one: AssumptionOutcome) -> dict[str, Any]:
         "changes_choice": None if one.is_same is None else not one.is_same,
         "unseparated": one.is_unseparated,
         "excluded_by": list(one.excluded_by),
+        "missed_by_choice": list(one.missed_by_choice),
         "trials": one.trials,
         "missing_trials": one.missing,
         "read_off": one.read_off,
