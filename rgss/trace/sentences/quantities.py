@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from rgss.currencies import currencies_in
+from rgss.quantities import dimension
 from rgss.trace.sentences.numbers import NOT_WITHIN, NUMBER, readings
 from rgss.trace.sentences.units import ANY_CURRENCY, CURRENCIES, unit_of
 
@@ -31,7 +33,6 @@ class TextQuantity:
         text: The quantity as it is written, with its unit.
         values: The magnitudes that it may have, the most likely first: ``1,500`` may be 1500 or 1.5.
         unit: Its unit, with the code of its currency if it has one; ``"1"`` for a pure number.
-        currency: Code of its currency; empty if it has none.
         start: Where it starts in the sentence.
         end: Where it ends there, its unit included.
     """
@@ -39,7 +40,6 @@ class TextQuantity:
     text: str
     values: tuple[float, ...]
     unit: str
-    currency: str
     start: int
     end: int
 
@@ -54,21 +54,20 @@ def quantities_in(sentence: str) -> Iterator[TextQuantity]:
         end = match.end() if found else match.end("number")
         if found and not before:
             found, end = _whole_unit(sentence, found, match.start("unit"), end)
-        unit, currency = found or ((CURRENCIES[before], CURRENCIES[before]) if before else ("1", ""))
-        values = readings(match.groupdict(), is_money=bool(currency), is_pure=unit == "1")
+        unit = found or (CURRENCIES[before] if before else "1")
+        values = readings(match.groupdict(), is_money=bool(currencies_in(dimension(unit))), is_pure=unit == "1")
         if not values:
             continue
         yield TextQuantity(
             text=sentence[match.start() : end],
             values=values,
             unit=unit,
-            currency=currency,
             start=match.start(),
             end=end,
         )
 
 
-def _whole_unit(sentence: str, found: tuple[str, str], start: int, end: int) -> tuple[tuple[str, str], int]:
+def _whole_unit(sentence: str, found: str, start: int, end: int) -> tuple[str, int]:
     """The longest unit that begins where one was found, and where it ends."""
     while (more := _GOES_ON.match(sentence, end)) and (longer := unit_of(sentence[start : more.end()])):
         found, end = longer, more.end()

@@ -55,17 +55,15 @@ _CURRENCY = re.compile(rf"(?<![^\W\d_])(k?)({ANY_CURRENCY})(?![^\W\d_])")
 
 
 @lru_cache(maxsize=4096)
-def unit_of(text: str) -> tuple[str, str] | None:
-    """The unit that a text names, and the code of its currency; None if it names none.
+def unit_of(text: str) -> str | None:
+    """The unit that a text names; None if it names none.
 
     Args:
         text: The text, such as ``m/s²``, ``Ω`` or ``EUR/h``.
 
     Returns:
-        The unit as quantities are written here, with the codes of currencies, and the code of its currency; empty if
-        it has none.
+        The unit as quantities are written here, with the codes of currencies.
     """
-    currency = next((CURRENCIES[match[2]] for match in _CURRENCY.finditer(text)), "")
     unit = _EXPONENT.sub(r"\1^\2", _CURRENCY.sub(_with_code, text.translate(_OF_CHARACTERS)))
     if unit in _PROSE or unit in _NO_UNITS or not all(map(_is_spelt_out, _WORD.findall(unit))):
         return None
@@ -73,7 +71,7 @@ def unit_of(text: str) -> tuple[str, str] | None:
         dimension(unit)
     except QuantityError:
         return None
-    return unit, currency
+    return unit
 
 
 def is_unit(text: str) -> bool:
