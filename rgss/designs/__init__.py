@@ -12,7 +12,14 @@ from rgss.designs.loading import load_design_space
 from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterValue, format_value, si_unit
 from rgss.designs.sampling import SamplingMethod
 from rgss.designs.set_findings import written_values
-from rgss.designs.settable import PLANNER_PREFIX, PLANNER_QUANTITIES, Application, SettableQuantity
+from rgss.designs.settable import (
+    BASE_POSITION,
+    BASE_YAW,
+    PLANNER_PREFIX,
+    PLANNER_QUANTITIES,
+    Application,
+    SettableQuantity,
+)
 from rgss.designs.settable_quantities import SETTABLE_QUANTITIES
 from rgss.designs.space import DesignSpace
 from rgss.designs.tables import variant_rows, variants_csv

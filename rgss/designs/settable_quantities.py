@@ -18,6 +18,7 @@ from rgss.designs.findings import near_hint
 from rgss.designs.parameters import ParameterKind
 from rgss.designs.settable import (
     MOTION_QUANTITIES,
+    PLACEMENT_QUANTITIES,
     PLANNER_PREFIX,
     PLANNER_QUANTITIES,
     Application,
@@ -49,6 +50,7 @@ _QUANTITIES = (
         default="tool_acceleration in the robot file",
         required=False,
     ),
+    *PLACEMENT_QUANTITIES,
     SettableQuantity(
         name="gripper.fingers",
         kind=ParameterKind.COUNT,

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from rgss.errors import DefinitionError
 from rgss.studies import Project, RegressionGuard
-from rgss.trials import METRICS
+from rgss.trials import METRICS, MetricDescriptor
 
 LONGEST_REASON = 500
 
@@ -28,8 +30,13 @@ def units_of(guard: RegressionGuard) -> dict[str, str]:
 
 def record_schema(project: Project) -> dict[str, str]:
     """Unit and row length of each metric that a record of a project's study may have."""
-    planned, joints = len(project.study.task.planned), len(project.scene.robot.joints)
-    lengths = {name: kind.length_in_trial(planned=planned, joints=joints) for name, kind in METRICS.items()}
-    return {
-        name: kind.unit if lengths[name] is None else f"{lengths[name]} × {kind.unit}" for name, kind in METRICS.items()
-    }
+    planned = len(project.study.task.planned)
+    joints = sorted({len(one.scene.robot.joints) for one in project.by_arm().values()})
+    return {name: _length_and_unit(kind, planned, joints) for name, kind in METRICS.items()}
+
+
+def _length_and_unit(kind: MetricDescriptor, planned: int, joints: Sequence[int]) -> str:
+    """Unit of a metric after the lengths of its row, which is one for each joint of the arm of the design."""
+    lengths = dict.fromkeys(kind.length_in_trial(planned=planned, joints=number) for number in joints)
+    rows = " or ".join(str(length) for length in lengths if length is not None)
+    return f"{rows} × {kind.unit}" if rows else kind.unit

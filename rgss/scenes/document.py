@@ -69,6 +69,7 @@ class BodyEntry(DocumentModel):
     yaw: Radians = 0.0
     friction: Dimensionless
     colour: Colour | None = None
+    moves_with_robot: bool = False
 
 
 class CollisionShapes(str, Enum):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from rgss.scenes.frames import NamedFrame
 from rgss.scenes.grasps import ChosenGrasp, GivenGrasp, GraspCandidates
@@ -36,6 +36,7 @@ class SceneBody:
         pose: Transform of the shape's frame to the world.
         friction: Its coefficient; a contact's coefficient is the product of both bodies'.
         colour: Colour in pictures.
+        moves_with_robot: True if it moves with the base of the robot, where a design sets that.
     """
 
     id: str
@@ -43,6 +44,7 @@ class SceneBody:
     pose: Pose
     friction: float
     colour: ColourRgba
+    moves_with_robot: bool = field(default=False, compare=False)
 
     @property
     def primitive(self) -> Shape:

@@ -37,13 +37,14 @@ from rgss.scenes.shapes import Box, Cylinder, Shape
 from rgss.scenes.uncertainty import read_uncertainty, unknown_objects
 
 
-def load_scene(path: Path, *, label: str | None = None, project: Path | None = None) -> Scene:
-    """Read a scene with its robot.
+def load_scene(path: Path, *, label: str | None = None, project: Path | None = None, arm: str = "") -> Scene:
+    """Read a scene with its robot, or with another one in its place.
 
     Args:
         path: The scene file; the path of the robot file is relative to it.
         label: The file's name in messages; the path by default.
         project: The folder that must contain all referenced files; that of the scene by default.
+        arm: Robot file, relative to the project, of the arm in the place of the scene's; the scene's own by default.
 
     Raises:
         DocumentError: A file is invalid; with every problem in it and in the referenced files.
@@ -63,8 +64,8 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
     uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings, declared=())
     others_ids = [one.id for one in entry.workpieces]
     findings += unknown_objects(entry.uncertainty, document, first=entry.workpiece.id, further=others_ids)
-    robot = _robot(path, entry, document, findings, path.parent if project is None else project)
     top = path.parent if project is None else project
+    robot = _read_robot(top / arm, arm, entry, findings, top) if arm else _robot(path, entry, document, findings, top)
     solid = object_solid(path, entry.workpiece, document, findings, top)
     others = other_solids(path, entry, document, findings, top)
     frames = _frames(entry, document, findings, robot)
@@ -110,10 +111,10 @@ def _frames(
     """Frames of robot and scene; none if the robot is invalid."""
     if robot is None:
         return ()
-    own = {one.id: replace(one, pose=robot.base @ one.pose) for one in robot.frames}
+    own = {one.id: replace(one, pose=robot.base @ one.pose, is_on_robot=True) for one in robot.frames}
     roots = {
         WORLD: NamedFrame(id=WORLD, pose=Pose()),
-        ROBOT: NamedFrame(id=ROBOT, pose=robot.base),
+        ROBOT: NamedFrame(id=ROBOT, pose=robot.base, is_on_robot=True),
         **{name: NamedFrame(id=name, pose=Pose(), object=name) for name in _object_ids(entry)},
         **own,
     }
@@ -134,11 +135,16 @@ def _robot(
     if problems:
         findings.extend(problems)
         return None
-    robot_path = path.parent / placement.description
-    base = Pose.from_roll_pitch_yaw(placement.base, (placement.roll, placement.pitch, placement.yaw))
     label = (Path(document.label).parent / placement.description).as_posix()
+    return _read_robot(path.parent / placement.description, label, entry, findings, project)
+
+
+def _read_robot(path: Path, label: str, entry: SceneDocument, findings: list[Finding], project: Path) -> Robot | None:
+    """Robot at the base of the scene; None if it is invalid, with findings added."""
+    placement = entry.robot
+    base = Pose.from_roll_pitch_yaw(placement.base, (placement.roll, placement.pitch, placement.yaw))
     try:
-        return load_robot(robot_path, base=base, label=label, project=project)
+        return load_robot(path, base=base, label=label, project=project)
     except DocumentError as error:
         findings.extend(error.findings)
         return None
@@ -251,4 +257,5 @@ def _body(body: BodyEntry) -> SceneBody:
         pose=Pose.from_roll_pitch_yaw((x, y, z + shape.half_height_m), (0.0, 0.0, body.yaw)),
         friction=body.friction,
         colour=colour_of(body.colour),
+        moves_with_robot=body.moves_with_robot,
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from rgss.designs import (
     PLANNER_PREFIX,
@@ -35,7 +35,7 @@ def design_findings(
     designs: DesignSpace,
     document: Document,
     grippers: Mapping[str, GripperFile],
-    robot: Robot,
+    robots: Sequence[Robot],
     planning: PlanningChoice,
 ) -> Iterator[Finding]:
     """Findings on designs whose trials cannot be run.
@@ -44,10 +44,11 @@ def design_findings(
         designs: The design space.
         document: Its file, for positions.
         grippers: The gripper file of each gripper component, by its name.
-        robot: The robot, which gives values where no design does.
+        robots: The arms of the designs, which give values where no design does.
         planning: The study's planning, which gives values too.
     """
-    yield from _missing_findings(designs, document, grippers, default_values(robot, planning))
+    given = [(robot.id, default_values(robot, planning)) for robot in robots]
+    yield from _missing_findings(designs, document, grippers, given)
     yield from _planner_findings(designs, document, planning)
     yield from _planner_parameter_findings(designs, document, planning)
     yield from _component_findings(designs, grippers)
@@ -72,13 +73,16 @@ def _missing_findings(
     designs: DesignSpace,
     document: Document,
     grippers: Mapping[str, GripperFile],
-    defaults: Mapping[str, ParameterValue],
+    defaults: Sequence[tuple[str, Mapping[str, ParameterValue]]],
 ) -> Iterator[Finding]:
-    given = setters_of(designs) | defaults.keys()
+    given = setters_of(designs)
     for quantity in SETTABLE_QUANTITIES.values():
-        if not quantity.required or quantity.name in given:
+        without = [robot for robot, values in defaults if quantity.name not in values]
+        if not quantity.required or quantity.name in given or not without:
             continue
         message = f"nothing sets {quantity.name}"
+        if len(without) < len(defaults):
+            message += f" of {' and '.join(without)}"
         if quantity.default.endswith("the gripper file"):
             lacking = [name for name, file in grippers.items() if quantity.name not in file.settings]
             if not lacking:

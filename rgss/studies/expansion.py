@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from rgss.designs import DesignVariant, ParameterValue
+from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity
 from rgss.physics import PhysicsSettings
@@ -34,9 +34,8 @@ def trial_specs(
     """
     chosen = project.designs.expand() if variants is None else tuple(variants)
     settings = trial_settings(project)
-    defaults = default_values(project.scene.robot, project.study.planning)
     own_seeds = project.study.seeds if seeds is None else seeds
-    specs = (_spec(project, variant, settings, defaults) for variant in chosen)
+    specs = (_spec(project, variant, settings) for variant in chosen)
     return tuple(replace(spec, seed=seed) for spec in specs for seed in own_seeds)
 
 
@@ -70,24 +69,22 @@ def _longest_limit(project: Project) -> float:
     return max(limit for limit in limits if isinstance(limit, (int, float)))
 
 
-def _spec(
-    project: Project, variant: DesignVariant, settings: TrialSettings, defaults: Mapping[str, ParameterValue]
-) -> TrialSpec:
+def _spec(project: Project, variant: DesignVariant, settings: TrialSettings) -> TrialSpec:
     component = variant.components[GRIPPER]
     if not component.geometry:
         raise DefinitionError(
             f"component {component.id!r} names no geometry", hint="give it the file of its shape in the catalogue"
         )
-    file = project.grippers[component.geometry]
-    values = values_of(variant, {**defaults, **file.settings})
+    file, scene = project.grippers[component.geometry], project.scene_of(variant)
+    values = values_of(variant, {**default_values(scene.robot, project.study.planning), **file.settings})
     spec = TrialSpec(
         variant=variant.id,
         seed=project.study.seed,
         fidelity=Fidelity(project.study.fidelity),
         # What of its uncertainty counts is in the trial's own.
-        scene=replace(project.scene, uncertainty=NOTHING_UNCERTAIN),
+        scene=replace(scene, uncertainty=NOTHING_UNCERTAIN),
         gripper=Gripper(
-            geometry=at_object(mounted(file, values.get(MOUNTING), variant.id), project.scene),
+            geometry=at_object(mounted(file, values.get(MOUNTING), variant.id), scene),
             base_mass_kg=math.nan,
             finger_mass_kg=math.nan,
             finger_velocity_m_s=math.nan,

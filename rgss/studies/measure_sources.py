@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from rgss.documents import Document
 from rgss.findings import Finding
@@ -36,7 +36,7 @@ def source_findings(
     document: Document,
     *,
     planned: int,
-    joints: int | None,
+    joints: Sequence[int],
 ) -> Iterator[Finding]:
     """Find inputs whose source is not there or measures something else.
 
@@ -45,7 +45,7 @@ def source_findings(
         design_units: The unit of each source that designs have; empty for a name.
         document: The measures' file, for positions.
         planned: Number of planned moves of the task.
-        joints: Number of joints of the arm; None if the scene cannot be read, and rows of joints are not checked.
+        joints: Numbers of joints of the arms; none if the scene cannot be read, and rows of joints are not checked.
     """
     trial_units = {f"trial.{name}": kind.unit for name, kind in METRICS.items()}
     for index, symbol in enumerate(inputs):
@@ -64,9 +64,13 @@ def source_findings(
             yield document.finding("measures.source-unit", message, ("inputs", index, "unit"), hint=hint)
         elif symbol.from_trial:
             metric = METRICS[symbol.metric]
-            if joints is None and metric.length == FOR_EACH_JOINT:
+            if metric.length == FOR_EACH_JOINT and len(joints) != 1:
+                if joints:
+                    message = f"{symbol.id}: {symbol.source!r} is a row of {' or '.join(map(str, joints))}"
+                    hint = "take a metric of the whole arm: the designs have arms of different numbers of joints"
+                    yield document.finding("measures.source-length", message, ("inputs", index), hint=hint)
                 continue
-            length = metric.length_in_trial(planned=planned, joints=joints or 0)
+            length = metric.length_in_trial(planned=planned, joints=joints[0] if joints else 0)
             if symbol.length == length:
                 continue
             message = f"{symbol.id}: {symbol.source!r} is {'one number' if length is None else f'a row of {length}'}"

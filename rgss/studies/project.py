@@ -7,16 +7,18 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeVar
 
-from rgss.designs import DesignSpace, load_catalogue, load_design_space
-from rgss.documents import FilePlace, place_of, read_document
+from rgss.designs import DesignSpace, DesignVariant, load_catalogue, load_design_space
+from rgss.documents import read_document
 from rgss.errors import DefinitionError, DocumentError
 from rgss.evidence import Fidelity
-from rgss.findings import Finding, shown
+from rgss.findings import Finding
 from rgss.measures import MeasureSet, load_measures
 from rgss.quantities import same_dimension
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.scenes import GripperFile, Scene, load_gripper_file, load_scene
 from rgss.scenes.uncertainty import NOTHING_UNCERTAIN, ONE_WORKLOAD, Uncertainty, Workload
+from rgss.studies.arms import ARM, scene_with_arm, scenes_by_arm
+from rgss.studies.component_files import component_files
 from rgss.studies.design_settings import GRIPPER, design_findings
 from rgss.studies.finding_suppression import without_consequences
 from rgss.studies.measure_sources import metric_ranges, source_findings
@@ -47,10 +49,11 @@ class Project:
         requirements: Needs, requirements, architecture of the set that the study verifies.
         measures: The measures.
         designs: The design space with its catalogue.
-        scene: The scene.
+        scene: The scene with its own robot.
         grippers: The gripper file of each gripper component, by its name.
         study: The study.
         measure_traces: The measures as traceability sees them.
+        arms: The scene with the robot of each manipulator that names a robot file, by its name.
         chosen: The trials that were chosen in place of those of the study's file, for the commands that are named.
     """
 
@@ -62,6 +65,7 @@ class Project:
     grippers: dict[str, GripperFile]
     study: StudyDefinition
     measure_traces: tuple[MeasureTrace, ...]
+    arms: Mapping[str, Scene] = field(default_factory=dict)
     chosen: TrialChoice = field(default=TrialChoice(), compare=False)
 
     @property
@@ -76,6 +80,15 @@ class Project:
     def check(self) -> tuple[Finding, ...]:
         """Findings on traceability, without a simulation."""
         return check_trace(self.requirements, self.measure_traces)
+
+    def scene_of(self, variant: DesignVariant) -> Scene:
+        """The scene with the arm of a design at its base: of its manipulator's file, else the scene's own."""
+        return scene_with_arm(variant, self.scene, self.arms)
+
+    def by_arm(self) -> dict[str, Project]:
+        """The project with each arm of its designs in its scene, by robot file; empty for the scene's own."""
+        scenes = scenes_by_arm(self.designs, self.scene, self.arms)
+        return {name: replace(self, scene=scene) for name, scene in scenes.items()}
 
     def with_fidelity(self, fidelity: str) -> Project:
         """The same project with another fidelity for every design, and so without screening.
@@ -166,21 +179,24 @@ class _Reader:
             else None
         )
         grippers = self._grippers(designs) if designs is not None else {}
+        arms = {} if designs is None or scene is None else self._arms(designs, named["scene"])
+        scenes = () if designs is None or scene is None else tuple(scenes_by_arm(designs, scene, arms).values())
+        robots = tuple(one.robot for one in scenes)
         if designs is not None:
             document = read_document(folder / named["design_space"], label=named["design_space"])
             if scene is not None and study is not None:
                 written = read_document(path, label=label)
                 if study.task_file is not None:
-                    self._findings += task_findings(study.task_file, scene)
+                    self._findings += task_findings(study.task_file, *scenes)
                     self._findings += neutral_findings(study.task_file, grippers)
                 self._findings += uncertainty_findings(scene, study, written, grippers)
-                self._findings += resolution_findings(study.planning, scene.robot, written)
-                self._findings += design_findings(designs, document, grippers, scene.robot, study.planning)
-                self._findings += motion_findings(study.motion, study.rate_hz, written, designs, document, scene.robot)
+                self._findings += resolution_findings(study.planning, robots, written)
+                self._findings += design_findings(designs, document, grippers, robots, study.planning)
+                self._findings += motion_findings(study.motion, study.rate_hz, written, designs, document, robots)
             if measures is not None and named_set is not None:
                 document = read_document(folder / measures_of(named_set), label=measures_of(named_set))
                 planned = len((default_task() if study is None else study.task).planned)
-                joints = None if scene is None else len(scene.robot.joints)
+                joints = sorted({len(robot.joints) for robot in robots})
                 self._findings.extend(
                     source_findings(measures.inputs, designs.source_units(), document, planned=planned, joints=joints)
                 )
@@ -207,6 +223,7 @@ class _Reader:
             measure_traces=measure_traces(
                 measures, read_document(folder / measures_of(named_set), label=measures_of(named_set))
             ),
+            arms=arms,
         )
         undecidable = _undecidable(project)
         if undecidable:
@@ -244,29 +261,16 @@ class _Reader:
 
     def _grippers(self, designs: DesignSpace) -> dict[str, GripperFile]:
         """The file of every gripper component, by its name."""
-        shapes: dict[str, GripperFile] = {}
-        missing: set[str] = set()
-        catalogue = designs.catalogue
-        for component in catalogue.of_role(GRIPPER):
-            name = component.geometry
-            found = place_of(self._folder / name, self._folder)
-            place = ("components", list(catalogue.components).index(component), "geometry")
-            if name and found is FilePlace.OUTSIDE:
-                message = f"geometry {shown(name)} leads out of the project"
-                hint = "copy the file into the project and name it"
-                self._findings.append(catalogue.document.finding("design.geometry", message, place, hint=hint))
-            elif name and found is FilePlace.MISSING:
-                # Components that share a file miss it together: its first place is enough.
-                if name in missing:
-                    continue
-                missing.add(name)
-                message, hint = f"there is no file {shown(name)}", "file names are relative to the project"
-                self._findings.append(catalogue.document.finding("design.missing-file", message, place, hint=hint))
-            elif name and name not in shapes:
-                shape = self._try(lambda name=name: self._gripper(name))  # type: ignore[misc]
-                if shape is not None:
-                    shapes[name] = shape
-        return shapes
 
-    def _gripper(self, name: str) -> GripperFile:
-        return load_gripper_file(self._folder / name, label=name, project=self._folder)
+        def load(name: str) -> GripperFile:
+            return load_gripper_file(self._folder / name, label=name, project=self._folder)
+
+        return component_files(designs.catalogue, GRIPPER, load, self._findings, project=self._folder)
+
+    def _arms(self, designs: DesignSpace, label: str) -> dict[str, Scene]:
+        """The scene with the robot of every manipulator that names a robot file, by its name."""
+
+        def load(name: str) -> Scene:
+            return load_scene(self._folder / label, label=label, project=self._folder, arm=name)
+
+        return component_files(designs.catalogue, ARM, load, self._findings, project=self._folder)

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
+from rgss.designs import DesignVariant
 from rgss.documents import read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding
 from rgss.scenes import mesh_volume_findings
+from rgss.studies.arms import PlacedArm, scenes_by_placed_arm
 from rgss.studies.checks import (
     MISFITS,
     TOO_WIDE,
@@ -32,6 +36,9 @@ from rgss.studies.project import Project
 
 if TYPE_CHECKING:
     from rgss.trials import HandStepProblem, SceneProblem
+
+_MOST_HANDS = 24
+"""Greatest number of hands that are checked, which takes seconds for each."""
 
 _NOT_SEARCHED = "grasps are not searched before the objects of the scene neither overlap nor lack support"
 
@@ -57,9 +64,10 @@ def check_scene(project: Project) -> SceneCheck:
         of_bodies = scene_problems(project.scene)
         of_checks = check_step_problems(project.scene, project.study.task)
         skipped = _NOT_SEARCHED if _refuses_search(project, of_bodies) else ""
-        of_hands = _HandProblems()
-        for file in _gripper_files(project):
-            of_hands.add(project, file, is_searched=not skipped)
+        of_hands, every_hand = _HandProblems(), _hands(project)
+        hands = _sampled(every_hand)
+        for hand in hands:
+            of_hands.add(hand, is_searched=not skipped)
         label = project.study.scene
         document = read_document(project.folder / label, label=label)
         held = () if skipped else tuple(held_load_findings(project, document))
@@ -68,9 +76,10 @@ def check_scene(project: Project) -> SceneCheck:
         return SceneCheck(findings=(), skipped=f"the scene is not checked: {missing} ({INSTALL})")
     except DefinitionError as error:
         return SceneCheck(findings=(), skipped=f"the scene is not checked: {error}")
-    places = ScenePlaces(project, document)
+    has_arms = len({(hand.project.scene.robot.id, hand.project.scene.robot.base) for hand in hands}) > 1
+    places = ScenePlaces(project, document, has_arms=has_arms)
     found = [places.finding(problem, ()) for problem in of_bodies]
-    every = len(_gripper_files(project))
+    every, grippers = len(hands), len({hand.gripper for hand in hands})
     found += [
         places.finding(
             problem,
@@ -86,16 +95,35 @@ def check_scene(project: Project) -> SceneCheck:
     found += places.outgrown_regions()
     found += mesh_volume_findings(project.folder / label, label=label)
     found += [
-        misfit.finding(document, (*places.at[name][:-1], "id"), reason, files, serves=of_hands.serves(name, every))
+        misfit.finding(document, (*places.at[name][:-1], "id"), reason, files, serves=of_hands.serves(name, grippers))
         for (misfit, name, reason), files in of_hands.misfits.items()
     ]
-    found += [places.too_tall(tall, files, serves=len(files) < every) for tall, files in of_hands.too_tall.items()]
+    found += [places.too_tall(tall, files, serves=len(files) < grippers) for tall, files in of_hands.too_tall.items()]
+    if not skipped and len(hands) < len(every_hand):
+        skipped = f"the scene is checked with {len(hands)} of the {len(every_hand)} grippers on arms at their bases"
     return SceneCheck(findings=tuple(sorted(found)), skipped=skipped)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class _Hand:
+    """Gripper on an arm, as a design has it.
+
+    Attributes:
+        project: The project with that arm in its scene.
+        gripper: Its gripper file.
+        designs: The designs that have it.
+        name: Its name in messages: the gripper file, and the arm's if the designs have several.
+    """
+
+    project: Project
+    gripper: str
+    designs: tuple[DesignVariant, ...]
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _HandProblems:
-    """Problems of the hands of the designs, each with the gripper files that have it."""
+    """Problems of the hands of the designs, each with the names of the hands that have it."""
 
     reach: dict[SceneProblem, list[str]] = field(default_factory=dict)
     room: dict[SceneProblem, str] = field(default_factory=dict)
@@ -117,18 +145,21 @@ class _HandProblems:
         )
         return len({file for files in alike for file in files}) < every
 
-    def add(self, project: Project, file: str, *, is_searched: bool) -> None:
-        """Check one gripper file; where it is not searched, the sizes of hand and objects alone."""
+    def add(self, hand: _Hand, *, is_searched: bool) -> None:
+        """Check one hand; where it is not searched, the sizes of hand and objects alone."""
         from rgss.trials import SceneProblemKind, hand_step_problems, reach_problems
 
-        scene, friction = project.scene, _pad_friction(project, file)
-        geometry = checked_mounting(project, file, friction)
+        project, file = hand.project, hand.name
+        scene, friction = project.scene, _pad_friction(hand)
+        geometry = checked_mounting(project, hand.gripper, friction)
         tall = objects_too_tall(geometry, project)
         misfits = [(misfit, *found) for misfit in MISFITS for found in misfit.objects(geometry, project)]
-        for one in tall:
-            self.too_tall.setdefault(one, []).append(file)
-        for unfit in misfits:
-            self.misfits.setdefault(unfit, []).append(file)
+        # Sizes of hand and object are the same on every arm.
+        of_sizes = [self.too_tall.setdefault(one, []) for one in tall]
+        of_sizes += [self.misfits.setdefault(unfit, []) for unfit in misfits]
+        for grippers in of_sizes:
+            if hand.gripper not in grippers:
+                grippers.append(hand.gripper)
         if not is_searched:
             return
         wide = [name for misfit, name, _ in misfits if misfit is TOO_WIDE]
@@ -141,6 +172,13 @@ class _HandProblems:
                 self.reach.setdefault(problem, []).append(file)
                 if problem.kind is SceneProblemKind.NO_GRASP:
                     self.room[problem] = lack_of_room(project, geometry, problem.first, friction)
+
+
+def _sampled(hands: tuple[_Hand, ...]) -> tuple[_Hand, ...]:
+    """As many hands as are checked, evenly among all."""
+    if len(hands) <= _MOST_HANDS:
+        return hands
+    return tuple(hands[index * len(hands) // _MOST_HANDS] for index in range(_MOST_HANDS))
 
 
 def _refuses_search(project: Project, of_bodies: Sequence[SceneProblem]) -> bool:
@@ -156,16 +194,47 @@ def _refuses_search(project: Project, of_bodies: Sequence[SceneProblem]) -> bool
     return project.scene.task.candidates is not None and any(problem.kind in refusing for problem in of_bodies)
 
 
-def _gripper_files(project: Project) -> tuple[str, ...]:
-    """The geometry file of every gripper that a design has."""
-    used = {variant.components[GRIPPER].geometry for variant in project.designs.expand()}
-    return tuple(file for file in project.grippers if file in used)
+def _hands(project: Project) -> tuple[_Hand, ...]:
+    """Every gripper on every arm at every base, as designs have them."""
+    placed = scenes_by_placed_arm(project.designs, project.scene, project.arms)
+    hands = []
+    for arm, (scene, designs) in placed.items():
+        on_arm = "" if len(placed) == 1 else f" on {_arm_name(project, arm, is_moved=_is_moved(arm, placed))}"
+        having: dict[str, list[DesignVariant]] = {}
+        for variant in designs:
+            having.setdefault(variant.components[GRIPPER].geometry, []).append(variant)
+        hands += [
+            _Hand(
+                project=replace(project, scene=scene),
+                gripper=gripper,
+                designs=tuple(having[gripper]),
+                name=f"{gripper}{on_arm}",
+            )
+            for gripper in project.grippers
+            if gripper in having
+        ]
+    return tuple(hands)
 
 
-def _pad_friction(project: Project, file: str) -> float:
-    """The least friction of the pads of a design with a gripper, on which its grasp candidates depend."""
+def _is_moved(arm: PlacedArm, placed: Iterable[PlacedArm]) -> bool:
+    """True if designs have an arm at several bases."""
+    return any(one.file == arm.file and one.base != arm.base for one in placed)
+
+
+def _arm_name(project: Project, arm: PlacedArm, *, is_moved: bool) -> str:
+    """Name of an arm in messages, with its base where designs have several of them."""
+    name = arm.file or f"the robot of {PurePosixPath(project.study.scene).name}"
+    if not is_moved:
+        return name
+    yaw = math.degrees(arm.base.roll_pitch_yaw_rad()[2])
+    position = ", ".join(f"{value:g}" for value in arm.base.position_m)
+    return f"{name} at ({position}) m, yaw {yaw:.4g} deg"
+
+
+def _pad_friction(hand: _Hand) -> float:
+    """The least friction of the pads of a design with a hand, on which its grasp candidates depend."""
+    project = hand.project
     if project.scene.task.candidates is None:
         return 0.0
-    specs = trial_specs(project, seeds=[project.study.seed])
-    files = {variant.id: variant.components[GRIPPER].geometry for variant in project.designs.expand()}
-    return min(spec.gripper.grip_coefficient(1.0) for spec in specs if files[spec.variant] == file)
+    specs = trial_specs(project, variants=hand.designs, seeds=[project.study.seed])
+    return min(spec.gripper.grip_coefficient(1.0) for spec in specs)

@@ -67,6 +67,8 @@ def _applied(spec: TrialSpec, quantity: SettableQuantity, value: ParameterValue)
     if quantity.application is Application.PLANNER_PARAMETER:
         name = quantity.name.removeprefix(PLANNER_PREFIX)
         return replace(spec, planner_settings=spec.planned_by.with_parameter(name, float(value)))
+    if quantity.application is Application.PLACEMENT:
+        return spec  # of the scene that `Project.scene_of` makes, since frames move with the base
     path = quantity.field.split(".")
     present = field_of(spec, quantity.field)
     if quantity.application is Application.REQUIRE:

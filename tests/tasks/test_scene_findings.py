@@ -88,13 +88,13 @@ def test_a_configuration_has_the_joints_of_the_arm_within_their_ranges(tmp_path,
     few = "configurations: {few: [0 deg, 0 deg]}\nsteps:\n  - move: {configuration: few}\n"
     (finding,) = findings_of(tmp_path, scene, few)
     names = ", ".join(joint.name for joint in scene.robot.joints)
-    expected = f"configuration 'few' has 2 joints, the robot has 6 (joints: {names}) [task.joints]"
+    expected = f"configuration 'few' has 2 joints, the robot ur10 has 6 (joints: {names}) [task.joints]"
     assert finding == f"task.yaml:2:23: error: {expected}"
     far = "configurations: {far: [0 deg, 0 deg, 0 deg, 0 deg, 0 deg, 1000 deg]}\nstart: {configuration: far}\nsteps:\n"
     (finding,) = findings_of(tmp_path, scene, far + GRASP)
     last = scene.robot.joints[-1]
     assert finding == (
-        f"task.yaml:2:59: error: {last.name} is at 17.45, outside its range "
+        f"task.yaml:2:59: error: {last.name} of ur10 is at 17.45, outside its range "
         f"(from {last.lower_rad:.4g} to {last.upper_rad:.4g}) [task.joint-range]"
     )
 

@@ -15,6 +15,7 @@ class Application(Enum):
     REQUIRE = "must equal the field"
     ADD_FOR_EACH_FINGER = "is added to the field once for each finger"
     PLANNER_PARAMETER = "is a parameter of the field, which is the planner"
+    PLACEMENT = "is a coordinate of the field, which is the pose of the robot's base in the scene"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from rgss.documents import Document
 from rgss.findings import Finding
@@ -43,7 +44,7 @@ def frames_of(
         if name not in found:
             entry, parent = entries[name], composed(parents[name])
             pose = Pose.from_roll_pitch_yaw(entry.position, (entry.roll, entry.pitch, entry.yaw))
-            found[name] = NamedFrame(id=name, pose=parent.pose @ pose, object=parent.object)
+            found[name] = replace(parent, id=name, pose=parent.pose @ pose)
         return found[name]
 
     return tuple(composed(name) for name in entries)

@@ -73,8 +73,13 @@ def support_findings(entry: SceneDocument, document: Document) -> Iterator[Findi
         document: The file, for positions.
     """
     bodies = list(dict.fromkeys(body.id for body in entry.bodies))
+    moving = {body.id for body in entry.bodies if body.moves_with_robot}
     objects = [one.id for one in (entry.workpiece, *entry.workpieces)]
     for at, name, own in _supports(entry):
+        if name in moving:
+            message = f"{name} moves with the robot, and what stands on it would stay"
+            hint = f"name another support, or remove moves_with_robot of {name}"
+            yield document.finding("scene.moving-support", message, at, hint=hint)
         others = [one for one in objects if one != own]
         if name in bodies or name in others:
             continue

@@ -39,14 +39,15 @@ def draw_findings(project: Project) -> Iterator[Finding]:
 
 
 def _joint_findings(project: Project) -> Iterator[Finding]:
-    """Warn of offsets of joints of a kind that the arm has none of."""
-    kinds = {joint.kind for joint in project.scene.robot.joints}
+    """Warn of offsets of joints of a kind that no arm of the designs has."""
+    arms = [one.scene.robot for one in project.by_arm().values()]
+    kinds = {joint.kind for robot in arms for joint in robot.joints}
     for name in project.uncertainty.names:
         kind = quantity_of(name).joint_kind
         if kind is None or kind in kinds:
             continue
         joints, other = _OFFSETS[kind]
-        message = f"{name} has no effect: the arm has no {joints} joint"
+        message = f"{name} has no effect: {'the arm has no' if len(arms) == 1 else 'no arm has a'} {joints} joint"
         yield _warning(project, "uncertainty.no-joint", name, message, f"use {other}, or remove it")
 
 

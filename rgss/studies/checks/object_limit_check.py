@@ -23,18 +23,23 @@ def object_limit_findings(project: Project) -> Iterator[Finding]:
 
 
 def _heavy(project: Project, document: Document) -> Iterator[Finding]:
-    payload_kg = project.scene.robot.payload_kg
+    """Objects heavier than the payload of an arm; a note where another arm of the designs takes them."""
+    robots = [one.scene.robot for one in project.by_arm().values()]
     for index, object_ in enumerate(project.scene.objects):
         workpiece = object_.workpiece
-        if workpiece.mass_kg <= payload_kg:
-            continue
-        yield document.finding(
-            "scene.payload",
-            f"{workpiece.id} of {workpiece.mass_kg:.3g} kg exceeds the payload of the robot, {payload_kg:g} kg",
-            mass_location(document, index),
-            severity=Severity.WARNING,
-            hint="take a lighter object, or a robot with a greater 'payload'",
-        )
+        weak = [robot for robot in robots if workpiece.mass_kg > robot.payload_kg]
+        is_of_all = len(weak) == len(robots)
+        for robot in weak:
+            of = "the robot" if len(robots) == 1 else robot.id
+            yield document.finding(
+                "scene.payload",
+                f"{workpiece.id} of {workpiece.mass_kg:.3g} kg exceeds the payload of {of}, {robot.payload_kg:g} kg",
+                mass_location(document, index),
+                severity=Severity.WARNING if is_of_all else Severity.INFO,
+                hint="take a lighter object, or a robot with a greater 'payload'"
+                if is_of_all
+                else "designs with another arm take it",
+            )
 
 
 def _slippery(project: Project, document: Document) -> Iterator[Finding]:

@@ -10,6 +10,7 @@ from rgss.documents import Document
 from rgss.findings import Finding, Severity
 from rgss.scenes import half_extents_m
 from rgss.studies.checks.scene_texts import (
+    OF_ONE_ARM,
     OF_ONE_GRIPPER,
     closing_texts,
     instability_texts,
@@ -38,13 +39,14 @@ class _Said:
 class ScenePlaces:
     """Positions of the bodies in the scene file, and the findings there."""
 
-    def __init__(self, project: Project, document: Document) -> None:
+    def __init__(self, project: Project, document: Document, *, has_arms: bool = False) -> None:
         self.document = document
         self.at: dict[str, _Location] = {
             body.id: ("bodies", index, "foot") for index, body in enumerate(project.scene.bodies)
         }
         self._scene = project.scene
         self._workpiece = project.scene.workpiece.id
+        self._has_arms = has_arms
         self.at[self._workpiece] = ("workpiece", "at")
         self.at |= {one.workpiece.id: ("workpieces", index, "at") for index, one in enumerate(project.scene.others)}
 
@@ -76,7 +78,9 @@ class ScenePlaces:
             return _Said(message, hint, location, Severity.INFO if grippers else Severity.ERROR)
         if kind is SceneProblemKind.HOME_COLLISION:
             second, deep = self._named(problem.second), _millimetres(problem)
-            message = f"at its home the robot is in collision: {problem.first} with {second}, {deep} deep"
+            message = (
+                f"at its home the robot{_of(grippers)} is in collision: {problem.first} with {second}, {deep} deep"
+            )
             return _Said(message, "change 'home' in the robot's file, or move the body or the robot's base", location)
         if kind in (SceneProblemKind.OVERLAP, SceneProblemKind.INSIDE):
             return self._overlap(problem, is_inside=kind is SceneProblemKind.INSIDE)
@@ -95,9 +99,9 @@ class ScenePlaces:
         message = f"no configuration of the arm{_of(grippers)} serves {problem.waypoint}: {problem.reason}{other}"
         location = self._place_of(first, second=problem.second) if problem.is_at_place else self.at[first]
         of_hand = first in pair and not any(body in self.at for body in pair if body != first)
-        if grippers and of_hand and serves:
-            # The object does not fit between its fingers, but does between another's: a result, not a mistake.
-            return _Said(message, OF_ONE_GRIPPER, location, Severity.INFO)
+        if grippers and serves and (of_hand or self._has_arms):
+            # Another hand takes the object, or another arm reaches it: a result, not a mistake.
+            return _Said(message, OF_ONE_GRIPPER if of_hand else OF_ONE_ARM, location, Severity.INFO)
         return _Said(message, remedy(problem), location)
 
     def _no_grasp(self, problem: SceneProblem, grippers: Sequence[str], *, serves: bool, room: str) -> _Said:
@@ -106,6 +110,8 @@ class ScenePlaces:
         message, hint = no_grasp_texts(problem, _of(grippers), room)
         if grippers and serves and (room or problem.reason is None):
             return _Said(message, OF_ONE_GRIPPER, location, Severity.INFO)
+        if grippers and serves and self._has_arms:
+            return _Said(message, OF_ONE_ARM, location, Severity.INFO)
         return _Said(message, hint, location)
 
     def _overlap(self, problem: SceneProblem, *, is_inside: bool) -> _Said:

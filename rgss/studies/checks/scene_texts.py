@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 OF_ONE_GRIPPER = "designs with this gripper fail there, and the others do not"
 """Hint of a finding that some grippers of the designs do not have."""
 
+OF_ONE_ARM = "designs with this arm fail there, and those with another do not"
+"""Hint of a finding that some arms of the designs do not have."""
+
 
 def closing_texts(problem: SceneProblem, grippers: Sequence[str]) -> tuple[str, str]:
     """Message and hint of a link that meets an object before the pads do."""

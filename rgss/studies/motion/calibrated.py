@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from rgss.designs import DesignSpace, written_values
 from rgss.documents import Document
@@ -16,7 +16,12 @@ _MODE = "control.mode"
 
 
 def motion_findings(
-    motion: MotionChoice, rate_hz: float, document: Document, designs: DesignSpace, space: Document, robot: Robot
+    motion: MotionChoice,
+    rate_hz: float,
+    document: Document,
+    designs: DesignSpace,
+    space: Document,
+    robots: Sequence[Robot],
 ) -> Iterator[Finding]:
     """Find joints that the robot does not have, and what keeps the calibrated control from being run.
 
@@ -26,12 +31,20 @@ def motion_findings(
         document: The study's file, for positions.
         designs: The design space, whose parameters may choose the control.
         space: Its file, for positions.
-        robot: The robot with its calibration.
+        robots: The arms of the designs with their calibrations.
     """
-    yield from joint_name_findings(motion, document, robot)
+    yield from joint_name_findings(motion, document, robots)
     chosen = calibrated_at(motion, document, designs, space)
     if chosen is None:
         return
+    for robot in robots:
+        yield from _calibration_findings(motion, rate_hz, chosen, robot)
+
+
+def _calibration_findings(
+    motion: MotionChoice, rate_hz: float, chosen: tuple[Document, _Location], robot: Robot
+) -> Iterator[Finding]:
+    """What keeps the calibrated control of one robot from being run."""
     where, place = chosen
     calibration = robot.calibration
     if calibration is None:

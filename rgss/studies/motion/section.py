@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -124,15 +124,15 @@ def read_motion(
     return choice
 
 
-def joint_name_findings(study: MotionChoice, document: Document, robot: Robot) -> Iterator[Finding]:
-    """Find joints that the study names and the robot does not have.
+def joint_name_findings(study: MotionChoice, document: Document, robots: Sequence[Robot]) -> Iterator[Finding]:
+    """Find joints that the study names and no robot has.
 
     Args:
         study: The study's timing and control.
         document: The study's file, for positions.
-        robot: The robot.
+        robots: The arms of the designs.
     """
-    known = [joint.name for joint in robot.joints]
+    known = list(dict.fromkeys(joint.name for robot in robots for joint in robot.joints))
     named = (
         *((("timing", "joint_speeds", name), name) for name, _ in study.timing.joint_speeds_rad_s),
         *((("timing", "joint_accelerations", name), name) for name, _ in study.timing.joint_accelerations_rad_s2),
@@ -140,7 +140,7 @@ def joint_name_findings(study: MotionChoice, document: Document, robot: Robot) -
     )
     for place, name in named:
         if name not in known:
-            message = f"the robot has no joint {shown(name)}"
+            message = f"{'the robot has no' if len(robots) == 1 else 'no robot has a'} joint {shown(name)}"
             yield document.finding("study.joint", message, place, hint=f"joints: {', '.join(known)}")
 
 

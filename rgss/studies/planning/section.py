@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
@@ -96,15 +96,17 @@ def read_planning(
     )
 
 
-def resolution_findings(planning: PlanningChoice, robot: Robot, document: Document) -> Iterator[Finding]:
+def resolution_findings(planning: PlanningChoice, robots: Iterable[Robot], document: Document) -> Iterator[Finding]:
     """A finding for a resolution at which a search would check nothing between two configurations.
 
     Args:
         planning: The section.
-        robot: The arm.
+        robots: The arms of the designs.
         document: The study's file, for positions.
     """
-    extent_rad = math.sqrt(math.fsum((joint.upper_rad - joint.lower_rad) ** 2 for joint in robot.joints))
+    extent_rad = min(
+        math.sqrt(math.fsum((joint.upper_rad - joint.lower_rad) ** 2 for joint in robot.joints)) for robot in robots
+    )
     resolution_rad = planning.settings.resolution_rad
     if resolution_rad >= extent_rad:
         message = (

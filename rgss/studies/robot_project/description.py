@@ -29,15 +29,20 @@ _NOTES = frozenset({"robot.open-mesh", "robot.concave-mesh"})
 
 
 def robot_findings(project: Project) -> tuple[Finding, ...]:
-    """Findings on the description of a project's robot, and on its calibration."""
+    """Findings on the descriptions of the arms of a project's designs, and on their calibrations."""
     scene = PurePosixPath(project.study.scene)
-    robot = scene.parent / read_document(project.folder / scene, label=str(scene)).data["robot"]["description"]
-    data = read_document(project.folder / robot, label=str(robot)).data
-    urdf = robot.parent / data["description"]
-    path = project.folder / urdf
-    found = description_findings(project.scene.robot, path, str(urdf), assumed=assumed_subjects(data))
-    moving = (*weak_joint_findings(project.scene.robot, path, str(urdf)), *_misfit_findings(project))
-    return (*found, *unchecked_pairs(project.scene.robot, path, str(urdf)), *moving)
+    own = scene.parent / read_document(project.folder / scene, label=str(scene)).data["robot"]["description"]
+    found: dict[Finding, None] = {}
+    for arm, with_arm in project.by_arm().items():
+        robot, place = with_arm.scene.robot, PurePosixPath(arm) if arm else own
+        data = read_document(project.folder / place, label=str(place)).data
+        urdf = place.parent / data["description"]
+        path = project.folder / urdf
+        found |= dict.fromkeys(description_findings(robot, path, str(urdf), assumed=assumed_subjects(data)))
+        found |= dict.fromkeys(weak_joint_findings(robot, path, str(urdf)))
+        found |= dict.fromkeys(_misfit_findings(with_arm))
+        found |= dict.fromkeys(unchecked_pairs(robot, path, str(urdf)))
+    return tuple(found)
 
 
 def _misfit_findings(project: Project) -> Iterator[Finding]:

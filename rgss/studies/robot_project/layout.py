@@ -82,6 +82,7 @@ _PEDESTAL = """\
     foot: [0 m, 0 m, 0 m]
     friction: 0.6
     colour: "#4a4f57"
+    moves_with_robot: true # where designs set robot.base.x, y, z or yaw
 """
 _CARRIED = """\
   - about: robot.base

@@ -14,8 +14,12 @@ from rgss.tasks.stages import stages_of
 from rgss.tasks.steps import CheckStep, HandAction, Mention, MoveStep, Named, Target
 
 
-def task_findings(loaded: LoadedTask, scene: Scene) -> tuple[Finding, ...]:
-    """Findings about a task in a scene."""
+def task_findings(loaded: LoadedTask, *scenes: Scene) -> tuple[Finding, ...]:
+    """Findings about a task in a scene, with each arm that carries it out."""
+    return tuple(sorted({finding for scene in scenes for finding in _in_scene(loaded, scene)}))
+
+
+def _in_scene(loaded: LoadedTask, scene: Scene) -> list[Finding]:
     found: list[Finding] = []
     start = loaded.program.start
     if start is not None:
@@ -28,7 +32,7 @@ def task_findings(loaded: LoadedTask, scene: Scene) -> tuple[Finding, ...]:
     found += _of_held(loaded, scene)
     found += _of_chosen_grasps(loaded, scene)
     found += _of_held_frames(loaded, scene)
-    return tuple(sorted(set(found)))
+    return found
 
 
 def _of_held(loaded: LoadedTask, scene: Scene) -> Iterator[Finding]:
@@ -103,12 +107,13 @@ def _of_joints(loaded: LoadedTask, scene: Scene, target: Target) -> Iterator[Fin
         return
     place = ("configurations", target.name)
     if len(angles) != len(joints):
-        message = f"configuration {target.name!r} has {counted(len(angles), 'joint')}, the robot has {len(joints)}"
+        has = f"has {counted(len(angles), 'joint')}, the robot {scene.robot.id} has {len(joints)}"
+        message = f"configuration {target.name!r} {has}"
         hint = f"joints: {', '.join(joint.name for joint in joints)}"
         yield loaded.document.finding("task.joints", message, place, hint=hint)
         return
     for index, (angle, joint) in enumerate(zip(angles, joints, strict=True)):
         if not joint.lower_rad <= angle <= joint.upper_rad:
-            message = f"{joint.name} is at {angle:.4g}, outside its range"
+            message = f"{joint.name} of {scene.robot.id} is at {angle:.4g}, outside its range"
             hint = f"from {joint.lower_rad:.4g} to {joint.upper_rad:.4g}"
             yield loaded.document.finding("task.joint-range", message, (*place, index), hint=hint)
