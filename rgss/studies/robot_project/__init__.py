@@ -1,4 +1,4 @@
-"""A new project round an arm of which there is a URDF."""
+"""Arms of which there is a URDF: new projects round them, and their robot files."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.studies.robot_project.adding import add_robot
     from rgss.studies.robot_project.description import robot_findings
     from rgss.studies.robot_project.summary import RobotSummary, robot_summary
     from rgss.studies.robot_project.writing import write_robot_project
