@@ -64,6 +64,6 @@ if TYPE_CHECKING:
         without_clock,
     )
     from rgss.documents.steering import escaped_for_json, escaped_for_xml, has_control_characters
-    from rgss.documents.validation import LoadedDocument, load_document, validated
+    from rgss.documents.validation import LoadedDocument, load_document, typed_document, validated
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import codecs
 import stat
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -37,12 +37,14 @@ class Document:
         changed.
         values: Position (line, column; from 1) of the value at each location.
         keys: Position of the key at each location within a mapping.
+        text: The text that all of this was read from, without a byte order mark.
     """
 
     label: str
-    data: Any
-    values: Mapping[Location, Position]
-    keys: Mapping[Location, Position]
+    data: Any = field(compare=False)
+    values: Mapping[Location, Position] = field(compare=False)
+    keys: Mapping[Location, Position] = field(compare=False)
+    text: str = field(default="", repr=False)
 
     def nearest(self, location: Sequence[str | int]) -> Location:
         """Nearest enclosing location that exists in this document."""
@@ -105,6 +107,7 @@ def _document(text: str, name: str) -> Document:
         data=data,
         values=ValuePositions(places, composer.end),
         keys=KeyPositions(places, composer.end),
+        text=text,
     )
 
 

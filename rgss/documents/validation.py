@@ -55,7 +55,19 @@ def load_document(path: Path, model: type[Model], *, label: str | None = None) -
     Raises:
         DocumentError: The file does not satisfy the model; with every problem in it.
     """
-    document = read_document(path, label=label)
+    return typed_document(read_document(path, label=label), model)
+
+
+def typed_document(document: Document, model: type[Model]) -> LoadedDocument[Model]:
+    """A document that was read, as a typed model.
+
+    Args:
+        document: The document.
+        model: Type of the file.
+
+    Raises:
+        DocumentError: The file does not satisfy the model; with every problem in it.
+    """
     try:
         value = model.model_validate_json(json.dumps(document.data))
     except ValidationError as error:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 
-from rgss.documents import LoadedDocument, load_document
+from rgss.documents import Document, LoadedDocument, read_document, typed_document
 from rgss.errors import DocumentError, QuantityError
 from rgss.findings import Finding
 from rgss.measures.consistency import check_entries, check_roles
@@ -27,6 +28,9 @@ from rgss.measures.ratios import QUOTIENT
 from rgss.measures.readings import with_readings
 from rgss.quantities import conversion_factor, dimension, parse_quantity
 
+_SETS_KEPT = 16
+_UNITS_KEPT = 512
+
 Bounds = tuple["float | None", "float | None"]
 
 
@@ -40,64 +44,71 @@ def load_measures(path: Path, *, label: str | None = None) -> MeasureSet:
     Raises:
         DocumentError: The file is not a consistent set of measures; with every problem in it.
     """
-    loaded = load_document(path, MeasuresDocument, label=label)
-    built = build_measures(loaded, path.read_text(encoding="utf-8-sig").splitlines())
+    return _measures_of(read_document(path, label=label))
+
+
+@lru_cache(maxsize=_SETS_KEPT)
+def _measures_of(document: Document) -> MeasureSet:
+    """Measures of a document; the studies of one project share them, and a verb may read several."""
+    loaded = typed_document(document, MeasuresDocument)
+    lines = document.text.splitlines()
+    built = _Builder(loaded, lines).build()
+    if isinstance(built, MeasureSet):
+        built = with_readings(built, loaded, lambda other: _Builder(other, lines).findings_of_definitions())
     if isinstance(built, MeasureSet):
         return built
     raise DocumentError(sorted(built))
 
 
-def build_measures(loaded: LoadedDocument[MeasuresDocument], lines: Sequence[str]) -> MeasureSet | list[Finding]:
-    """Build the set of measures.
-
-    Args:
-        loaded: The file's entries with their positions.
-        lines: The file's lines, to point into expressions.
-
-    Returns:
-        The measures, or every problem of the file.
-    """
-    built = _Builder(loaded, lines).build()
-    if isinstance(built, list):
-        return built
-    return with_readings(built, loaded, lambda changed: _Builder(changed, lines).build())
-
-
 class _Builder:
     def __init__(self, loaded: LoadedDocument[MeasuresDocument], lines: Sequence[str]) -> None:
+        self._loaded = loaded
         self._document = loaded.document
         self._entries = loaded.value
         self._lines = lines
         self._indices: dict[str, int] = {}
         for index, entry in enumerate(loaded.value.measures):
             self._indices.setdefault(entry.id, index)
-        self._findings: list[Finding] = check_entries(loaded)
+        self._findings: list[Finding] = []
 
     def build(self) -> MeasureSet | list[Finding]:
+        """The set of measures, or every problem of the entries."""
+        self._findings += check_entries(self._loaded)
+        make = self._checked()
+        return self._findings or make()
+
+    def findings_of_definitions(self) -> list[Finding]:
+        """Problems of expressions, units and estimates, all that another definition of a measure can cause."""
+        self._checked()
+        return self._findings
+
+    def _checked(self) -> Callable[[], MeasureSet]:
+        """Collect the problems of the entries; what is returned makes the set of measures if there are none."""
         entries = self._entries
         values = [self._constant_value(index) for index in range(len(entries.constants))]
         expressions = self._expressions()
         self._check_symbols(expressions)
         order, used = self._order(expressions)
         lengths = self._check_kinds(expressions, order)
-        by_trial = {name: known for name in order if (known := self._differs(used[name], {*order})) is not None}
         bounds = {name: self._bounds(index) for name, index in self._indices.items()}
-        self._findings += check_roles(self._document, entries, used, by_trial, lengths)
-        if self._findings:
-            return self._findings
-        measures = {
-            name: _measure(entries.measures[self._indices[name]], expressions[name], lengths[name], bounds[name])
-            for name in order
-        }
-        return MeasureSet(
-            constants=tuple(_constant(entry, value) for entry, value in zip(entries.constants, values, strict=True)),
-            inputs=entries.inputs,
-            assumptions=entries.assumptions,
-            equations=entries.equations,
-            measures=tuple(measures[entry.id] for entry in entries.measures),
-            evaluation_order=tuple(measures[name] for name in order),
-            used=used,
-        )
+        self._findings += check_roles(self._document, entries, used, self._by_trial(order, used), lengths)
+
+        def make() -> MeasureSet:
+            measures = {
+                name: _measure(entries.measures[self._indices[name]], expressions[name], lengths[name], bounds[name])
+                for name in order
+            }
+            return MeasureSet(
+                constants=tuple(map(_constant, entries.constants, values)),
+                inputs=entries.inputs,
+                assumptions=entries.assumptions,
+                equations=entries.equations,
+                measures=tuple(measures[entry.id] for entry in entries.measures),
+                evaluation_order=tuple(measures[name] for name in order),
+                used=used,
+            )
+
+        return make
 
     def _order(self, expressions: dict[str, Expression]) -> tuple[tuple[str, ...], Mapping[str, frozenset[str]]]:
         uses = {name: [other for other in one.names if other in expressions] for name, one in expressions.items()}
@@ -107,13 +118,16 @@ class _Builder:
             self._report(cycle[0], "measures.cycle", message, hint="remove one of these dependencies")
         return order, transitive_use({name: one.names for name, one in expressions.items()}, order)
 
-    def _differs(self, used: frozenset[str], sound: set[str]) -> bool | None:
-        """True if a measure of these symbols varies from trial to trial; None if unknown."""
+    def _by_trial(self, order: Sequence[str], used: Mapping[str, frozenset[str]]) -> dict[str, bool]:
+        """Whether each measure varies from trial to trial, where that is known."""
         inputs = {entry.id: entry.source.startswith("trial.") for entry in self._entries.inputs}
-        if any(inputs.get(name, False) for name in used):
-            return True
-        sound_symbols = {*inputs, *sound, *(entry.id for entry in self._entries.constants)}
-        return False if used <= sound_symbols else None
+        from_trials = {name for name, is_from_trials in inputs.items() if is_from_trials}
+        sound = {*inputs, *order, *(entry.id for entry in self._entries.constants)}
+        return {
+            name: not used[name].isdisjoint(from_trials)
+            for name in order
+            if not used[name].isdisjoint(from_trials) or used[name] <= sound
+        }
 
     def _constant_value(self, index: int) -> float:
         entry = self._entries.constants[index]
@@ -271,5 +285,6 @@ def _measure(entry: MeasureEntry, expression: Expression, length: int | None, bo
     )
 
 
+@lru_cache(maxsize=_UNITS_KEPT)
 def _si_per_unit(unit: str) -> float:
     return conversion_factor(unit, si_unit(dimension(unit)))

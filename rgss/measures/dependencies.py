@@ -18,14 +18,17 @@ def evaluation_order(uses: Mapping[str, Iterable[str]]) -> tuple[tuple[str, ...]
     """
     left = {node: tuple(used) for node, used in uses.items()}
     cycles: list[tuple[str, ...]] = []
-    while cycle := _cycle(left):
+    while cycle := _cycle(sorter := TopologicalSorter(left)):
         cycles.append(_from_first(cycle, tuple(uses)))
         left = {
             node: tuple(other for other in used if other not in cycle)
             for node, used in left.items()
             if node not in cycle
         }
-    order = TopologicalSorter(left).static_order()
+    order: list[str] = []
+    while ready := sorter.get_ready():
+        order += ready
+        sorter.done(*ready)
     return tuple(order), tuple(cycles)
 
 
@@ -43,9 +46,10 @@ def transitive_use(uses: Mapping[str, Iterable[str]], order: Iterable[str]) -> M
     return reached
 
 
-def _cycle(uses: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
+def _cycle(sorter: TopologicalSorter[str]) -> tuple[str, ...]:
+    """A cycle; empty if there is none, and the sorter is ready to give the order."""
     try:
-        TopologicalSorter(uses).prepare()
+        sorter.prepare()
     except CycleError as error:
         # graphlib's cycle goes from the used node to the using one.
         return tuple(reversed(error.args[1]))

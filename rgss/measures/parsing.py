@@ -6,6 +6,7 @@ import ast
 import difflib
 import math
 import re
+from functools import lru_cache
 
 from rgss.errors import QuantityError
 from rgss.measures.expressions import (
@@ -31,6 +32,7 @@ _NUMBER_LIKE = re.compile(r"(?<![\w.])\.?[0-9](?:[\w.]|(?<=[eE])[+-](?=[0-9]))*"
 _NUMBER = re.compile(r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _NUMBER_AND_NAME = re.compile(rf"(?<![\w.]){_NUMBER.pattern}\s+(?P<name>[A-Za-z]+)(?!\w)")
 _FEWEST_CHOICES = 2
+_KEPT = 512
 _ALLOWED = f"numbers, symbols, + - * / **, parentheses, and calls of {', '.join(FUNCTIONS)}"
 _TOO_DEEP = f"nested more than {DEEPEST_NESTING} deep"
 _SPLIT = "split it into several measures"
@@ -52,6 +54,7 @@ _REFUSED: tuple[tuple[type[ast.AST], str], ...] = (
 )
 
 
+@lru_cache(maxsize=_KEPT)
 def parse_expression(text: str) -> Expression | tuple[ExpressionProblem, ...]:
     """Parse an expression.
 

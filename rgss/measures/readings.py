@@ -15,28 +15,28 @@ from rgss.measures.expressions import Expression
 from rgss.measures.parsing import parse_expression
 from rgss.quantities import dimension
 
-Rebuild = Callable[[LoadedDocument[MeasuresDocument]], "MeasureSet | list[Finding]"]
+FindingsOf = Callable[[LoadedDocument[MeasuresDocument]], Sequence[Finding]]
 
 _NOT_ASKED = "measures.contribution"
 """Rules that do not apply to alternatives, which may omit contributing measures."""
 
 
 def with_readings(
-    measures: MeasureSet, loaded: LoadedDocument[MeasuresDocument], rebuild: Rebuild
+    measures: MeasureSet, loaded: LoadedDocument[MeasuresDocument], findings_of: FindingsOf
 ) -> MeasureSet | list[Finding]:
     """Measures with their alternatives and simulated counterparts, or every problem of these.
 
     Args:
         measures: The consistent measures.
         loaded: The file's entries with their positions.
-        rebuild: Function that builds measures from entries; each alternative is checked as if it were in the file.
+        findings_of: Function that finds the problems of definitions; each alternative is checked as if in the file.
     """
     findings: list[Finding] = []
     found: dict[str, Measure] = {}
     for index, entry in enumerate(loaded.value.measures):
         findings += _twin_findings(measures, loaded, index, entry)
         parsed = [_expression(entry, one) for one in entry.alternatives]
-        findings += _alternative_findings(measures, loaded, index, parsed, rebuild)
+        findings += _alternative_findings(measures, loaded, index, parsed, findings_of)
         alternatives = tuple(
             Alternative(
                 id=one.id,
@@ -146,7 +146,7 @@ def _alternative_findings(
     loaded: LoadedDocument[MeasuresDocument],
     index: int,
     parsed: Sequence[Expression | None],
-    rebuild: Rebuild,
+    findings_of: FindingsOf,
 ) -> Iterator[Finding]:
     entry = loaded.value.measures[index]
     seen: set[str] = set()
@@ -161,8 +161,7 @@ def _alternative_findings(
             yield loaded.document.finding("measures.alternative", f"{name} changes nothing", location, hint=hint)
             continue
         key = "estimate" if alternative.expression is None else "expression"
-        built = rebuild(_read_as(measures, loaded, index, alternative, expression))
-        for problem in built if isinstance(built, list) else ():
+        for problem in findings_of(_read_as(measures, loaded, index, alternative, expression)):
             if problem.rule != _NOT_ASKED:
                 yield loaded.document.finding(problem.rule, f"{name}: {problem.message}", (*location, key))
 

@@ -303,3 +303,20 @@ def test_a_measure_needs_its_keys(load_entries: Loader, entry: Writer, findings_
 def test_a_file_needs_a_measure(load: Loader, findings_of: Finder) -> None:
     (finding,) = findings_of(load, "title: T\nmeasures: []\n")
     assert (finding.line, finding.rule) == (2, "document.value")
+
+
+def test_the_measures_of_one_text_are_those_that_were_built_of_it(load_entries: Loader, entry: Writer) -> None:
+    """Studies of one project share a file, and a file that has changed is built anew."""
+    first, again = (load_entries(entry("x", "m", "kg")) for _ in range(2))
+    other = load_entries(entry("x", "2 * m", "kg"))
+
+    assert again is first
+    assert other.measure("x").expression != first.measure("x").expression
+    assert load_entries(entry("x", "m", "kg")) is first
+
+
+def test_what_is_wrong_is_told_each_time(load_entries: Loader, entry: Writer, findings_of: Finder) -> None:
+    told = [findings_of(load_entries, entry("x", "m + time", "kg")) for _ in range(2)]
+
+    assert told[0]
+    assert told[1] == told[0]
