@@ -3,7 +3,7 @@
 #   make PYTHON=/path/to/python3.11 setup     chooses the Python; otherwise the first suitable one is taken
 
 .DEFAULT_GOAL := help
-.PHONY: help setup study check docs format fast test regress notebooks bench lock clean rebuild
+.PHONY: help setup study check docs format fast test regress notebooks bench lock clean rebuild types rules site style
 
 # Where Python is not to keep what it has compiled, each of the many processes of a test run compiles anew,
 # which takes half of its time.
@@ -19,16 +19,27 @@ study: setup ## check the project, run the whole study of designs/, and print th
 	@.venv/bin/rgss sweep
 	@.venv/bin/rgss trade
 
+# One process each, the longest first, on every core; what each of them says stays together.
 check: setup ## format, lint, types, layers, rules of the repository, documentation
-	@.venv/bin/ruff format --check --quiet .
-	@.venv/bin/ruff check --quiet .
+	@$(MAKE) --no-print-directory --output-sync --keep-going --jobs=$$(nproc) types rules site style
+
+types rules site style: setup
+
+types:
 	@.venv/bin/mypy
-	@.venv/bin/lint-imports --no-logo --no-cache
+
+rules:
 	@.venv/bin/pytest --quiet tests/repository
+
+site:
 	@$(build_docs)
 
-docs: setup ## build the documentation site in build/site; warnings are errors
-	@$(build_docs)
+style:
+	@.venv/bin/ruff format --check --quiet .
+	@.venv/bin/ruff check --quiet .
+	@.venv/bin/lint-imports --no-logo --no-cache
+
+docs: site ## build the documentation site in build/site; warnings are errors
 	@echo "Open build/site/index.html."
 
 format: setup ## format the code and apply the linter's fixes
@@ -38,8 +49,10 @@ format: setup ## format the code and apply the linter's fixes
 fast: setup ## run the tests that need no engine and take no time, in half a minute
 	@.venv/bin/python -m tests.in_shares --quiet --durations=10 --durations-min=0.3 -m "not engine and not browser and not slow"
 
+# EXCEPT=tests/repository leaves out what `make check` has run.
 test: setup ## run the whole test suite, on every core
-	@.venv/bin/pytest --quiet --numprocesses=auto --dist=loadfile --no-loadscope-reorder --junitxml=.rgss/junit.xml
+	@.venv/bin/pytest --quiet --numprocesses=auto --dist=loadfile --no-loadscope-reorder $(EXCEPT:%=--ignore=%) \
+		--junitxml=.rgss/junit.xml
 
 regress: setup ## compare metrics and the decision of a small part of the study with the baseline
 	@.venv/bin/rgss regress --junit .rgss/regress.xml

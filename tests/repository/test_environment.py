@@ -102,7 +102,23 @@ def test_one_line_says_which_python_is_needed(make, tmp_path, says, found):
 
 def test_the_script_of_the_build_machine_checks_and_tests(repository):
     script = repository / ".ci" / "run"
+    *_, check, test, regress = script.read_text(encoding="utf-8").splitlines()
 
     assert os.access(script, os.X_OK)
     assert subprocess.run(["bash", "-n", script], check=False).returncode == 0
-    assert script.read_text(encoding="utf-8").splitlines()[-3:] == ["make check", "make test", "make regress"]
+    assert [line.partition("  #")[0] for line in (check, test, regress)] == [
+        "make check",
+        "make test EXCEPT=tests/repository",
+        "make regress",
+    ]
+
+
+def test_only_what_the_check_has_run_is_left_out(make):
+    check, whole, rest = (
+        make("-n", *words).stdout for words in (["check"], ["test"], ["test", "EXCEPT=tests/a tests/b"])
+    )
+
+    assert "pytest --quiet tests/repository\n" in check
+    assert all(each in check for each in ("/mypy\n", "/mkdocs build --strict", "/ruff check", "/lint-imports"))
+    assert "--ignore" not in whole
+    assert re.findall(r"--ignore=\S+", rest) == ["--ignore=tests/a", "--ignore=tests/b"]
