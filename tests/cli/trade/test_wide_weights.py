@@ -21,12 +21,12 @@ VALUES = {
 
 
 @pytest.fixture(scope="module")
-def wide(with_evidence, tmp_path_factory):
-    """A function that gives the shipped study with eight bounded weights, decided by a program."""
+def wide(tmp_path_factory):
+    """A function that gives a copy of a project with eight bounded weights, decided by a program."""
 
-    def make(program):
+    def make(project, program):
         folder = tmp_path_factory.mktemp(program) / "project"
-        shutil.copytree(with_evidence, folder)
+        shutil.copytree(project, folder)
         study = folder / "studies" / "pick_place.yaml"
         lines = "".join(
             f"    - {{measure: {measure}, weight: 0.125, weight_between: [0.05, 0.4], worst: {worst}, best: {best}}}\n"
@@ -44,8 +44,8 @@ def wide(with_evidence, tmp_path_factory):
 
 
 @pytest.mark.parametrize("program", ["additive", "minimax_regret"])
-def test_every_part_of_the_page_is_there(rgss, wide, program):
-    folder = wide(program)
+def test_every_part_of_the_page_is_there(rgss, wide, with_evidence, program):
+    folder = wide(with_evidence, program)
     told = rgss("trade", "--project", folder)
     assert (told.status, told.errors) == (0, "")
     assert "not computed" not in told.output.lower()
@@ -62,8 +62,8 @@ def test_every_part_of_the_page_is_there(rgss, wide, program):
             assert part in told.output
 
 
-def test_every_weight_of_the_page_can_be_supposed(rgss, wide):
-    folder = wide("additive")
+def test_every_weight_of_the_page_can_be_supposed(rgss, wide, with_little_evidence):
+    folder = wide(with_little_evidence, "additive")
     for measure in VALUES:
         told = rgss("trade", "--brief", "--project", folder, "--what-if", f"weight.{measure}=0.13")
         assert (told.status, told.errors) == (0, "")

@@ -153,10 +153,12 @@ RANGES = (
         "value.S.worst=0.7",
     ],
 )
-def test_under_a_supposition_each_end_is_the_decision_under_both(analysed, measured, supposed):
+def test_under_a_supposition_each_end_is_the_decision_under_both(
+    analysed, measured, shipped, read_trade_off_of, supposed
+):
     """Of the same input, its value there takes the place of the supposed one; a stated range reaches to that one."""
     _, decision, found = analysed(RANGES, supposed=[supposed])
-    study = analysed(RANGES)[0]
+    study = replace(shipped, study=read_trade_off_of(*CHOICE, RANGES))
     input_, _, value = supposed.partition("=")
     for bar in found.tornado.bars:
         if bar.id == input_:

@@ -6,6 +6,7 @@ import pytest
 
 import rgss.trials
 from rgss.findings import Severity
+from rgss.studies import scene_findings
 from rgss.studies.project import load_project
 from rgss.studies.scene_findings import check_scene
 from rgss.trials import SceneProblem, SceneProblemKind
@@ -20,6 +21,12 @@ def searched(monkeypatch):
     for name in ("hand_step_problems", "reach_problems"):
         monkeypatch.setattr(rgss.trials, name, lambda *_, name=name, **__: called.append(name) or ())
     return called
+
+
+@pytest.fixture
+def unloaded(monkeypatch):
+    """Loads of what is held, which are those of grasps that are searched anew, are no part of a check."""
+    monkeypatch.setattr(scene_findings, "held_load_findings", lambda *_: ())
 
 
 @pytest.fixture
@@ -49,12 +56,14 @@ def test_a_stated_grasp_is_checked_all_the_same(at, searched):
     assert found.skipped == ""
 
 
+@pytest.mark.usefixtures("unloaded")
 def test_grasps_are_searched_in_a_sound_scene(folder, edit, searched):
     edit(SCENE, "\ntask:\n", "\ntask:\n  grasp: automatic\n")
     assert check_scene(load_project(folder)).skipped == ""
     assert set(searched) == {"hand_step_problems", "reach_problems"}
 
 
+@pytest.mark.usefixtures("unloaded")
 @pytest.mark.parametrize(("fingers", "severity"), [({2}, Severity.INFO), ({2, 3}, Severity.ERROR)])
 def test_a_hand_of_some_designs_that_no_candidate_fits_is_a_result(folder, edit, monkeypatch, fingers, severity):
     def problems(scene, geometry, **_):
@@ -69,6 +78,7 @@ def test_a_hand_of_some_designs_that_no_candidate_fits_is_a_result(folder, edit,
     assert ("designs with this gripper fail there" in found[0].hint) is (severity is Severity.INFO)
 
 
+@pytest.mark.usefixtures("unloaded")
 def test_the_checked_mounting_is_the_one_that_has_grasp_candidates(folder, edit, monkeypatch):
     seen = {}
     monkeypatch.setattr(rgss.trials, "hand_step_problems", lambda *_, **__: ())
@@ -85,6 +95,7 @@ def test_the_checked_mounting_is_the_one_that_has_grasp_candidates(folder, edit,
     assert seen["kg-2"] == "reverse"
 
 
+@pytest.mark.usefixtures("unloaded")
 def test_candidates_without_room_for_the_clearance_are_explained(folder, edit, monkeypatch):
     none = SceneProblem(kind=SceneProblemKind.NO_GRASP, first="cup", detail="collision or clearance: 8")
     monkeypatch.setattr(rgss.trials, "hand_step_problems", lambda *_, **__: ())
