@@ -72,6 +72,7 @@ def test_a_hand_of_some_designs_that_no_candidate_fits_is_a_result(folder, edit,
 
     monkeypatch.setattr(rgss.trials, "hand_step_problems", lambda *_, **__: ())
     monkeypatch.setattr(rgss.trials, "reach_problems", problems)
+    monkeypatch.setattr(scene_findings, "lack_of_room", lambda *_: "")
     edit(SCENE, "\ntask:\n", "\ntask:\n  grasp: automatic\n")
     found = [one for one in check_scene(load_project(folder)).findings if one.rule == "scene.no-grasp"]
     assert {one.severity for one in found} == {severity}
