@@ -7,7 +7,7 @@ import warnings
 import zipfile
 import zlib
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -91,7 +91,7 @@ def read_excel(path: Path, foreign: ForeignTable | None = None) -> Content:
             # openpyxl warns of unknown formatting, which is not read here.
             warnings.simplefilter("ignore")
             workbook = load_workbook(io.BytesIO(content), read_only=True, rich_text=True)
-            sheets = _sheets(file, workbook.sheetnames, is_foreign=foreign is not None)
+            sheets = _sheets(file, workbook, is_foreign=foreign is not None)
             for name, part in sheets.items():
                 sheet = SheetReader(workbook, name)
                 found = list(_rows(read, sheet, name, part))
@@ -121,16 +121,20 @@ class _Reading:
     heads: list[Heads] = field(default_factory=list)
 
 
-def _sheets(file: str, names: Sequence[str], *, is_foreign: bool) -> Mapping[str, Part | None]:
+def _sheets(file: str, workbook: Any, *, is_foreign: bool) -> Mapping[str, Part | None]:
     """The sheets to read, with the part of their elements; None if a column or the project states it.
+
+    Of a workbook of another tool this is the first sheet with cells that is not hidden.
 
     Raises:
         DocumentError: A sheet is missing.
     """
+    names = workbook.sheetnames
     own: dict[str, Part | None] = {part.value: part for part in PARTS if part.value in names}
     missing = [part.value for part in PARTS if part.value not in own]
     if is_foreign and names:
-        return own or {names[0]: None}
+        shown_sheets = [sheet.title for sheet in workbook.worksheets if sheet.sheet_state == "visible"]
+        return own or {(shown_sheets or names)[0]: None}
     if missing:
         message = f"there is no sheet {' and no sheet '.join(map(repr, missing))}"
         raise DocumentError([problem(file, "sheet", message, hint=f"sheets: {', '.join(names)}")])
@@ -165,16 +169,19 @@ def _rows(read: _Reading, sheet: SheetReader, name: str, part: Part | None) -> I
     wanted = columns_of_both() if part is None else columns_of(part)
     columns: Mapping[str, int] | None = None
     numbers: list[int] = []
+    count = 0
     for number, cells in sheet.rows():
-        if number > MOST_ROWS + 1:
-            read.findings.append(problem(file, "size", f"{where}more than {MOST_ROWS} rows", line=number))
-            return
         # A row that the file omits is empty; the first one has the names of the columns, in whatever formatting.
         if columns is None:
             read.heads.append(found_heads(file, _heads(cells) if number == 1 else [], wanted, read.names, where=where))
             columns = read.heads[-1].columns
         if number > 1:
-            yield from _row(read, cells, where, Row(part=part, cells={}, line=number, columns=columns))
+            for row in _row(read, cells, where, Row(part=part, cells={}, line=number, columns=columns)):
+                count += 1
+                if count > MOST_ROWS:
+                    read.findings.append(problem(file, "size", f"{where}more than {MOST_ROWS} rows", line=number))
+                    return
+                yield row
             numbers.append(number)
     if columns is None:
         columns = found_heads(file, [], wanted, read.names, where=where).columns

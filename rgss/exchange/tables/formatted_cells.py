@@ -13,10 +13,11 @@ from itertools import groupby
 from typing import Any
 
 from rgss.exchange.plain_forms import PlainText, omitted, shifted_text
+from rgss.exchange.tables.number_formats import number_text
 
 _ESCAPED = re.compile("_x(?![dD][89a-fA-F])([0-9a-fA-F]{4})_")
 # The x and not the underline before it: openpyxl removes each "x005F_" that it reads.
-_TO_ESCAPE = re.compile("\r|x(?=005F_)|(?<=_)x(?=[0-9a-fA-F]{4}_)")
+_TO_ESCAPE = re.compile("[\r\ufdd0-\ufdef\ufffe\uffff]|x(?=005F_)|(?<=_)x(?=[0-9a-fA-F]{4}_)")
 
 
 def unescaped_text(text: str) -> str:
@@ -37,12 +38,14 @@ class FormattedCell:
         column: The number of its column.
         value: Its value; a list of formatted pieces if only parts of its text are formatted.
         kind: Its type, by the letter of openpyxl.
+        number_format: The format in which a number is shown, in the notation of Excel.
         is_struck: True if its style strikes it out.
     """
 
     column: int
     value: Any
     kind: str
+    number_format: str
     is_struck: bool
 
     def text(self) -> PlainText:
@@ -51,7 +54,7 @@ class FormattedCell:
             return PlainText(text="", losses=())
         if isinstance(self.value, list):
             return self._text_of_pieces()
-        plain = str(self.value).lower() if isinstance(self.value, bool) else unescaped_text(str(self.value))
+        plain = self._plain()
         loss = omitted(plain) if self.is_struck else ""
         return PlainText(text="" if loss else plain, losses=(loss,) if loss else ())
 
@@ -59,6 +62,13 @@ class FormattedCell:
         """All of the text, as it is written."""
         value = self.value
         return "".join(map(str, value)) if isinstance(value, list) else "" if value is None else str(value)
+
+    def _plain(self) -> str:
+        if isinstance(self.value, bool):
+            return str(self.value).lower()
+        if isinstance(self.value, int | float):
+            return number_text(self.value, self.number_format)
+        return unescaped_text(str(self.value))
 
     def _text_of_pieces(self) -> PlainText:
         text, losses = "", []
@@ -91,8 +101,12 @@ class SheetReader:
             workbook: The workbook, of openpyxl, read only and with rich text.
             name: The name of the sheet.
         """
+        from openpyxl.styles.numbers import BUILTIN_FORMATS, BUILTIN_FORMATS_MAX_SIZE
+
         self._workbook, self._sheet = workbook, workbook[name]
         fonts, styles = workbook._fonts, workbook._cell_styles  # noqa: SLF001 - a cell's own ``font`` reads these
+        formats = dict(enumerate(workbook._number_formats, start=BUILTIN_FORMATS_MAX_SIZE)) | BUILTIN_FORMATS  # noqa: SLF001 - the same
+        self._formats = [formats.get(style.numFmtId, "General") for style in styles]
         self._struck = {
             number for number, style in enumerate(styles) if style.fontId < len(fonts) and fonts[style.fontId].strike
         }
@@ -125,5 +139,6 @@ class SheetReader:
             column=cell["column"],
             value=cell["value"],
             kind=cell["data_type"],
+            number_format=self._formats[cell["style_id"]],
             is_struck=cell["style_id"] in self._struck,
         )
