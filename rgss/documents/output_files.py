@@ -13,6 +13,7 @@ import shutil
 import stat
 import sys
 import tempfile
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -141,7 +142,8 @@ def why_not_writable(path: Path) -> str:
         if target.status is not None and not os.access(target.path, os.W_OK):
             return os.strerror(errno.EACCES)
         if not target.in_place:
-            _new_part(target.path).unlink()
+            with _new_part(target.path):
+                pass
     except (OSError, ValueError) as error:
         return getattr(error, "strerror", None) or str(error)
     _refuse_source(path, target)
@@ -218,8 +220,7 @@ def _swapped(target: _Target) -> Iterator[Path]:
     if target.status is not None and not os.access(target.path, os.W_OK):
         # A rename needs write access only to the folder, but the file itself is write-protected.
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
-    part = _new_part(target.path)
-    try:
+    with _new_part(target.path) as part:
         yield part
         with part.open("rb+") as file:
             os.fsync(file.fileno())
@@ -229,8 +230,6 @@ def _swapped(target: _Target) -> Iterator[Path]:
             _overwrite(target.path, part)
         else:
             part.replace(target.path)
-    finally:
-        part.unlink(missing_ok=True)
 
 
 def _made_alike(part: Path, old: Path, status: os.stat_result) -> bool:
@@ -281,13 +280,17 @@ def _streamed(target: _Target) -> Iterator[Path]:
                     shutil.copyfileobj(source, sink)
 
 
-def _new_part(path: Path) -> Path:
-    """New empty file in the same folder, since a rename is atomic only within a file system."""
-    for number in count():
-        part = path.with_name(_PART.format(process=os.getpid(), number=number))
-        try:
-            os.close(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
-        except FileExistsError:
-            continue
-        return part
-    raise AssertionError("unreachable")
+@contextmanager
+def _new_part(path: Path) -> Iterator[Path]:
+    """New empty file in the same folder, since a rename is atomic only within a file system; finally removed.
+
+    Its name is that of no other process or thread: it is removed even if an interruption comes before it is used.
+    """
+    me = f"{os.getpid()}-{threading.get_ident()}"
+    names = (path.with_name(_PART.format(process=me, number=number)) for number in count())
+    part = next(name for name in names if not os.path.lexists(name))
+    try:
+        os.close(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
+        yield part
+    finally:
+        part.unlink(missing_ok=True)

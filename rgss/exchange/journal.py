@@ -53,19 +53,19 @@ def journal_of(folder: Path, files: Mapping[str, tuple[bytes, bytes | None]]) ->
     entries = {name: [_coded(content) for content in contents] for name, contents in files.items()}
     try:
         path.parent.mkdir(exist_ok=True)
-        journal = path.open("xb")
-    except FileExistsError:
-        raise _in_the_way(folder) from None
-    except OSError as error:
-        raise unwritable(path, error) from error
-    try:
-        with journal:
+        with path.open("xb") as journal:
             journal.write(json.dumps(entries).encode("ascii"))
             journal.flush()
             os.fsync(journal.fileno())
-    except OSError as error:
-        _removed(path, with_folder=is_new)
-        raise unwritable(path, error) from error
+    except FileExistsError:
+        raise _in_the_way(folder) from None
+    except BaseException as error:
+        # Also an interruption: no file is replaced yet.
+        with suppress(OSError):
+            _removed(path, with_folder=is_new)
+        if isinstance(error, OSError):
+            raise unwritable(path, error) from error
+        raise
     try:
         yield
         _removed(path, with_folder=is_new)

@@ -48,6 +48,20 @@ def test_after_a_failure_the_old_file_is_as_it_was(tmp_path):
     assert [entry.name for entry in tmp_path.iterdir()] == ["a.png"]
 
 
+def test_an_interruption_as_the_new_file_is_created_leaves_nothing(tmp_path, monkeypatch):
+    """It comes once the file exists, and before anything knows of it."""
+    close = os.close
+
+    def interrupted(descriptor):
+        close(descriptor)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "close", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write_output(tmp_path / "report.html", b"new")
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_folder_that_is_gone_is_an_error_of_the_system(tmp_path):
     with pytest.raises(FileNotFoundError), replaced_file(tmp_path / "none" / "a.png"):
         pass

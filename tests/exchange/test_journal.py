@@ -82,6 +82,19 @@ def test_an_undone_import_leaves_no_temporary_file(killed):
     assert all(path.exists() for path in of_another)
 
 
+def test_an_interruption_while_the_journal_is_written_leaves_none(project, monkeypatch):
+    def interrupted(_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "fsync", interrupted)
+    with (
+        pytest.raises(KeyboardInterrupt),
+        journal_of(project.folder, {"requirements/system.yaml": (b"old", b"new")}),
+    ):
+        pytest.fail("no journal is complete")
+    assert not (project.folder / ".rgss").exists()
+
+
 def test_an_interruption_once_all_is_written_leaves_nothing_of_the_import(project, monkeypatch):
     rows = tuple(replace(row, cells={**row.cells, "owner": "somebody"}) for row in project.content.rows)
     files = project.plan(replace(project.content, rows=rows))
