@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 
 from rgss.errors import DefinitionError
@@ -34,7 +33,9 @@ from rgss.regression import (
     RegressionReport,
     Subject,
     changed_trials,
+    contradictions,
     decision_changes,
+    mean_of,
     origin_changes,
     paired_by_levels,
     powers,
@@ -100,6 +101,7 @@ class _Comparing:
         self._watched = watched_trials(project, guard)
         self._phases = project.study.task.phases
         self._seeds = {trials.run.id: 0 for trials in self._watched}
+        self._contradictions: dict[Subject, Failing] = {}
 
     def run(self, on_look: Callable[[int, int], None] | None, accepted: str) -> RegressionReport:
         failing = list(schema_failings(self._baseline, units_of(self._guard)))
@@ -123,6 +125,7 @@ class _Comparing:
             on_look=on_look,
         )
         latest = settled.comparisons
+        failing += self._contradictions.values()
         for trials in self._watched:
             for variant, seed in self._records.lost(trials, self._seeds[trials.run.id]):
                 text = f"run {trials.run.id}: the trial of variant {variant} with seed {seed} could not be run"
@@ -163,16 +166,16 @@ class _Comparing:
                 baseline = self._values(trials.run.id, metric.metric, phase)
                 if baseline is None:
                     continue
-                found.append(
-                    Candidate(
-                        subject=Subject(run=trials.run.id, metric=metric.metric, phase=phase),
-                        guard=metric.guard.for_baseline(_mean_of(baseline)),
-                        baseline=baseline,
-                        current=series_of(records, metric.metric, phase),
-                        seeds=seeds,
-                        identical=phase in same,
-                    )
+                candidate = Candidate(
+                    subject=Subject(run=trials.run.id, metric=metric.metric, phase=phase),
+                    guard=metric.guard.for_baseline(mean_of(baseline)),
+                    baseline=baseline,
+                    current=series_of(records, metric.metric, phase),
+                    seeds=seeds,
+                    identical=phase in same,
                 )
+                self._contradictions |= contradictions(candidate)
+                found.append(candidate)
         return found
 
     def _fingerprints(self, records: Mapping[int, Mapping[int, TrialRecord]]) -> dict[int, dict[int, str]]:
@@ -198,7 +201,7 @@ class _Comparing:
                     candidates.append(
                         Candidate(
                             subject=Subject(run=trials.run.id, metric=metric.metric, phase=phase),
-                            guard=metric.guard.for_baseline(_mean_of(values)),
+                            guard=metric.guard.for_baseline(mean_of(values)),
                             baseline=values,
                             current={},
                             seeds=(),
@@ -291,8 +294,3 @@ class _Comparing:
     def _order(self, subject: Subject) -> tuple[str, str, int]:
         place = self._phases.index(subject.phase) if subject.phase in self._phases else -1
         return subject.run, subject.metric, place
-
-
-def _mean_of(series: Mapping[int, Mapping[int, float | None]]) -> float | None:
-    known = [value for row in series.values() for value in row.values() if value is not None]
-    return math.fsum(known) / len(known) if known else None

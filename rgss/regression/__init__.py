@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from rgss.regression.comparing_baselines import (
         DecisionChanges,
         changed_trials,
+        contradictions,
         decision_changes,
         run_failings,
         schema_failings,
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     )
     from rgss.regression.input_changes import InputChange, InputKind, Inputs, origin_changes, value_changes
     from rgss.regression.looking import settle
-    from rgss.regression.observing import SUCCESS, fingerprint, observed
+    from rgss.regression.observing import SUCCESS, fingerprint, mean_of, observed
     from rgss.regression.pairing_designs import paired_by_levels
     from rgss.regression.power import MEAN_LOSS, MOST_SEEDS, TARGET, Power, powers
     from rgss.regression.report import Behaviour, ChangedTrial, Failing, FailureCause, RegressionReport

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from rgss.regression.baseline import Baseline, BaselineRun, DecisionState
-from rgss.regression.comparing import WHOLE_TRIAL
+from rgss.regression.comparing import WHOLE_TRIAL, Candidate, Subject
 from rgss.regression.observing import first_difference
 from rgss.regression.report import ChangedTrial, Failing, FailureCause
 
@@ -137,6 +137,27 @@ def unchanged_phases(
                 return frozenset()
             same -= {name for name, one, other in zip(names, old, new, strict=True) if one != other}
     return frozenset(same)
+
+
+def contradictions(candidate: Candidate) -> dict[Subject, Failing]:
+    """The failure of a baseline whose values are not those of its own records; none if they are.
+
+    Where the records are the same bit for bit, so are their values. A text merge, or an edit by hand, can leave the
+    digests of one state of the trials beside the values of another.
+    """
+    if not candidate.identical:
+        return {}
+    subject = candidate.subject
+    for variant, row in candidate.current.items():
+        was = candidate.baseline.get(variant, {})
+        for seed in candidate.seeds:
+            if seed in was and seed in row and was[seed] != row[seed]:
+                text = (
+                    f"run {subject.run}: {subject.metric} at {subject.phase} of variant {variant} with seed {seed} is "
+                    f"{was[seed]} in the baseline and {row[seed]} in the same record (was the file merged or edited?)"
+                )
+                return {subject: Failing(trouble=FailureCause.INCONSISTENT_BASELINE, text=text)}
+    return {}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

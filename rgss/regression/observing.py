@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import replace
 from operator import attrgetter
@@ -98,3 +99,9 @@ def _among(found: Mapping[str, Metric], names: Container[str] | None) -> Mapping
 
 def _number(value: object) -> float | None:
     return float(value) if isinstance(value, (int, float)) else None
+
+
+def mean_of(series: Mapping[int, Mapping[int, float | None]]) -> float | None:
+    """Mean of the known values by variant and seed; None if there are none."""
+    known = [value for row in series.values() for value in row.values() if value is not None]
+    return math.fsum(known) / len(known) if known else None

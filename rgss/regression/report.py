@@ -17,6 +17,7 @@ class FailureCause(str, Enum):
     MISSING_METRIC = "missing metric"
     FEWER_REPLICATES = "fewer replicates"
     CHANGED_SCHEMA = "changed schema"
+    INCONSISTENT_BASELINE = "inconsistent baseline"
     NOT_RUN = "not run"
     UNSTABLE = "unstable"
 

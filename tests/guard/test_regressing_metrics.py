@@ -31,3 +31,23 @@ def test_a_metric_of_a_record_that_changes_is_changed_behaviour_whether_guarded_
 
     assert (report.verdict, report.failing) == ("changed", ())
     assert {one.phase for one in report.behaviour.changed} == {"trial"}
+
+
+@pytest.mark.parametrize("value", [3.5, None])
+def test_values_that_are_not_those_of_the_same_records_are_an_inconsistent_baseline(compared, value):
+    """As after a text merge that took the digests of one baseline and a line of values of another."""
+
+    def merged(baseline):
+        run = baseline.runs["planning"]
+        rows = run.values["motion_time_s"]["trial"]
+        trial = {**rows, "60": (rows["60"][0], value, *rows["60"][2:])}
+        values = {**run.values, "motion_time_s": {"trial": trial}}
+        return replace(baseline, runs={**baseline.runs, "planning": replace(run, values=values)})
+
+    report = compared(baseline_of=merged)
+
+    assert report.verdict == "failed"
+    assert report.behaviour.changed == ()
+    (failing,) = report.failing
+    assert failing.trouble.value == "inconsistent baseline"
+    assert f"run planning: motion_time_s at trial of variant 60 with seed 2 is {value} in the baseline" in failing.text
