@@ -1,4 +1,4 @@
-"""Permissions of the files of a store, which SQLite does not explain: it reports the same error for each of them."""
+"""Reasons why a store cannot be opened, which SQLite does not explain: it reports the same error for each of them."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 _LOGS = (("-wal", "its log"), ("-shm", "the index of its log"))
+
+_LONGEST_PATH = 480
+"""Bytes: SQLite's limit of 512, without the ending of a log and what the name of an incomplete store has more."""
 
 
 class Refusal(NamedTuple):
@@ -23,11 +26,14 @@ class Refusal(NamedTuple):
 
 
 def refusal_of(path: Path) -> Refusal | None:
-    """The first file of a store that the user may not read or write; None if there is none.
+    """A path that is too long, or the first file of a store that the user may not read or write; None if none is.
 
     Args:
         path: The file.
     """
+    if len(os.fsencode(os.path.realpath(path))) > _LONGEST_PATH:
+        problem = f"its path has more than {_LONGEST_PATH} bytes, too many for SQLite"
+        return Refusal(problem, "move the project to a folder with a shorter path")
     folder = path.parent
     if not _may(folder, os.X_OK):
         return Refusal(f"its folder {folder.name} may not be entered{_owner(folder)}", _hint_for(folder))

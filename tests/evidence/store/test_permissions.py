@@ -111,3 +111,24 @@ def test_a_disk_that_becomes_read_only_later_is_a_failure_of_the_run(path):
     with pytest.raises(StorageError, match="attempt to write a readonly database"), database.translated_errors():
         raise sqlite3.OperationalError("attempt to write a readonly database")
     database.close()
+
+
+def store_at(folder: Path, length: int) -> Path:
+    """A path of so many bytes, in a new folder."""
+    left = length - len(os.fsencode(os.path.realpath(folder))) - len("/evidence.sqlite")
+    names = ["x" * 99] * (left // 100)
+    names += ["x" * (left % 100 - 1)] if left % 100 > 1 else []
+    place = folder.joinpath(*names) / "evidence.sqlite"
+    place.parent.mkdir(parents=True)
+    return place
+
+
+@pytest.mark.parametrize("length", [504, 512, 2000])
+def test_a_path_that_is_too_long_for_sqlite_is_named(tmp_path, length):
+    assert refusal(write, store_at(tmp_path, length)) == (
+        "its path has more than 480 bytes, too many for SQLite (move the project to a folder with a shorter path)"
+    )
+
+
+def test_a_path_of_almost_that_length_is_used(tmp_path):
+    write(store_at(tmp_path, 479))
