@@ -10,6 +10,9 @@ from rgss.errors import RgssError
 from rgss.serving.observer import StudyObserver
 from rgss.serving.replays import TrialReplays
 
+_MOST_DIGITS = 10
+"""Digits of the number of a variant or of a seed in an address."""
+
 HOSTS = ("127.0.0.1", "localhost")
 """Host names that a browser on this machine sends; another one indicates DNS rebinding."""
 
@@ -55,8 +58,16 @@ def study_application(observer: StudyObserver, page: str, replays: TrialReplays)
         # A page from elsewhere must not make this machine run trials.
         if request.headers.get("sec-fetch-site", "none") not in ("none", "same-origin"):
             return PlainTextResponse("Only the page of this server opens a replay.", status_code=403, headers=headers)
+        variant, seed = request.path_params["variant"], request.path_params["seed"]
+        # Python refuses to convert a number of thousands of digits.
+        if not all(re.fullmatch(rf"[0-9]{{1,{_MOST_DIGITS}}}", one) for one in (variant, seed)):
+            return PlainTextResponse(
+                "A replay has the address /replay/VARIANT/SEED, both of them whole numbers.\n",
+                status_code=404,
+                headers=headers,
+            )
         try:
-            made = replays.page(request.path_params["variant"], request.path_params["seed"])
+            made = replays.page(int(variant), int(seed))
             return HTMLResponse(await asyncio.shield(asyncio.wrap_future(made)), headers=headers)
         except RgssError as error:
             return PlainTextResponse(f"{error}\n", status_code=404, headers=headers)
@@ -68,7 +79,7 @@ def study_application(observer: StudyObserver, page: str, replays: TrialReplays)
         routes=[
             Route("/", show_page, methods=["GET"]),
             Route("/state.json", show_state, methods=["GET"]),
-            Route("/replay/{variant:int}/{seed:int}", show_replay, methods=["GET"]),
+            Route("/replay/{variant}/{seed}", show_replay, methods=["GET"]),
         ],
         middleware=[Middleware(TrustedHostMiddleware, allowed_hosts=list(HOSTS), www_redirect=False)],
     )
