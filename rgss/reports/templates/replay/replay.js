@@ -4,6 +4,8 @@ const replays = (() => {
   const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
   const SHOWN = [["forces", "Contact forces"], ["path", "Planned path"], ["graph", "Planner's tree"], ["perceived", "Perceived pose"]];
   const STEP_S = 0.1;
+  const TURN_DEG = 10, CLOSER = 0.8;
+  const KEYS = "Keys in the scene: space plays, left and right step, page up and page down change the phase, shift and an arrow turn, + and − zoom, as the wheel does there.";
   const MOST_TOUCHES = 6;
   // A slow machine, or a page that was out of sight, plays slowly; it leaves nothing out.
   const LONGEST_FRAME_S = 0.25;
@@ -27,16 +29,25 @@ const replays = (() => {
       this.speed = 1;
       this.playing = false;
       this.build();
-      this.view = new replayScene.View(this.stage, trials, { onDraw: () => { place.dataset.drawn = String(Number(place.dataset.drawn || 0) + 1); } });
+      this.view = this.viewOf(trials);
       this.arrange();
       this.drawPlots();
       matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.view.redraw());
       this.seek(0);
     }
 
+    viewOf(trials) {
+      const { place } = this;
+      try {
+        return new replayScene.View(this.stage, trials, { onDraw: () => { place.dataset.drawn = String(Number(place.dataset.drawn || 0) + 1); } });
+      } catch (error) {
+        return new replayScene.NoView(this.stage, error);
+      }
+    }
+
     build() {
       const lead = this.timelines[0];
-      this.stage = made("div", { className: "replay-view", tabIndex: 0, role: "application", "aria-label": "Scene in three dimensions: space plays, left and right step, page up and page down change the chapter" });
+      this.stage = made("div", { className: "replay-view", tabIndex: 0, role: "application", "aria-label": `Scene in three dimensions. ${KEYS}` });
       this.names = made("div", { className: "replay-names" });
       this.stage.append(this.names);
       this.playButton = made("button", { type: "button", className: "replay-play", textContent: "Play" });
@@ -64,7 +75,7 @@ const replays = (() => {
         ? `The object is perceived ${first.distance_mm} mm and ${first.angle_deg}° from where it is (violet).`
         : `Objects are perceived (violet) beside where they are: ${lead.perceived.map((one) => `${one.object} by ${one.distance_mm} mm and ${one.angle_deg}°`).join(", ")}.`;
       side.append(made("h3", { textContent: "Phases" }), this.chapters);
-      side.append(made("p", { className: "replay-note" }, `${perceived} An arrow is the force at the instant shown, the longest ${lead.greatest_force_n.toFixed(1)} N; the plots have the greatest between instants.`));
+      side.append(made("p", { className: "replay-note" }, `${perceived} An arrow is the force at the instant shown, the longest ${lead.greatest_force_n.toFixed(1)} N; the plots have the greatest between instants. ${KEYS}`));
       if (lead.touches.length > 0) side.append(made("h3", { textContent: "Touched (pink)" }), this.touches(lead.touches));
       this.plotPlace = made("div", { className: "replay-plots" });
       this.place.append(made("div", { className: "replay-stage" }, this.stage, this.scrub, bar, shows), side, this.plotPlace);
@@ -187,10 +198,19 @@ const replays = (() => {
         PageDown: () => this.turnTo(1),
         Home: () => this.seek(0),
         End: () => this.seek(this.end),
+        "+": () => this.view.orbit(0, 0, CLOSER),
+        "-": () => this.view.orbit(0, 0, 1 / CLOSER),
       };
-      if (!(event.key in steps) || event.ctrlKey || event.metaKey || event.altKey) return;
+      const turns = {
+        ArrowLeft: () => this.view.orbit(-TURN_DEG, 0),
+        ArrowRight: () => this.view.orbit(TURN_DEG, 0),
+        ArrowUp: () => this.view.orbit(0, TURN_DEG),
+        ArrowDown: () => this.view.orbit(0, -TURN_DEG),
+      };
+      const act = event.shiftKey && event.key in turns ? turns[event.key] : steps[event.key];
+      if (act === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
       event.preventDefault();
-      steps[event.key]();
+      act();
     }
   }
 

@@ -15,6 +15,8 @@ const replayScene = (() => {
   // What moves is looked at in so many instants; bodies are in the picture as far as they are so near to it, in its size.
   const INSTANTS = 16, NEAR = 0.1, AROUND = 0.5, BELOW = 0.05;
   const BORDER = 1.04;
+  // Least angle of the line of sight to the vertical, by keys.
+  const STEEPEST = 0.02;
 
   const library = () => {
     if (typeof THREE === "undefined") {
@@ -246,6 +248,8 @@ const replayScene = (() => {
       this.controls.maxDistance = 10;
       this.controls.addEventListener("change", () => this.redraw());
       this.controls.addEventListener("start", () => { this.turned = true; });
+      // A page is scrolled over the scene; the wheel zooms once the reader is in it.
+      place.addEventListener("wheel", (event) => { if (!place.contains(document.activeElement)) event.stopImmediatePropagation(); }, { capture: true });
       this.follows = false;
       this.turned = false;
       this.name = "overview";
@@ -307,6 +311,19 @@ const replayScene = (() => {
       target.copy(this.camera.position).addScaledVector(ahead, far);
     }
 
+    // Turns the camera about its target by degrees to the right and up, and multiplies its distance.
+    orbit(right, up, closer = 1) {
+      const three = library(), { up: vertical } = this.camera, { target, minDistance, maxDistance } = this.controls;
+      const from = this.camera.position.clone().sub(target).applyAxisAngle(vertical, right * Math.PI / 180);
+      const across = new three.Vector3().crossVectors(vertical, from).normalize();
+      const angle = from.angleTo(vertical), risen = Math.min(Math.PI - STEEPEST, Math.max(STEEPEST, angle - up * Math.PI / 180));
+      from.applyAxisAngle(across, risen - angle).setLength(Math.min(maxDistance, Math.max(minDistance, from.length() * closer)));
+      this.camera.position.copy(target).add(from);
+      this.turned = true;
+      this.controls.update();
+      this.redraw();
+    }
+
     pose(time) {
       for (const trial of this.trials) trial.pose(time);
       if (this.follows) {
@@ -355,6 +372,23 @@ const replayScene = (() => {
     }
   }
 
+  // Where nothing can be drawn in three dimensions, the phases and the plots of a replay are there nevertheless.
+  class NoView {
+    constructor(place, error) {
+      const note = document.createElement("p");
+      note.className = "replay-absent";
+      note.setAttribute("role", "alert");
+      note.textContent = `This browser draws nothing in three dimensions (${error.message}). Time, phases and plots are shown all the same.`;
+      place.append(note);
+    }
+
+    arrange() {}
+    choose() {}
+    orbit() {}
+    pose() {}
+    redraw() {}
+  }
+
   const load = async (data) => {
     const three = library();
     const [glb, text] = await Promise.all([".replay-model", ".replay-timeline"].map((one) => unpacked(data.querySelector(one).textContent)));
@@ -363,5 +397,5 @@ const replayScene = (() => {
     return new Trial(gltf, glb, timeline);
   };
 
-  return { View, load, phaseAt, sampleAt, views: Object.keys(VIEWS) };
+  return { View, NoView, load, phaseAt, sampleAt, views: Object.keys(VIEWS) };
 })();
