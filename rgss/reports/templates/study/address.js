@@ -8,8 +8,23 @@ const views = [];
 const inAddress = (name, write, read) => views.push({ name, write, read });
 // What a URL names but the page cannot show is ignored, and reported to the reader.
 let refused = [];
-const refuse = (part, why = "") => refused.push(why ? `${part} (${why})` : part);
+const MOST_NAMED = 80;
+const refuse = (part, why = "") => {
+  const brief = (text) => (text.length > MOST_NAMED ? `${text.slice(0, MOST_NAMED - 1)}…` : text);
+  refused.push(why ? `${brief(part)} (${brief(why)})` : brief(part));
+};
 const tellRefused = () => { byId("address-note").textContent = refused.length ? `Ignored of the address: ${refused.join("; ")}.` : ""; };
+// Whether a URL leads to something on the page; rows of a variant's figures are made only once they are shown.
+const isPlace = (anchor) => {
+  const [, id, name] = /^variant-(\d+)(?:\/(.*))?$/s.exec(anchor) ?? [];
+  const isFigure = (text) => text === "trials" || data.trials.key.includes(text) || [...data.parameters, ...data.measures, ...data.requirements].some((one) => one.id === text);
+  if (placeOf.has(Number(id))) return name === undefined || isFigure(named(name));
+  return ["", "top"].includes(anchor) || byId(named(anchor)) !== null || (anchor.startsWith("page-") && byId(anchor.slice(5))?.matches("figure"));
+};
+const refusePlace = () => {
+  const { anchor } = addressNow();
+  if (!isPlace(anchor)) refuse(`#${anchor}`, "no such place");
+};
 let writing = 0, reading = false;
 const tellAddress = () => {
   if (reading) return;
@@ -29,8 +44,13 @@ const readAddress = () => {
   reading = true;
   refused = [];
   const names = new Set(views.map(({ name }) => name));
-  for (const name of new Set(query.keys())) if (!names.has(name)) refuse(name, "unknown");
+  for (const name of new Set(query.keys())) {
+    if (!names.has(name)) refuse(name, "unknown");
+    // An axis has a range each; of anything else the first counts.
+    else if (name !== "only") for (const text of query.getAll(name).slice(1)) refuse(`${name}=${text}`, "given twice");
+  }
   for (const { read } of views) read(query);
+  refusePlace();
   tellRefused();
   reading = false;
 };
@@ -51,13 +71,14 @@ const choiceInAddress = (name, choice) => {
 };
 // The weights that a text such as "t_p:0.6,S:0.4" gives, with 0 for measures that it does not name; null if it is invalid.
 const weightsIn = (text) => {
-  const given = new Map(text.split(",").map((one) => {
+  const parts = text.split(",").map((one) => {
     const [id, number = ""] = one.split(":");
     return [id, number === "" ? NaN : Number(number)];
-  }));
+  });
+  const given = new Map(parts);
   const unknown = [...given.keys()].filter((id) => !weighted.some((one) => one.id === id));
   const sum = [...given.values()].reduce((before, one) => before + one, 0);
-  const wrong = unknown.length ? `no weight in this study: ${unknown.join(", ")}`
+  const wrong = unknown.length ? `no weight in this study: ${unknown.join(", ")}` : given.size < parts.length ? "a weight is given twice"
     : [...given.values()].every((one) => one >= 0) && sum > 0 && Number.isFinite(sum) ? "" : "not numbers of 0 or more, one above 0";
   if (wrong) refuse(`weights=${text}`, wrong);
   return wrong ? null : weighted.map((one) => (given.get(one.id) ?? 0) / sum);
@@ -68,10 +89,11 @@ const startAddress = () => {
   }, (query) => {
     brushes.clear();
     for (const text of query.getAll("only")) {
-      const [id, from, to] = text.split(":");
+      const [id, from, to, ...more] = text.split(":");
       const axis = axes.find((one) => one.id === id);
-      const [low, high] = axis ? [axis.read(from), axis.read(to)] : [NaN, NaN];
-      if (low <= high && (low > 0 || high < 1)) brushes.set(id, { axis, low, high });
+      const [low, high] = axis && !more.length ? [axis.read(from), axis.read(to)] : [NaN, NaN];
+      if (brushes.has(id)) refuse(`only=${text}`, "an axis has one range");
+      else if (low <= high && (low > 0 || high < 1)) brushes.set(id, { axis, low, high });
       else if (!(low <= high)) refuse(`only=${text}`, axis ? "no such range" : `no axis ${id}`);
     }
     for (const tell of axisControls) tell();
@@ -88,10 +110,10 @@ const startAddress = () => {
   const follow = () => {
     const { anchor, sent } = addressNow();
     // A link within the page keeps the view.
-    if (!sent) { refused = []; tellRefused(); tellAddress(); return; }
+    if (!sent) { refused = []; refusePlace(); tellRefused(); tellAddress(); return; }
     readAddress();
     byId(named(anchor))?.scrollIntoView();
   };
   addEventListener("hashchange", follow);
-  if (addressNow().sent) follow();
+  follow();
 };

@@ -53,6 +53,15 @@ const savePng = (name, svgAddress, width, height) => {
 };
 const svgAddress = (text) => `data:image/svg+xml,${encodeURIComponent(text)}`;
 
+// A picture opened alone is on the white of its viewer, on which the light ink of the dark scheme would be unreadable.
+const onPaper = (address) => {
+  const drawing = new DOMParser().parseFromString(decodeURIComponent(address.slice(address.indexOf(",") + 1)), "image/svg+xml").documentElement;
+  const paper = document.createElementNS(drawing.namespaceURI, "rect");
+  for (const [name, value] of [["width", "100%"], ["height", "100%"], ["fill", getComputedStyle(document.documentElement).getPropertyValue("--paper").trim()]]) paper.setAttribute(name, value);
+  drawing.prepend(paper);
+  return svgAddress(new XMLSerializer().serializeToString(drawing));
+};
+
 // ways: {svg() → a promise of [address, width, height], csv} for the content of the host. Returns a function that offers
 // only what there is, given whether the host has a picture.
 const downloadsFor = (host, id, { svg = null, csv = false }) => {
@@ -64,7 +73,7 @@ const downloadsFor = (host, id, { svg = null, csv = false }) => {
   const bar = element("p", { class: "downloads" }, "Save as "), pictures = element("span");
   if (svg) {
     pictures.append(button("PNG", () => svg().then(([address, width, height]) => savePng(fileName(id, "png"), address, width, height))), " ");
-    pictures.append(button("SVG", () => svg().then(([address]) => save(fileName(id, "svg"), address))), " ");
+    pictures.append(button("SVG", () => svg().then(([address]) => save(fileName(id, "svg"), onPaper(address)))), " ");
     bar.append(pictures);
   }
   const table = button("CSV", () => saveText(fileName(id, "csv"), "text/csv", csvOf(specifications.get(`${id}-table`))));

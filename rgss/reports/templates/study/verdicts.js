@@ -1,5 +1,6 @@
 // ------------------------------------------------------- verdicts of the shown variants
 const VERDICTS = {
+  __proto__: null, // so that a word such as "constructor" is none
   met: ["✔", "met"], not_met: ["✘", "not met"], inconclusive: ["◐", "inconclusive"],
   not_run: ["○", "not run"], stale: ["↻", "stale"],
 };
