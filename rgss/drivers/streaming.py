@@ -39,7 +39,8 @@ class StreamSettings:
         speed: Share of the planned speed, from 0.01 to 1.
         ramp_s: Time in which that share is reached, and in which an interrupted motion comes to rest on its path.
         heartbeat_timeout_s: Longest time without a new report of the controller.
-        late_s: Longest time by which a period may begin late.
+        late_s: Longest time by which a period may begin late, whether the program was paused or the controller
+            answered slowly.
         following_error_rad: Greatest distance of a measured revolute joint from its set point.
         following_error_m: Greatest distance of a prismatic one.
 
@@ -176,7 +177,7 @@ class _Stream:
         self._clock, self._settings, self._is_interrupted = clock, settings, is_interrupted
         self._period_s = 1.0 / driver.rate_hz
         self._cursor = TaskCursor(task, self._period_s)
-        self._stamp, self._stamped_s = 0.0, 0.0
+        self._stamp, self._stamped_s, self._in_calls_s = 0.0, 0.0, 0.0
         self.sent = 0
         self.samples: list[Sample] = []
 
@@ -206,13 +207,16 @@ class _Stream:
             chosen = self._next_point(0.0 if is_braking else self._settings.speed)
             if isinstance(chosen, str):
                 return StreamOutcome.REFUSED, chosen
-            point = chosen
+            point, called_s = chosen, self._clock.now_s()
             self._driver.send(point)
             self.sent += 1
             # After a stall the grid is moved: points that make up for it would move the robot faster than planned.
             due_s = (now_s if now_s - due_s > self._period_s else due_s) + self._period_s
+            self._in_calls_s = self._clock.now_s() - called_s
             self._clock.wait_until(due_s)
+            called_s = self._clock.now_s()
             estimate = self._driver.read()
+            self._in_calls_s += self._clock.now_s() - called_s
 
     @property
     def phase(self) -> str:
@@ -243,8 +247,16 @@ class _Stream:
         if estimate.stamp != self._stamp:
             self._stamp, self._stamped_s = estimate.stamp, now_s
         late_ms, silent_ms = 1e3 * (now_s - due_s), 1e3 * (now_s - self._stamped_s)
-        if late_ms > 1e3 * settings.late_s + _ROUNDING_MS:
-            detail = f"a period began {late_ms:.0f} ms late, at most {1e3 * settings.late_s:.0f} ms are allowed"
+        late_limit_ms, in_calls_ms = 1e3 * settings.late_s, 1e3 * self._in_calls_s
+        if late_ms > late_limit_ms + _ROUNDING_MS:
+            allowed = f"at most {late_limit_ms:.0f} ms are allowed"
+            # The controller answered slowly, unless the period was late without that.
+            if late_ms - in_calls_ms <= late_limit_ms:
+                detail = (
+                    f"the controller took {in_calls_ms:.0f} ms to answer, which made a period {late_ms:.0f} ms late"
+                )
+                return StreamOutcome.HEARTBEAT_LOST, f"{detail}, at most {late_limit_ms:.0f} ms are allowed"
+            detail = f"a period began {late_ms:.0f} ms late, at most {late_limit_ms:.0f} ms are allowed"
             return StreamOutcome.LATE, detail
         allowed_ms = 1e3 * settings.heartbeat_timeout_s
         if silent_ms > allowed_ms + _ROUNDING_MS:

@@ -89,15 +89,9 @@ class UrDriver:
         with sdk_errors("the UR controller does not report its modes"):
             mode, safety = self._receive.getRobotMode(), self._receive.getSafetyMode()
         if mode != _RUNNING_MODE:
-            raise DriverError(
-                f"the robot is in mode {mode}, not running (mode {_RUNNING_MODE})",
-                hint="power it on and release its brakes",
-            )
+            raise DriverError(_not_running(mode), hint="power it on and release its brakes")
         if safety not in _MOVING_SAFETY_MODES:
-            raise DriverError(
-                f"the robot is in safety mode {safety}, neither normal (1) nor reduced (2)",
-                hint="resolve it on the teach pendant",
-            )
+            raise DriverError(_not_moving(safety), hint="resolve it on the teach pendant")
         self._control = self._open("RTDE control", self._open_control, self._address, self.rate_hz)
         try:
             self._io = self._open("RTDE input and output", self._open_io, self._address)
@@ -154,7 +148,11 @@ class UrDriver:
             return "the robot is protective stopped"
         if not receive.isConnected():
             return "the connection to the robot is closed"
-        return ""
+        mode, safety = receive.getRobotMode(), receive.getSafetyMode()
+        # After a safeguard stop the robot would go on by itself, at a set point far from where it stopped.
+        if safety not in _MOVING_SAFETY_MODES:
+            return _not_moving(safety)
+        return "" if mode == _RUNNING_MODE else _not_running(mode)
 
     def _open(self, what: str, opener: Callable[..., Any], *arguments: Any) -> Any:
         with sdk_errors(f"no {what} interface at {self._address}", hint="check the address and remote control"):
@@ -171,6 +169,14 @@ class UrDriver:
         # Calls without an answer return None.
         if accepted is False:
             raise DriverError(f"the UR controller refused {name}", hint="see the log on the teach pendant")
+
+
+def _not_running(mode: int) -> str:
+    return f"the robot is in mode {mode}, not running (mode {_RUNNING_MODE})"
+
+
+def _not_moving(safety: int) -> str:
+    return f"the robot is in safety mode {safety}, neither normal (1) nor reduced (2)"
 
 
 def _open_receive(address: str, rate_hz: float) -> Any:

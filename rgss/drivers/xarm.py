@@ -21,6 +21,7 @@ _MOTION_STATE = 0
 _STOP_STATE = 4
 _OK = 0
 _NO_ANSWER = 3
+_NOT_CONNECTED = -1
 _MODE_TIMEOUT_S = 2.0
 _STOP_TIMEOUT_S = 1.0
 _PRINTING = ("xarm.x3.base", "xarm.core.wrapper.uxbus_cmd_tcp")
@@ -182,6 +183,11 @@ class XarmDriver:
             code = method(*arguments, **options)
         if code == _NO_ANSWER:
             raise DriverError(f"the xArm controller did not answer {name}", hint="check the network")
+        if code == _NOT_CONNECTED:
+            raise DriverError(
+                f"the connection to the xArm controller is closed, {name} was not sent",
+                hint="check the network, and that the controller was not restarted",
+            )
         if code != _OK:
             raise DriverError(
                 f"the xArm controller refused {name} with code {code}", hint="see the SDK's list of codes"

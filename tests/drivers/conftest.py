@@ -86,7 +86,7 @@ class Robot:
         return self.time_s
 
     def wait_until(self, time_s):
-        self.time_s = time_s + (1.0 if len(self.sent) == self.pause_after else 0.0)
+        self.time_s = max(self.time_s, time_s) + (1.0 if len(self.sent) == self.pause_after else 0.0)
 
 
 def limits(joints=3, **changed):

@@ -141,6 +141,23 @@ def test_a_program_that_was_paused_stops_the_robot(robot):
     assert len(robot.sent) == 15
 
 
+@pytest.mark.parametrize("call", ["read", "send"])
+def test_a_controller_that_answers_late_is_no_paused_program(robot, call):
+    """By 70 ms, of which 50 are allowed."""
+    answers = getattr(robot, call)
+
+    def slow(*arguments):
+        robot.time_s += 0.07 if len(robot.sent) == 20 else 0.0
+        return answers(*arguments)
+
+    setattr(robot, call, slow)
+    result = run(robot)
+    assert result.outcome is StreamOutcome.HEARTBEAT_LOST
+    assert result.detail.startswith("the controller took 70 ms to answer, which made a period ")
+    assert result.detail.endswith(" ms late, at most 50 ms are allowed")
+    assert robot.calls[-2:] == ["stop", "disconnect"]
+
+
 def test_an_interrupted_motion_comes_to_rest_on_its_path(robot):
     result = run(robot, is_interrupted=lambda: len(robot.sent) == 100)
     assert (result.outcome, result.detail) == (StreamOutcome.INTERRUPTED, "interrupted in go")

@@ -126,6 +126,29 @@ def test_a_stopped_robot_is_a_fault(name, detail):
 
 
 @pytest.mark.parametrize(
+    ("changed", "detail"),
+    [
+        ({"safety": 5}, "the robot is in safety mode 5, neither normal (1) nor reduced (2)"),
+        ({"mode": 3}, "the robot is in mode 3, not running (mode 7)"),
+    ],
+)
+def test_a_safeguard_stop_or_a_robot_switched_off_on_the_way_is_a_fault(changed, detail):
+    arm = Arm()
+    moves = arm.servoJ
+
+    def moving(*arguments):
+        taken = moves(*arguments)
+        if len(arm.calls) == 20:
+            vars(arm).update(changed)
+        return taken
+
+    arm.servoJ = moving
+    result = _stream(arm)
+    assert (result.outcome, result.detail) == (StreamOutcome.FAULT, detail)
+    assert ("servoStop", 2.0) in arm.calls
+
+
+@pytest.mark.parametrize(
     ("arm", "message"),
     [
         (Arm(mode=5), r"the robot is in mode 5, not running \(mode 7\)"),

@@ -235,6 +235,14 @@ def test_a_refused_call_names_its_code():
         driver.send(_point())
 
 
+def test_a_connection_that_was_lost_on_the_way_is_named():
+    api = Api()
+    driver = _connected(api)
+    api.codes["set_servo_angle_j"] = -1
+    with pytest.raises(DriverError, match=r"controller is closed, set_servo_angle_j was not sent \(check the network"):
+        driver.send(_point())
+
+
 def test_nothing_can_be_sent_unconnected():
     with pytest.raises(DriverError, match="the xArm controller is not connected"):
         _driver(Api()).send(_point())

@@ -126,7 +126,8 @@ class XarmServer:
             report += struct.pack("<20f", *self.angles, *([0.0] * 13))
             report += bytes([0x7F, 0x7F, self.error, 0])
             report += struct.pack("<10f", *([0.0] * 10)) + bytes([3, 3]) + struct.pack("<3f", 0.0, 0.0, -1.0)
-            report += bytes([9, 6, 0, 0, 0, 0]) + b"v2.5.0".ljust(30, b"\0")
+            axes, kind = (int(value) for value in self.version.split(",")[:2])
+            report += bytes([kind, axes, 0, 0, 0, 0]) + b"v2.5.0".ljust(30, b"\0")
             report += struct.pack("<12f", *([1000.0] * 12)) + bytes(16)
             if not self.is_silent:
                 try:
