@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
+from rgss.errors import DefinitionError
 from tests.robots.test_foreign_urdfs import CLEAN, rationales, tool
 
 
@@ -114,3 +117,28 @@ def frame(parent, name):
 def test_an_arm_does_not_end_at_its_camera_and_at_the_frame_of_the_tool_if_one_is_named(draft, frames, end):
     text = "".join(frame("flange", name) for name in frames)
     assert draft(CLEAN.replace("</robot>", f"{text}</robot>")).arm.flange == end
+
+
+def test_a_choice_among_frames_without_a_flange_s_name_is_noted(draft):
+    text = frame("flange", "ft_frame") + frame("flange", "other_frame").replace("0.05 0 0.01", "0 0 0.1")
+    (note,) = [one.rationale for one in draft(CLEAN.replace("</robot>", f"{text}</robot>")).arm.notes]
+    assert note == (
+        "The gripper is mounted at ft_frame, the first of 2 frames on flange of which none is named for a flange or a "
+        "tool: with --flange other_frame it is mounted at another."
+    )
+
+
+@pytest.mark.parametrize("frames", [("ft_frame", "other_frame"), ("ft_frame", "tool0"), ("ft_frame", "camera_link")])
+def test_frames_at_the_same_pose_and_those_beside_a_tool_or_of_a_camera_need_no_note(draft, frames):
+    text = "".join(frame("flange", name) for name in frames)
+    assert draft(CLEAN.replace("</robot>", f"{text}</robot>")).arm.notes == ()
+
+
+@pytest.mark.parametrize(
+    ("asked", "hint"),
+    [("Flange", "did you mean flange?"), ("zz", "its last links are")],
+)
+def test_an_unknown_end_is_answered_with_the_nearest_links(draft, asked, hint):
+    with pytest.raises(DefinitionError, match=f"the URDF has no link {asked} .{re.escape(hint)}") as caught:
+        draft(CLEAN, flange=asked)
+    assert str(caught.value).count(",") <= 2

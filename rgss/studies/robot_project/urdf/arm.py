@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -19,17 +20,15 @@ from rgss.scenes import (
     follower_problems,
     kind_of,
 )
+from rgss.studies.robot_project.urdf.last_frame import last_frame, notes_of_frames
 from rgss.studies.robot_project.urdf.reading import Note
 from rgss.studies.robot_project.urdf.rods import NO_FINGER, grips, joints_in_a_row, rods_beside, without_rods
 
 _LONGER_BY = 3
 """Joints by which the arm is longer than what else turns on one of its links; fingers of a hand differ by fewer."""
 
-_SEEING = ("camera", "optical", "depth", "lidar", "laser", "imu_")
-"""Words of frames of sensors, at which no gripper is mounted."""
-
-_ENDING = ("flange", "tool", "tcp", "effector", "eef", "ee_link")
-"""Words of the frame that carries a gripper, where the last link has several."""
+_MOST_NAMES = 3
+"""Links that a hint names."""
 
 _DEFAULT_RANGE = (-3.141592653589793, 3.141592653589793)
 
@@ -96,7 +95,7 @@ def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
     for joint in root.findall("joint"):
         below.setdefault(end_of(joint, "parent"), []).append(joint)
     if flange is not None and flange not in links:
-        raise DefinitionError(f"the URDF has no link {flange}", hint=f"its links are {', '.join(links)}")
+        raise DefinitionError(f"the URDF has no link {flange}", hint=_similar_links(flange, links))
     found = flange if flange is not None else _last_link(root, below)
     chain = chain_to(root, found)
     chained = chain.movable
@@ -125,8 +124,26 @@ def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
         ),
         hands=tuple(hands),
         rods=tuple(rods_beside(chain.joints, below, hands)),
-        notes=() if flange is not None else (*_notes_of_jaw(moving), *_notes_of_division(found, below)),
+        notes=() if flange is not None else tuple(_notes_of_end(root, below, found, moving)),
     )
+
+
+def _similar_links(name: str, links: Sequence[str]) -> str:
+    """Hint with the links whose names are nearest to an unknown one; with the last ones where none is near."""
+    cased = {link.casefold(): link for link in links}
+    near = difflib.get_close_matches(name.casefold(), list(cased), n=_MOST_NAMES)
+    if near:
+        return f"did you mean {' or '.join(cased[link] for link in near)}?"
+    return f"its last links are {', '.join(links[-_MOST_NAMES:])}"
+
+
+def _notes_of_end(
+    root: ET.Element, below: Mapping[str, list[ET.Element]], found: str, moving: Sequence[ET.Element]
+) -> Iterator[Note]:
+    """Notes on the choice of the link at which the arm ends."""
+    yield from _notes_of_jaw(moving)
+    yield from _notes_of_division(found, below)
+    yield from notes_of_frames(root, below, found)
 
 
 def _notes_of_division(flange: str, below: Mapping[str, list[ET.Element]]) -> Iterator[Note]:
@@ -216,12 +233,7 @@ def _last_link(root: ET.Element, below: Mapping[str, list[ET.Element]]) -> str:
         # A hand: the arm ends at the last frame before it, or where it is mounted.
         shaped = {one.get("name", "") for one in root.findall("link") if one.find("collision") is not None}
         return next((name for name in reversed(rigid) if name not in shaped), rigid[0])
-    while True:
-        children = [end_of(joint, "child") for joint in below.get(link, ())]
-        frames = [child for child in children if not _has_shape(root, child) and not _is_named(child, _SEEING)]
-        if not frames:
-            return link
-        link = next((child for child in frames if _is_named(child, _ENDING)), frames[0])
+    return last_frame(root, below, link)
 
 
 def _ways(link: str, below: Mapping[str, list[ET.Element]]) -> list[ET.Element]:
@@ -244,17 +256,6 @@ def _leads_to_movable(link: str, below: Mapping[str, list[ET.Element]]) -> bool:
     return any(
         joint.get("type") != "fixed" or _leads_to_movable(end_of(joint, "child"), below)
         for joint in below.get(link, ())
-    )
-
-
-def _is_named(link: str, words: Sequence[str]) -> bool:
-    return any(word in link.casefold() for word in words)
-
-
-def _has_shape(root: ET.Element, name: str) -> bool:
-    return any(
-        link.get("name") == name and (link.find("collision") is not None or link.find("visual") is not None)
-        for link in root.findall("link")
     )
 
 
