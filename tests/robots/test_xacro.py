@@ -64,6 +64,11 @@ def test_arguments_are_given_on_the_command_line(package, capsys):
     assert "left_joint_1" in capsys.readouterr().out
 
 
+def test_a_missing_argument_is_named_as_it_is_given(package, capsys):
+    assert main(["robot", str(package(prefix="$(arg side)"))]) == 2
+    assert "(give the xacro's arguments with --xacro side:=VALUE, as ROS does)" in capsys.readouterr().err
+
+
 def test_arguments_are_given_from_python(package):
     assert robot_summary(package(), xacro={"prefix": "b"}).robot.joints[0].name == "bjoint_1"
 

@@ -17,7 +17,8 @@ from rgss.studies.robot_project.urdf.packages import package_folder
 _SUBSTITUTION = re.compile(r"\$[({]")
 _SUBSTITUTED = ("link", "joint", "material")
 _UNUSED = frozenset({"property", "arg"})
-_ARGUMENT = "give the xacro's arguments with --xacro NAME:=VALUE, as ROS does"
+_ARGUMENT = "give the xacro's arguments with --xacro {name}:=VALUE, as ROS does"
+_MISSING = re.compile(r"Undefined substitution argument (\w+)")
 
 
 def needs_expansion(root: ET.Element) -> bool:
@@ -68,7 +69,9 @@ def expanded(urdf: Path, *, name: str, arguments: Mapping[str, str]) -> str:
                     # Some messages of the outer error are those of the inner one after its class.
                     problems = (" ".join(str(one).split()) for one in chain)
                     problem = next((one for one in problems if not one.startswith("<class")), type(error).__name__)
-                    raise DefinitionError(f"{urdf} cannot be expanded: {problem}", hint=_ARGUMENT) from error
+                    missing = _MISSING.search(problem)
+                    hint = _ARGUMENT.format(name=missing[1] if missing else "NAME")
+                    raise DefinitionError(f"{urdf} cannot be expanded: {problem}", hint=hint) from error
                 folder = package_folder(package, urdf)
                 if folder is None or package in known:
                     raise DefinitionError(
