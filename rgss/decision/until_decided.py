@@ -23,8 +23,10 @@ from rgss.tradeoff.sequential import (
     Reason,
     SequentialEvidence,
     SequentialRule,
+    ended_without_values,
     forecast,
     next_batch_with_reserve,
+    valueless_measures,
 )
 from rgss.trials.pieces import TrialSpec
 
@@ -46,6 +48,8 @@ class UntilDecided:
         unsettled: The variants that may be worth more than the choice by the margin.
         forecast: The replicates that would settle it; None if the decision is settled, or nothing chosen.
         unobserved: The requirements whose measure no trial of any variant observes; none if a variant is chosen.
+        valueless: The measures that decide and have no value in any trial of any variant.
+        succeeded: Number of successful trials.
     """
 
     reason: Reason
@@ -59,6 +63,8 @@ class UntilDecided:
     unsettled: tuple[int, ...] = ()
     forecast: Forecast | None = None
     unobserved: tuple[str, ...] = ()
+    valueless: tuple[str, ...] = ()
+    succeeded: int = 0
 
     @property
     def open_requirements(self) -> tuple[str, ...]:
@@ -131,6 +137,7 @@ def replicate_until_decided(
             bounds=read.ranges(),
         )
         answer = next_batch_with_reserve(evidence, rule, progress, seed=project.study.seed)
+        answer = ended_without_values(evidence, rule, answer, succeeded=read.succeeded)
         progress = answer.progress
         if on_look is not None:
             on_look(progress.looks, sum(wanted.values()))
@@ -153,6 +160,8 @@ def replicate_until_decided(
         if answer.reason is Reason.DECIDED or answer.variant is None
         else forecast(evidence, rule, progress, answer.variant, answer.unsettled),
         unobserved=() if answer.variant is not None else _unobserved(project, read.measured()),
+        valueless=valueless_measures(evidence),
+        succeeded=read.succeeded,
     )
 
 
@@ -202,6 +211,11 @@ class _Evidence:
         self._records: dict[int, tuple[tuple[str, TrialRecord], ...]] = {variant.id: () for variant in variants}
         self._measured: dict[int, VariantMeasures] = {}
         self._ranges: dict[int, Mapping[str, Range]] = {}
+
+    @property
+    def succeeded(self) -> int:
+        """Number of successful trials among those that were read."""
+        return sum(record.success for rows in self._records.values() for _, record in rows)
 
     def missing(self, wanted: Mapping[int, int]) -> tuple[TrialSpec, ...]:
         """Required trials that were not read yet."""

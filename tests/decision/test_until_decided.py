@@ -13,7 +13,7 @@ from rgss.decision.until_decided import replicate_until_decided, trial_twins
 from rgss.designs import sources
 from rgss.errors import EvidenceError, TradeoffError
 from rgss.evidence import EvidenceStore, Fidelity, Provenance
-from rgss.reports.decision.until_decided import until_decided_summary
+from rgss.reports.decision.until_decided import open_paragraph, until_decided_summary
 from rgss.studies import Promotion, Screening
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.trial_keys import key_of, keys_of
@@ -88,6 +88,25 @@ def test_requirements_that_no_trial_gives_a_value_are_named(shipped, store, reco
     assert result.variant is None
     assert "SYS-005" in result.unobserved
     assert "SYS-024" not in result.unobserved
+
+
+@pytest.mark.parametrize("success", [True, False])
+def test_it_ends_after_the_pilot_where_no_trial_gives_a_measure_a_value(shipped, store, record_of, success):
+    """Before, the whole budget was spent."""
+
+    def run(specs):
+        records = [record_of(spec, success=success) for spec in specs]
+        blind = [dataclasses.replace(one, metrics={**one.metrics, "planning_time_s": None}) for one in records]
+        store.put_many(trials=[(key, one, NONE) for key, one in zip(keys_of(specs), blind, strict=True)])
+
+    rule = SequentialRule(pilot=2, batch=2, cap=8, verdict_cap=2, budget=400, finalists=4)
+    result = replicate_until_decided(shipped, store, run, rule=rule)
+
+    assert (result.reason, result.variant, result.total, result.looks) == (Reason.NO_VALUE, None, 144, 1)
+    assert "t_p" in result.valueless
+    assert "no trial gives a value of " in until_decided_summary(result)
+    said = open_paragraph(result, command="rgss sweep")
+    assert ("144 succeeded. Trials at this fidelity do not observe it" if success else "none succeeded") in said
 
 
 def test_of_screened_designs_only_the_promoted_are_replicated(shipped, store, runner):

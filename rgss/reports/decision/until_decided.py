@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from rgss.counted import counted
 from rgss.decision import UntilDecided
 from rgss.reports.decision.conclusion import share_of_draws
 from rgss.reports.decision.words import ids_text
@@ -27,6 +28,7 @@ def until_decided_summary(result: UntilDecided) -> str:
         Reason.DECIDED: f"decided at an error rate of {result.rule.error_rate:g}{nearly}",
         Reason.CAP: f"cap reached with {len(result.contenders)} contenders",
         Reason.BUDGET: f"budget of {result.rule.budget} trials{_reserve(result)} spent",
+        Reason.NO_VALUE: f"ended, as no trial gives a value of {' or '.join(result.valueless)}",
     }[result.reason]
     inconclusive = f"; inconclusive: {', '.join(result.open_requirements)}" if result.open_requirements else ""
     return (
@@ -50,7 +52,22 @@ def open_paragraph(result: UntilDecided, *, command: str) -> str:
     """
     if result.reason is Reason.DECIDED:
         return ""
+    if result.reason is Reason.NO_VALUE:
+        return _no_value(result)
     return " ".join([*_open(result), _advice(result, command)])
+
+
+def _no_value(result: UntilDecided) -> str:
+    limited = f", which {' and '.join(result.unobserved)} limit{'' if result.unobserved[1:] else 's'}"
+    what = f"{' and '.join(result.valueless)}{limited if result.unobserved else ''}"
+    trials = f"{counted(result.total, 'trial')}, of which {result.succeeded or 'none'} succeeded"
+    remedy = (
+        "Trials at this fidelity do not observe it, so that more of them do not help; another fidelity or another "
+        "measure does."
+        if result.succeeded
+        else "'rgss measure' counts the reasons of the failures."
+    )
+    return f"Without a value of {what}, no variant can be chosen. There are {trials}. {remedy}"
 
 
 def _open(result: UntilDecided) -> Iterator[str]:

@@ -13,5 +13,6 @@ if TYPE_CHECKING:
     from rgss.tradeoff.sequential.sequential import Decided, Reason, next_batch
     from rgss.tradeoff.sequential.settling import Progress
     from rgss.tradeoff.sequential.support import unsupported_reason
+    from rgss.tradeoff.sequential.valueless import ended_without_values, valueless_measures
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -45,6 +45,8 @@ class Reason(str, Enum):
     """The budget of trials has no room for what is still open."""
     CAP = "cap"
     """Alternatives that may be the best have as many replicates as are allowed."""
+    NO_VALUE = "no value"
+    """No trial gives a measure that decides a value, and more would not."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
