@@ -17,11 +17,12 @@ from rgss.measures import Measure, MeasureKind
 from rgss.studies import Project
 from rgss.tradeoff.problem import Resamples
 from rgss.tradeoff.robustness import (
-    FEWEST_PER_CLASS,
-    classes_of,
+    FEWEST_DESIGNS,
     factorial_effects,
     first_order_indices,
     largest_complete_block,
+    level_terms,
+    range_terms,
 )
 
 SAMPLE_RESAMPLES = 200
@@ -111,7 +112,7 @@ def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEf
         for factor in project.designs.factors
         if factor.span is not None or len(factor.levels) > 1
     )
-    classes = {factor.id: _classes(factor, rows) for factor in factors}
+    columns = {factor.id: _column(factor, rows) for factor in factors}
     found = []
     for measure in _analysed(project):
         values = np.array([_number(entry.estimates[measure.id].value) for entry in rows])
@@ -121,7 +122,7 @@ def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEf
         missing = missing or ("" if contained else _NOT_IN_IT)
         indices = (
             first_order_indices(
-                np.stack([classes[factor.id][known] for factor in contained], axis=1),
+                [_terms(factor, columns[factor.id][known]) for factor in contained],
                 values[known],
                 resamples=SAMPLE_RESAMPLES,
                 generator=generator,
@@ -166,16 +167,20 @@ def _missing_of_sample(known: int, factors: Sequence[FactorLevels]) -> str:
     """Reason why the shares of the factors cannot be estimated from so many designs with a value; empty if they can."""
     if not factors:
         return _NO_FACTORS
-    fewest = 2 * FEWEST_PER_CLASS
-    return "" if known >= fewest else f"{known} of the sampled designs have a value, of at least {fewest}"
+    if known >= FEWEST_DESIGNS:
+        return ""
+    return f"{known} of the sampled designs have a value, of at least {FEWEST_DESIGNS}"
 
 
-def _classes(factor: FactorLevels, rows: Sequence[VariantMeasures]) -> NDArray[np.int64]:
-    """Level of each design, or the class of its value if the factor has a range."""
+def _column(factor: FactorLevels, rows: Sequence[VariantMeasures]) -> NDArray[np.float64]:
+    """Place of each design's level, or its value if the factor has a range."""
     if factor.levels:
-        return np.array([factor.levels.index(entry.variant.levels[factor.id]) for entry in rows], dtype=np.int64)
-    values = [entry.variant.parameters[factor.parameters[0]] for entry in rows]
-    return classes_of(np.array(values, dtype=np.float64))
+        return np.array([factor.levels.index(entry.variant.levels[factor.id]) for entry in rows], dtype=np.float64)
+    return np.array([entry.variant.parameters[factor.parameters[0]] for entry in rows], dtype=np.float64)
+
+
+def _terms(factor: FactorLevels, column: NDArray[np.float64]) -> NDArray[np.float64]:
+    return level_terms(column) if factor.levels else range_terms(column)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

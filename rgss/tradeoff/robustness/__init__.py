@@ -20,7 +20,13 @@ if TYPE_CHECKING:
     from rgss.tradeoff.robustness.prices import PriceStep, changes_of_best, price_list, step_at
     from rgss.tradeoff.robustness.rank_reversal import RankReversal, rank_reversals, sample_anchored
     from rgss.tradeoff.robustness.replication_gain import replication_gains
-    from rgss.tradeoff.robustness.sampled_effects import FEWEST_PER_CLASS, SampledIndex, classes_of, first_order_indices
+    from rgss.tradeoff.robustness.sampled_effects import (
+        FEWEST_DESIGNS,
+        SampledIndex,
+        first_order_indices,
+        level_terms,
+        range_terms,
+    )
     from rgss.tradeoff.robustness.stakeholders import StakeholderAgreement, StakeholderView, stakeholder_agreement
     from rgss.tradeoff.robustness.uncertainty import (
         FEWEST_AT_THRESHOLD,
