@@ -69,11 +69,11 @@ def share_checked(name: str, value: float) -> float:
     """A share of the replicates.
 
     Raises:
-        DefinitionError: It is not above 0 and at most 1.
+        DefinitionError: It is not above 0 and below 1.
     """
-    if not 0.0 < value <= 1.0:
+    if not 0.0 < value < 1.0:
         raise DefinitionError(
-            f"--what-if: {name} must be above 0 and at most 1, got {value:g}", hint="give a share, such as 0.8 or 80 %"
+            f"--what-if: {name} must be above 0 and below 1, got {value:g}", hint="give a share, such as 0.8 or 80 %"
         )
     return value
 

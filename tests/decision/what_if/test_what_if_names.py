@@ -130,8 +130,9 @@ def test_demands_of_the_study(shipped, measured):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("tail:SYS-033.worst_share=0", "must be above 0 and at most 1, got 0"),
-        ("chance:SYS-005.probability=120 %", "must be above 0 and at most 1, got 1.2"),
+        ("tail:SYS-033.worst_share=0", "must be above 0 and below 1, got 0"),
+        ("chance:SYS-005.probability=120 %", "must be above 0 and below 1, got 1.2"),
+        ("chance:SYS-005.probability=1", "must be above 0 and below 1, got 1"),
         ("tail:SYS-034=9 s", "unknown input 'tail:SYS-034'"),
         ("tail:SYS-033=9 kg", "tail:SYS-033.threshold"),
         ("evidence:t_p=3", "requires that a measure is known, and has no threshold to suppose"),
