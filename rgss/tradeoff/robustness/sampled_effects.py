@@ -179,7 +179,9 @@ class _Candidates:
     def _fitted(self, centred: Array) -> tuple[Array, Array, Array, NDArray[np.intp]]:
         chosen = self._selected(centred)
         columns = self.columns[:, chosen]
-        coefficients = np.linalg.lstsq(columns, centred, rcond=None)[0] if len(chosen) else np.zeros(0)
+        coefficients: Array = np.zeros(0)
+        if len(chosen):
+            coefficients = np.asarray(np.linalg.lstsq(columns, centred, rcond=None)[0], dtype=np.float64)
         return columns, coefficients, centred - columns @ coefficients, chosen
 
     def _selected(self, centred: Array) -> NDArray[np.intp]:
