@@ -124,9 +124,7 @@ def replicate_until_decided(
     levels = level_numbers(project.designs, sorted(variant.id for variant in variants))
     known: dict[int, tuple[VariantMeasures, Alternative]] = {}
     while True:
-        specs = read.missing(wanted)
-        run(specs)
-        read.read(specs)
+        read.run_missing(wanted, run)
         evidence = SequentialEvidence.of(
             trade_problem(project, read.measured(), tolerant=False, known=known),
             proportions,
@@ -217,7 +215,13 @@ class _Evidence:
         """Number of successful trials among those that were read."""
         return sum(record.success for rows in self._records.values() for _, record in rows)
 
-    def missing(self, wanted: Mapping[int, int]) -> tuple[TrialSpec, ...]:
+    def run_missing(self, wanted: Mapping[int, int], run: Callable[[Sequence[TrialSpec]], None]) -> None:
+        """Run the required trials that were not read yet, and read them."""
+        specs = self._missing(wanted)
+        run(specs)
+        self._read(specs)
+
+    def _missing(self, wanted: Mapping[int, int]) -> tuple[TrialSpec, ...]:
         """Required trials that were not read yet."""
         first = self._project.study.seed
         alike: dict[tuple[int, int], list[DesignVariant]] = {}
@@ -230,7 +234,7 @@ class _Evidence:
             for spec in trial_specs(self._project, variants=variants, seeds=range(first + there, first + count))
         )
 
-    def read(self, specs: Sequence[TrialSpec]) -> None:
+    def _read(self, specs: Sequence[TrialSpec]) -> None:
         """Read the records of trials.
 
         Raises:
