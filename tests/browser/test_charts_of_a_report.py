@@ -325,7 +325,8 @@ def test_the_tornado_is_saved_as_png_svg_and_csv(reader, study, tmp_path):
         wait_until(lambda: path.exists() and path.stat().st_size > 0)  # noqa: B023 - waited for within the round
 
     drawing = ET.fromstring(files["SVG"].read_text(encoding="utf-8"))  # noqa: S314 - of our own page
-    bars = drawing.findall("{http://www.w3.org/2000/svg}rect")
+    paper, *bars = drawing.findall("{http://www.w3.org/2000/svg}rect")
+    assert (paper.get("width"), paper.get("fill")) == ("100%", "#ffffff")
     assert {one.get("fill") for one in bars} == {"rgb(213, 94, 0)", "rgb(0, 114, 178)"}
     assert "weight.S" in "".join(drawing.itertext())
     width, height = struct.unpack(">II", files["PNG"].read_bytes()[16:24])
