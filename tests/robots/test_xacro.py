@@ -128,6 +128,11 @@ def test_a_package_beside_that_of_the_file_is_found(package, tmp_path):
     assert len(drafted_robot(file, tmp_path / "project").robot.joints) == 6
 
 
+def test_a_folder_farther_away_with_the_name_of_a_package_is_not_it(package, tmp_path):
+    (tmp_path / "arms").mkdir()
+    test_a_package_beside_that_of_the_file_is_found(package, tmp_path)
+
+
 def test_without_the_package_that_expands_it_the_remedy_is_named(package, tmp_path, monkeypatch):
     find_spec = importlib.util.find_spec
     monkeypatch.setattr(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -27,16 +26,21 @@ def package_folders(package: str, urdf: Path) -> Iterator[Path]:
 
 
 def package_folder(package: str, urdf: Path) -> Path | None:
-    """Folder of a package, seen from a URDF; None where it is not there."""
+    """Folder of a package, seen from a URDF: the nearest one; None where it is not there.
+
+    A folder that states the name comes before one farther away that merely has it.
+    """
     urdf = urdf.resolve()
-    named = (folder for folder in package_folders(package, urdf) if folder.is_dir())
-    beside = (
-        inside
-        for folder in list(urdf.parents)[:FOLDERS_UP]
-        for inside in sorted(folder.glob("*/"))
-        if package_name(inside) == package
-    )
-    return next(itertools.chain(named, beside), None)
+    for number, folder in enumerate(urdf.parents):
+        if folder.name == package or package_name(folder) == package:
+            return folder
+        if (folder / package).is_dir():
+            return folder / package
+        beside = sorted(folder.glob("*/")) if number < FOLDERS_UP else []
+        stating = next((inside for inside in beside if package_name(inside) == package), None)
+        if stating is not None:
+            return stating
+    return None
 
 
 def package_name(folder: Path) -> str | None:
