@@ -7,6 +7,7 @@ import dataclasses
 import pytest
 from selenium.webdriver.common.by import By
 
+from rgss.reports import study_page
 from rgss.reports.diagrams import diagrams_of, drawings_for_page
 from rgss.reports.study_page import study_report_to_html
 from rgss.studies.project import load_project
@@ -145,3 +146,30 @@ def test_titles_of_folds_look_alike(reader, whole_page, scheme):
     finally:
         reader.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
     assert len(colours) == 1
+
+
+@pytest.mark.parametrize(("number", "seen"), [(5, 5), (11, 4)])
+def test_what_would_change_the_choice_is_in_sight_however_much_is_open(
+    reader, study, tmp_path, monkeypatch, number, seen
+):
+    def opened(document):
+        glance = content_before(document)
+        many = [{**glance["open"][0], "text": f"Demand {place}."} for place in range(number)]
+        return {**glance, "open": many, "missed": []}
+
+    content_before = study_page.first_screen_content
+    monkeypatch.setattr(study_page, "first_screen_content", opened)
+    file = tmp_path / "report.html"
+    file.write_text(study_report_to_html(study.document, study.trace), encoding="utf-8")
+    reader.open(file, width=1440)
+
+    def texts() -> list[str]:
+        found = reader.driver.find_elements(By.CSS_SELECTOR, ".glance-lists .reasons:not(#glance-changes) li")
+        return [one.text.partition(": ")[2] for one in found if one.is_displayed()]
+
+    assert texts() == [f"Demand {place}." for place in range(seen)]
+    if seen < number:
+        fold = find(reader, "#more-open summary")
+        assert fold.text == f"{number - seen} more are open"
+        fold.click()
+        assert texts() == [f"Demand {place}." for place in range(number)]
