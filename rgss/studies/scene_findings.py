@@ -13,7 +13,7 @@ from rgss.documents import read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding
-from rgss.scenes import mesh_volume_findings
+from rgss.scenes import Scene, mesh_volume_findings
 from rgss.studies.arms import PlacedArm, scenes_by_placed_arm
 from rgss.studies.checks import (
     MISFITS,
@@ -61,11 +61,11 @@ def check_scene(project: Project) -> SceneCheck:
     try:
         from rgss.trials import check_step_problems, scene_problems
 
-        of_bodies = scene_problems(project.scene)
-        of_checks = check_step_problems(project.scene, project.study.task)
-        skipped = _NOT_SEARCHED if _refuses_search(project, of_bodies) else ""
         of_hands, every_hand = _HandProblems(), _hands(project)
         hands = _sampled(every_hand)
+        of_bodies = list(dict.fromkeys(found for scene in _placed(project, hands) for found in scene_problems(scene)))
+        of_checks = check_step_problems(project.scene, project.study.task)
+        skipped = _NOT_SEARCHED if _refuses_search(project, of_bodies) else ""
         for hand in hands:
             of_hands.add(hand, is_searched=not skipped)
         label = project.study.scene
@@ -179,6 +179,13 @@ def _sampled(hands: tuple[_Hand, ...]) -> tuple[_Hand, ...]:
     if len(hands) <= _MOST_HANDS:
         return hands
     return tuple(hands[index * len(hands) // _MOST_HANDS] for index in range(_MOST_HANDS))
+
+
+def _placed(project: Project, hands: Sequence[_Hand]) -> tuple[Scene, ...]:
+    """The scene, with its bodies where designs place those that move with the robot."""
+    if not any(body.moves_with_robot for body in project.scene.bodies):
+        return (project.scene,)
+    return tuple({hand.project.scene.robot.base: hand.project.scene for hand in hands}.values())
 
 
 def _refuses_search(project: Project, of_bodies: Sequence[SceneProblem]) -> bool:

@@ -13,16 +13,11 @@ from rgss.studies import load_project, trial_specs
 from rgss.studies.robot_project import adding
 from rgss.studies.robot_project.writing import RobotProject
 from rgss.trials.pieces import run_trial
+from tests.fixtures.edited_files import edit
 from tests.robots.conftest import urdf_of
 
 CATALOGUE, SPACE = "designs/catalogue.yaml", "designs/design_space.yaml"
 ARM = "  - {id: arm, name: arm, symbol: a, kind: name, sets: catalogue.manipulator, description: The arm.}\n"
-
-
-def edit(folder, file, old, new):
-    text = (folder / file).read_text(encoding="utf-8")
-    assert old in text, (file, old)
-    (folder / file).write_text(text.replace(old, new, 1), encoding="utf-8")
 
 
 @pytest.fixture

@@ -21,6 +21,7 @@ from rgss.studies.project import load_project
 from rgss.studies.robot_project import robot_findings
 from rgss.studies.scaffolding import write_scaffold
 from rgss.trials.pieces import run_trial, to_plain
+from tests.fixtures.edited_files import edit
 
 REPOSITORY = Path(__file__).parents[3]
 SPACE, CATALOGUE, STUDY = "designs/design_space.yaml", "designs/catalogue.yaml", "studies/pick_place.yaml"
@@ -39,12 +40,6 @@ PARAMETER = "  - {id: arm, name: arm, symbol: A, kind: name, sets: catalogue.man
 FACTOR = "  - {id: arm, name: Arm, levels: [{id: own, sets: {arm: ur10}}, {id: other, sets: {arm: yumi}}]}\n"
 
 
-def edit(folder, file, old, new):
-    text = (folder / file).read_text(encoding="utf-8")
-    assert old in text, (file, old)
-    (folder / file).write_text(text.replace(old, new, 1), encoding="utf-8")
-
-
 @pytest.fixture
 def single(tmp_path):
     """A new project, with the files of a second arm that nothing names."""
@@ -55,12 +50,17 @@ def single(tmp_path):
     return folder
 
 
+def choose(folder, component):
+    """Let the designs choose between the project's own arm and a component."""
+    edit(folder, CATALOGUE, "\n  - id: kg-2\n", f"{component}\n  - id: kg-2\n")
+    edit(folder, SPACE, "\nconstants:\n", f"{PARAMETER}\nconstants:\n")
+    edit(folder, SPACE, "factors:\n", f"factors:\n{FACTOR}")
+
+
 @pytest.fixture
 def both(single):
     """The project with the choice between its own arm and the second one."""
-    edit(single, CATALOGUE, "\n  - id: kg-2\n", f"{YUMI}\n  - id: kg-2\n")
-    edit(single, SPACE, "\nconstants:\n", f"{PARAMETER}\nconstants:\n")
-    edit(single, SPACE, "factors:\n", f"factors:\n{FACTOR}")
+    choose(single, YUMI)
     return single
 
 
@@ -69,9 +69,7 @@ def twin(single):
     """The project with the choice between its own arm and a copy of it, by which edits of the copy are compared."""
     shutil.copy(single / "scenes/robots/ur10.yaml", single / TWIN)
     edit(single, TWIN, "robot: ur10", "robot: twin")
-    edit(single, CATALOGUE, "\n  - id: kg-2\n", f"{YUMI.replace(ROBOT, TWIN)}\n  - id: kg-2\n")
-    edit(single, SPACE, "\nconstants:\n", f"{PARAMETER}\nconstants:\n")
-    edit(single, SPACE, "factors:\n", f"factors:\n{FACTOR}")
+    choose(single, YUMI.replace(ROBOT, TWIN))
     return single
 
 
@@ -213,6 +211,14 @@ def test_arms_at_several_bases_are_named_by_them(single):
     found = [one for one in check_scene(load_project(single)).findings if one.rule == "scene.unserved"]
     assert found
     assert all("on the robot of kitchen.yaml at (-3, 0, " in one.message for one in found)
+
+
+@pytest.mark.parametrize("moves", [True, False])
+def test_a_body_is_checked_where_designs_place_it(single, moves):
+    edit(single, SCENE, "{id: machine,", f"{{id: machine, moves_with_robot: {str(moves).lower()},")
+    placed(single, ("y", "m", "-0.96 m"))
+    found = [one.message for one in check_scene(load_project(single)).findings if one.rule == "scene.object-overlap"]
+    assert any("cup overlaps machine" in one for one in found) is moves
 
 
 def test_of_many_bases_an_even_selection_is_checked(single):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -20,9 +21,7 @@ def package_folders(package: str, urdf: Path) -> Iterator[Path]:
         urdf: The URDF, resolved.
     """
     for folder in urdf.parents:
-        if folder.name == package or package_name(folder) == package:
-            yield folder
-        yield folder / package
+        yield from _at(folder, package)
 
 
 def package_folder(package: str, urdf: Path) -> Path | None:
@@ -30,16 +29,12 @@ def package_folder(package: str, urdf: Path) -> Path | None:
 
     A folder that states the name comes before one farther away that merely has it.
     """
-    urdf = urdf.resolve()
-    for number, folder in enumerate(urdf.parents):
-        if folder.name == package or package_name(folder) == package:
-            return folder
-        if (folder / package).is_dir():
-            return folder / package
-        beside = sorted(folder.glob("*/")) if number < FOLDERS_UP else []
-        stating = next((inside for inside in beside if package_name(inside) == package), None)
-        if stating is not None:
-            return stating
+    for number, folder in enumerate(urdf.resolve().parents):
+        inside = sorted(folder.glob("*/")) if number < FOLDERS_UP else []
+        stating = (one for one in inside if package_name(one) == package)
+        found = next((one for one in itertools.chain(_at(folder, package), stating) if one.is_dir()), None)
+        if found is not None:
+            return found
     return None
 
 
@@ -50,3 +45,10 @@ def package_name(folder: Path) -> str | None:
     except (OSError, UnicodeDecodeError):
         return None
     return None if found is None else found[1]
+
+
+def _at(folder: Path, package: str) -> Iterator[Path]:
+    """Folders that a package may be by a folder above the URDF: that itself, and the one in it with the name."""
+    if folder.name == package or package_name(folder) == package:
+        yield folder
+    yield folder / package
